@@ -1,0 +1,1 @@
+"""The rule engine: diagnostics, rules, registry, runner, suppression, fixes."""

@@ -1,0 +1,84 @@
+"""What a rule says about a place, and how it would mend it."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+from scaffold.model.source import Location
+
+
+class Severity(Enum):
+    """How much a diagnostic matters."""
+
+    ERROR = "error"
+    """It breaks at build, run, test or release."""
+    WARNING = "warning"
+    """The style guide says otherwise."""
+    INFO = "info"
+    """Advice."""
+
+
+class Safety(Enum):
+    """Whether a fix may change what the package does."""
+
+    SAFE = "safe"
+    """The package does the same afterwards, or what its author plainly meant."""
+    UNSAFE = "unsafe"
+    """The author should look at it; applied with ``--unsafe-fixes`` only."""
+
+
+class Edit(NamedTuple):
+    """Replace the characters from offset ``start`` to before ``end`` of a file."""
+
+    path: str
+    start: int
+    end: int
+    text: str
+
+
+class CreateFile(NamedTuple):
+    """Write a file that does not exist."""
+
+    path: str
+    text: str
+
+
+class MakeExecutable(NamedTuple):
+    """Set the executable bits of a file."""
+
+    path: str
+
+
+class Remove(NamedTuple):
+    """Remove a file."""
+
+    path: str
+
+
+Change = Edit | CreateFile | MakeExecutable | Remove
+
+
+class Fix(NamedTuple):
+    """Changes that make a diagnostic go away, applied together or not at all."""
+
+    title: str
+    changes: tuple[Change, ...]
+    safety: Safety = Safety.SAFE
+
+
+class Diagnostic(NamedTuple):
+    """A finding at a place."""
+
+    code: str
+    name: str
+    severity: Severity
+    location: Location
+    message: str
+    fix: Fix | None = None
+
+    @property
+    def sort_key(self) -> tuple[str, int, int, str, str]:
+        """Reading order: file, line, column, then code and message."""
+        at = self.location
+        return at.path, at.line, at.column, self.code, self.message

@@ -1,0 +1,49 @@
+"""What may go wrong through no fault of this tool: one clear line for the user each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.source import Location
+
+
+class ScaffoldError(Exception):
+    """The user's input or environment is at fault; the text says what to do next (exit 2)."""
+
+
+class ConfigError(ScaffoldError):
+    """A configuration file or a flag has a value that cannot be used."""
+
+
+class ContentError(ScaffoldError):
+    """A rule file or a template is broken."""
+
+
+class InputError(ScaffoldError):
+    """A name, a type or a number given by the user is not acceptable."""
+
+
+class ConflictError(ScaffoldError):
+    """Writing would destroy something that exists."""
+
+
+class EnvironmentMissingError(ScaffoldError):
+    """No ROS 2 environment was found."""
+
+
+class ViewError(Exception):
+    """A view of a package cannot be had; rules that need it stay silent."""
+
+
+class MissingFileError(ViewError):
+    """The package does not have the file that the view is made of."""
+
+
+class ParseError(ViewError):
+    """A file cannot be parsed; reported once, as SC001, at its place."""
+
+    def __init__(self, location: Location, message: str) -> None:
+        super().__init__(message)
+        self.location = location
+        self.message = message

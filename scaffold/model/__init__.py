@@ -1,0 +1,1 @@
+"""A ROS 2 package as data: parsed, never imported or run."""

@@ -1,0 +1,161 @@
+"""The files of a package, on disk or in memory."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping, Sequence
+from functools import cached_property
+from typing import Protocol
+
+BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
+MANIFEST = "package.xml"
+
+
+class Tree(Protocol):
+    """Files by path relative to the root, with ``/`` between the parts, in sorted order."""
+
+    @property
+    def files(self) -> Sequence[str]:
+        """The paths of all files."""
+
+    @property
+    def directories(self) -> Collection[str]:
+        """The paths of all directories below the root."""
+
+    @property
+    def nested(self) -> Sequence[str]:
+        """The directories that hold a package of their own; their files are left out."""
+
+    def read(self, path: str) -> bytes:
+        """Return what is in a file; raises OSError."""
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether the file has an executable bit."""
+
+
+class DiskTree:
+    """A directory; it is listed once, when first asked."""
+
+    def __init__(self, root: str | os.PathLike[str]) -> None:
+        self.root = os.fspath(root)
+        self._nested: list[str] = []
+
+    @cached_property
+    def _listing(self) -> tuple[tuple[str, ...], frozenset[str]]:
+        files: list[str] = []
+        directories: list[str] = []
+        pending = [""]
+        while pending:
+            parent = pending.pop()
+            names, children = _list(os.path.join(self.root, parent))
+            if parent and MANIFEST in names:
+                self._nested.append(parent.rstrip("/"))
+                continue
+            files.extend(parent + name for name in names)
+            for name in children:
+                path = parent + name
+                if _is_skipped(os.path.join(self.root, path), name, at_root=not parent):
+                    continue
+                directories.append(path)
+                pending.append(path + "/")
+        return tuple(sorted(files)), frozenset(directories)
+
+    @property
+    def files(self) -> Sequence[str]:
+        """The paths of all files; links to directories are not followed."""
+        return self._listing[0]
+
+    @property
+    def directories(self) -> Collection[str]:
+        """The paths of all directories below the root."""
+        return self._listing[1]
+
+    @property
+    def nested(self) -> Sequence[str]:
+        """The directories that hold a package of their own."""
+        return sorted(self._nested) if self._listing else ()
+
+    def read(self, path: str) -> bytes:
+        """Return what is in a file; raises OSError."""
+        with open(os.path.join(self.root, path), "rb") as file:
+            return file.read()
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether the file has an executable bit."""
+        try:
+            return bool(os.stat(os.path.join(self.root, path)).st_mode & 0o111)
+        except OSError:
+            return False
+
+
+class MemoryTree:
+    """Files that are not on disk: of an example, or generated and not yet written.
+
+    A path that ends in ``/`` stands for an empty directory.
+    """
+
+    def __init__(self, files: Mapping[str, str | bytes], executable: Collection[str] = ()) -> None:
+        self._files = {
+            path: text.encode() if isinstance(text, str) else text
+            for path, text in files.items()
+            if not path.endswith("/")
+        }
+        self._executable = frozenset(executable)
+        self._empty = [path.rstrip("/") for path in files if path.endswith("/")]
+
+    @cached_property
+    def nested(self) -> Sequence[str]:
+        """The directories that hold a package of their own."""
+        ending = "/" + MANIFEST
+        return sorted(path[: -len(ending)] for path in self._files if path.endswith(ending))
+
+    @cached_property
+    def files(self) -> Sequence[str]:
+        """The paths of all files."""
+        nested = tuple(path + "/" for path in self.nested)
+        return tuple(sorted(path for path in self._files if not path.startswith(nested)))
+
+    @cached_property
+    def directories(self) -> Collection[str]:
+        """The paths of all directories below the root."""
+        found = set(self._empty)
+        for path in [*self.files, *self._empty]:
+            parts = path.split("/")
+            found.update("/".join(parts[:depth]) for depth in range(1, len(parts)))
+        return frozenset(found)
+
+    def read(self, path: str) -> bytes:
+        """Return what is in a file; raises OSError."""
+        try:
+            return self._files[path]
+        except KeyError:
+            raise FileNotFoundError(path) from None
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether the file has an executable bit."""
+        return path in self._executable
+
+
+def _list(directory: str) -> tuple[list[str], list[str]]:
+    """Return names of files and of directories; an unreadable directory has none."""
+    files: list[str] = []
+    directories: list[str] = []
+    try:
+        with os.scandir(directory) as entries:
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False):
+                    directories.append(entry.name)
+                elif not entry.is_symlink() or entry.is_file():
+                    files.append(entry.name)
+    except OSError:
+        return [], []
+    return files, directories
+
+
+def _is_skipped(path: str, name: str, *, at_root: bool) -> bool:
+    if name.startswith(".") or name == "__pycache__" or name.endswith(".egg-info"):
+        return True
+    if at_root and name in BUILD_DIRECTORIES:
+        # What colcon makes inside a package carries its marker; a folder of that name may not.
+        return os.path.exists(os.path.join(path, "COLCON_IGNORE"))
+    return False
