@@ -1,0 +1,82 @@
+"""Loads rule files by path: a file in ``rules/<area>/`` is a rule, nothing else to register."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from hashlib import sha256
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import module_from_spec
+from types import ModuleType
+
+from scaffold.check.rule import Rule
+from scaffold.errors import ContentError
+
+
+def load(roots: Sequence[str]) -> list[type[Rule]]:
+    """Return the rules of the content directories, sorted by code.
+
+    Raises:
+        ContentError: a file does not load, holds no rule or more than one, is not named like
+            its rule, or uses a code or a name again.
+    """
+    rules: dict[str, type[Rule]] = {}
+    names: dict[str, str] = {}
+    for root in roots:
+        digest = sha256(os.path.abspath(root).encode()).hexdigest()[:8]
+        for area, path in _rule_files(root):
+            rule = _load_file(f"scaffold_content_{digest}", area, path)
+            for known in (rules.get(rule.code), rules.get(names.get(rule.name, ""))):
+                if known is not None:
+                    other = sys.modules[known.__module__].__file__
+                    raise ContentError(f"{path}: {rule.code} {rule.name} is taken by {other}")
+            rules[rule.code] = rule
+            names[rule.name] = rule.code
+    return [rules[code] for code in sorted(rules)]
+
+
+def _rule_files(root: str) -> list[tuple[str, str]]:
+    found: list[tuple[str, str]] = []
+    with os.scandir(root) as areas:
+        directories = sorted(entry.name for entry in areas if entry.is_dir())
+    for area in directories:
+        for name in sorted(os.listdir(os.path.join(root, area))):
+            if name.endswith(".py") and not name.startswith("_"):
+                found.append((area, os.path.join(root, area, name)))
+    return found
+
+
+def _load_file(prefix: str, area: str, path: str) -> type[Rule]:
+    stem = os.path.basename(path)[:-3]
+    parent = f"{prefix}.{area}"
+    for package, directory in ((prefix, os.path.dirname(os.path.dirname(path))), (parent, "")):
+        if package not in sys.modules:
+            module = ModuleType(package)
+            module.__path__ = [directory or os.path.dirname(path)]
+            sys.modules[package] = module
+    name = f"{parent}.{stem}"
+    loader = SourceFileLoader(name, path)
+    spec = ModuleSpec(name, loader, origin=path)
+    spec.has_location = True
+    module = module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise ContentError(f"{path}: {type(error).__name__}: {error}") from error
+    found = [
+        value
+        for value in vars(module).values()
+        if isinstance(value, type) and issubclass(value, Rule) and value.__module__ == name
+    ]
+    if len(found) != 1:
+        raise ContentError(f"{path}: holds {len(found)} rules; a rule file holds one")
+    (rule,) = found
+    missing = [key for key in ("code", "name", "examples") if not hasattr(rule, key)]
+    if missing:
+        raise ContentError(f"{path}: the rule has no {' and no '.join(missing)}")
+    if rule.name.replace("-", "_") != stem:
+        raise ContentError(f"{path}: holds the rule {rule.name!r}; file and rule share one name")
+    return rule

@@ -1,0 +1,27 @@
+"""Where rules and templates are: in the wheel, in a checkout, in the user's own directories."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+_HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def built_in() -> str:
+    """Return the directory that holds ``rules/`` and ``templates/`` of this installation."""
+    packaged = os.path.join(_HERE, "_content")
+    return packaged if os.path.isdir(packaged) else os.path.dirname(_HERE)
+
+
+def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
+    """Return the existing directories of ``kind`` (``rules`` or ``templates``).
+
+    The built-in one comes first; a later one may add to it, and templates may override.
+
+    Args:
+        kind: The name of the directory.
+        own: Content directories of the user, each with the same layout as the built-in one.
+    """
+    candidates = [os.path.join(base, kind) for base in (built_in(), *own)]
+    return [path for path in candidates if os.path.isdir(path)]

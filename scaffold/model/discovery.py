@@ -1,0 +1,132 @@
+"""Finding packages below the paths that a user gives, the way colcon does."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.model.package import Package
+from scaffold.model.tree import BUILD_DIRECTORIES, MANIFEST, DiskTree
+from scaffold.model.workspace import Workspace
+
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+
+
+class Target(NamedTuple):
+    """A package to check; ``only`` limits what is reported to these files of it."""
+
+    package: Package
+    only: frozenset[str] | None = None
+
+
+class _LooseFiles(DiskTree):
+    """Python files that belong to no package."""
+
+    def __init__(self, directory: str, names: Sequence[str]) -> None:
+        super().__init__(directory)
+        self._names = names
+
+    @property
+    def files(self) -> Sequence[str]:
+        return self._names
+
+    @property
+    def directories(self) -> frozenset[str]:
+        return frozenset()
+
+
+def find(paths: Sequence[str]) -> list[Target]:
+    """Return the packages at or below the paths, and the packages of single files.
+
+    Raises:
+        InputError: a path does not exist, or holds no package.
+    """
+    workspace = Workspace()
+    whole: dict[str, Target] = {}
+    partial: dict[str, set[str]] = {}
+    loose: dict[str, set[str]] = {}
+    for path in paths:
+        if os.path.isdir(path):
+            for directory in _package_directories(path):
+                package = Package.at(directory, workspace)
+                whole.setdefault(os.path.realpath(directory), Target(package))
+        elif os.path.exists(path):
+            root = _package_of(path)
+            if root is not None:
+                partial.setdefault(root, set()).add(_relative(path, root))
+            elif path.endswith(".py"):
+                directory, name = os.path.split(path)
+                loose.setdefault(directory or ".", set()).add(name)
+            else:
+                raise InputError(f"{path}: belongs to no package and is not a Python file")
+        else:
+            raise InputError(f"{path}: no such file or directory")
+    targets = list(whole.values())
+    for root, names in partial.items():
+        if os.path.realpath(root) not in whole:
+            targets.append(Target(Package.at(root, workspace), frozenset(names)))
+    for directory, names in loose.items():
+        package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
+        targets.append(Target(package, frozenset(names)))
+    for target in targets:
+        workspace.add(target.package)
+    return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _package_directories(path: str) -> list[str]:
+    found = list(_walk(path))
+    if found:
+        return found
+    if any(True for _ in _walk(path, ignored=True)):
+        raise InputError(f"{path}: every package in it is hidden by a COLCON_IGNORE or alike")
+    if os.path.isfile(os.path.join(path, "setup.py")):
+        raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
+    raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")
+
+
+def _walk(top: str, *, ignored: bool = False) -> Iterator[str]:
+    """Yield package directories in sorted order; what lies inside a package is not searched."""
+    if os.path.isfile(os.path.join(top, MANIFEST)):
+        yield top
+        return
+    pending = [top]
+    while pending:
+        parent = pending.pop()
+        children: list[str] = []
+        try:
+            with os.scandir(parent) as entries:
+                children = [e.name for e in entries if e.is_dir(follow_symlinks=False)]
+        except OSError:
+            continue
+        below: list[str] = []
+        for name in sorted(children):
+            path = os.path.join(parent, name)
+            if name.startswith("."):
+                continue
+            if not ignored and any(os.path.exists(os.path.join(path, m)) for m in IGNORE_MARKERS):
+                continue
+            if os.path.isfile(os.path.join(path, MANIFEST)):
+                yield path
+            elif name not in BUILD_DIRECTORIES:
+                below.append(path)
+        pending.extend(reversed(below))
+
+
+def _package_of(path: str) -> str | None:
+    """Return the nearest directory above a file that has a manifest, as the user would write it."""
+    directory = os.path.dirname(path)
+    absolute = os.path.abspath(directory or ".")
+    for _ in range(64):
+        if os.path.isfile(os.path.join(absolute, MANIFEST)):
+            return os.path.relpath(absolute) if not os.path.isabs(path) else absolute
+        parent = os.path.dirname(absolute)
+        if parent == absolute:
+            break
+        absolute = parent
+    return None
+
+
+def _relative(path: str, root: str) -> str:
+    return os.path.relpath(path, root).replace(os.sep, "/")

@@ -1,0 +1,265 @@
+"""A package: its files, and lazy views of them, each parsed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, TypeVar, cast
+
+from scaffold.errors import MissingFileError, ParseError, ViewError
+from scaffold.model.source import Location, Source
+from scaffold.model.tree import MANIFEST, DiskTree, MemoryTree, Tree
+
+if TYPE_CHECKING:
+    import os
+
+    from scaffold.model.cmake import CMakeLists
+    from scaffold.model.ini import IniFile
+    from scaffold.model.manifest import Manifest
+    from scaffold.model.nodes import NodeFacts
+    from scaffold.model.python_module import PythonModule
+    from scaffold.model.setup_py import SetupPy
+    from scaffold.model.workspace import Workspace
+
+View = TypeVar("View")
+
+CMAKE_LISTS = "CMakeLists.txt"
+SETUP_PY = "setup.py"
+SETUP_CFG = "setup.cfg"
+
+
+class Package:
+    """A ROS 2 package as rules see it.
+
+    A view that cannot be had raises ViewError: MissingFileError when its file is not there,
+    ParseError when it cannot be parsed. Rules let it pass: the runner silences the rule and
+    reports the parse error once.
+    """
+
+    def __init__(
+        self, tree: Tree, *, directory: str = "", workspace: Workspace | None = None
+    ) -> None:
+        self.tree = tree
+        self.directory = directory
+        """Path of the root as the user wrote it; empty for a package in memory."""
+        self._workspace = workspace
+        self._views: dict[object, object] = {}
+
+    @classmethod
+    def at(cls, directory: str | os.PathLike[str], workspace: Workspace | None = None) -> Package:
+        """Return the package in a directory."""
+        tree = DiskTree(directory)
+        return cls(tree, directory=tree.root, workspace=workspace)
+
+    @classmethod
+    def of(cls, files: Mapping[str, str | bytes], executable: tuple[str, ...] = ()) -> Package:
+        """Return a package in memory."""
+        return cls(MemoryTree(files, executable))
+
+    # -- files
+
+    @property
+    def root(self) -> str | None:
+        """The directory on disk, or ``None`` for a package in memory."""
+        return self.tree.root if isinstance(self.tree, DiskTree) else None
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """All files, relative to the root."""
+        return tuple(self.tree.files)
+
+    def has(self, path: str) -> bool:
+        """Tell whether a file exists."""
+        return path in self._file_set
+
+    def has_directory(self, path: str) -> bool:
+        """Tell whether a directory exists (or is the root: ``""`` or ``"."``)."""
+        return path in {"", "."} or path in self.tree.directories
+
+    def glob(self, pattern: str) -> list[str]:
+        """Return the files that match, where ``*`` stands for anything but ``/``."""
+        depth = pattern.count("/")
+        return [
+            path for path in self.files if path.count("/") == depth and fnmatchcase(path, pattern)
+        ]
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether a file has an executable bit."""
+        return self.tree.is_executable(path)
+
+    def source(self, path: str) -> Source:
+        """Return the decoded text of a file.
+
+        Raises:
+            MissingFileError: there is no such file, or it cannot be read.
+            ParseError: the file is not UTF-8.
+        """
+        return self._view(("source", path), lambda: Source.decode(path, self._read(path)))
+
+    def start_of(self, path: str) -> Location:
+        """Return the place for what concerns a whole file, or a file that is missing."""
+        return Location.start_of(path)
+
+    # -- views
+
+    @property
+    def manifest(self) -> Manifest:
+        """package.xml."""
+
+        def parse() -> Manifest:
+            from scaffold.model.manifest import Manifest  # noqa: PLC0415  only where used
+
+            return Manifest.parse(self._bytes_as_declared(MANIFEST))
+
+        return self._view("manifest", parse)
+
+    @property
+    def cmake(self) -> CMakeLists:
+        """CMakeLists.txt."""
+
+        def parse() -> CMakeLists:
+            from scaffold.model.cmake import CMakeLists  # noqa: PLC0415  only where used
+
+            lists = CMakeLists.parse(self.source(CMAKE_LISTS))
+            for at, message in lists.errors:
+                raise ParseError(at, message)
+            return lists
+
+        return self._view("cmake", parse)
+
+    @property
+    def setup_py(self) -> SetupPy:
+        """setup.py."""
+
+        def parse() -> SetupPy:
+            from scaffold.model.setup_py import SetupPy  # noqa: PLC0415  only where used
+
+            return SetupPy.parse(self.module(SETUP_PY))
+
+        return self._view("setup_py", parse)
+
+    @property
+    def setup_cfg(self) -> IniFile:
+        """setup.cfg."""
+
+        def parse() -> IniFile:
+            from scaffold.model.ini import IniFile  # noqa: PLC0415  only where used
+
+            return IniFile.parse(self.source(SETUP_CFG))
+
+        return self._view("setup_cfg", parse)
+
+    def module(self, path: str) -> PythonModule:
+        """A Python file."""
+
+        def parse() -> PythonModule:
+            from scaffold.model.python_module import PythonModule  # noqa: PLC0415  only where used
+
+            return PythonModule.parse_bytes(path, self._read(path))
+
+        return self._view(("module", path), parse)
+
+    def modules(self) -> Iterator[PythonModule]:
+        """All Python files that can be parsed; the others are reported by the runner."""
+        for path in self.python_files:
+            try:
+                yield self.module(path)
+            except ViewError:
+                continue
+
+    def node_facts(self, path: str) -> NodeFacts:
+        """What the rclpy code of a Python file says."""
+
+        def parse() -> NodeFacts:
+            from scaffold.model.nodes import NodeFacts  # noqa: PLC0415  only where used
+
+            return NodeFacts.of(self.module(path))
+
+        return self._view(("nodes", path), parse)
+
+    @property
+    def python_files(self) -> tuple[str, ...]:
+        """The files that are Python by their name or, for scripts, by their first line."""
+        return self._view("python_files", lambda: tuple(filter(self._is_python, self.files)))
+
+    # -- identity
+
+    @property
+    def name(self) -> str:
+        """The name in the manifest; without one, the name of the directory."""
+        try:
+            name = self.manifest.name
+        except ViewError:
+            name = ""
+        return name or self.directory.rstrip("/").rpartition("/")[2]
+
+    @property
+    def build_type(self) -> str:
+        """``ament_cmake``, ``ament_python`` ...: as declared, else as the files show."""
+        try:
+            declared = self.manifest.build_type
+        except ViewError:
+            declared = None
+        if declared:
+            return declared
+        return "ament_cmake" if self.has(CMAKE_LISTS) else "ament_python"
+
+    @property
+    def workspace(self) -> Workspace:
+        """The packages around this one, itself included."""
+
+        def build() -> Workspace:
+            from scaffold.model.workspace import Workspace  # noqa: PLC0415  only where used
+
+            return Workspace([self])
+
+        return self._workspace or self._view("workspace", build)
+
+    @property
+    def parse_errors(self) -> list[ParseError]:
+        """What could not be parsed among the views asked for so far."""
+        return [error for error in self._views.values() if isinstance(error, ParseError)]
+
+    # -- inside
+
+    @property
+    def _file_set(self) -> frozenset[str]:
+        return self._view("file_set", lambda: frozenset(self.tree.files))
+
+    def _read(self, path: str) -> bytes:
+        if not self.has(path):
+            raise MissingFileError(path)
+        try:
+            return self.tree.read(path)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise ParseError(Location.start_of(path), f"cannot be read: {reason}") from error
+
+    def _bytes_as_declared(self, path: str) -> Source:
+        from scaffold.model.manifest import decode  # noqa: PLC0415  only where used
+
+        return decode(path, self._read(path))
+
+    def _is_python(self, path: str) -> bool:
+        name = path.rpartition("/")[2]
+        if name.endswith(".py"):
+            return True
+        if "." in name or not self.is_executable(path):
+            return False
+        try:
+            first = self._read(path)[:128].partition(b"\n")[0]
+        except ViewError:
+            return False
+        return first.startswith(b"#!") and b"python" in first
+
+    def _view(self, key: object, build: Callable[[], View]) -> View:
+        """Build a view once; an error is remembered and raised again."""
+        if key not in self._views:
+            try:
+                self._views[key] = build()
+            except ViewError as error:
+                self._views[key] = error
+        found = self._views[key]
+        if isinstance(found, ViewError):
+            raise found
+        return cast("View", found)
