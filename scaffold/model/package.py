@@ -96,6 +96,15 @@ class Package:
         """
         return self._view(("source", path), lambda: Source.decode(path, self._read(path)))
 
+    def editable(self, path: str) -> Source:
+        """Return the text that the offsets of edits count in, in the file's own encoding."""
+        if path == MANIFEST:
+            return self.manifest.source
+        try:
+            return self.module(path).source if path.endswith(".py") else self.source(path)
+        except ParseError:
+            return self.source(path)
+
     def start_of(self, path: str) -> Location:
         """Return the place for what concerns a whole file, or a file that is missing."""
         return Location.start_of(path)
@@ -107,7 +116,7 @@ class Package:
         """package.xml."""
 
         def parse() -> Manifest:
-            from scaffold.model.manifest import Manifest  # noqa: PLC0415  only where used
+            from scaffold.model.manifest import Manifest
 
             return Manifest.parse(self._bytes_as_declared(MANIFEST))
 
@@ -118,7 +127,7 @@ class Package:
         """CMakeLists.txt."""
 
         def parse() -> CMakeLists:
-            from scaffold.model.cmake import CMakeLists  # noqa: PLC0415  only where used
+            from scaffold.model.cmake import CMakeLists
 
             lists = CMakeLists.parse(self.source(CMAKE_LISTS))
             for at, message in lists.errors:
@@ -132,7 +141,7 @@ class Package:
         """setup.py."""
 
         def parse() -> SetupPy:
-            from scaffold.model.setup_py import SetupPy  # noqa: PLC0415  only where used
+            from scaffold.model.setup_py import SetupPy
 
             return SetupPy.parse(self.module(SETUP_PY))
 
@@ -143,7 +152,7 @@ class Package:
         """setup.cfg."""
 
         def parse() -> IniFile:
-            from scaffold.model.ini import IniFile  # noqa: PLC0415  only where used
+            from scaffold.model.ini import IniFile
 
             return IniFile.parse(self.source(SETUP_CFG))
 
@@ -153,7 +162,7 @@ class Package:
         """A Python file."""
 
         def parse() -> PythonModule:
-            from scaffold.model.python_module import PythonModule  # noqa: PLC0415  only where used
+            from scaffold.model.python_module import PythonModule
 
             return PythonModule.parse_bytes(path, self._read(path))
 
@@ -171,7 +180,7 @@ class Package:
         """What the rclpy code of a Python file says."""
 
         def parse() -> NodeFacts:
-            from scaffold.model.nodes import NodeFacts  # noqa: PLC0415  only where used
+            from scaffold.model.nodes import NodeFacts
 
             return NodeFacts.of(self.module(path))
 
@@ -209,11 +218,16 @@ class Package:
         """The packages around this one, itself included."""
 
         def build() -> Workspace:
-            from scaffold.model.workspace import Workspace  # noqa: PLC0415  only where used
+            from scaffold.model.workspace import Workspace
 
             return Workspace([self])
 
         return self._workspace or self._view("workspace", build)
+
+    @property
+    def known_workspace(self) -> Workspace | None:
+        """The workspace given from outside, if any."""
+        return self._workspace
 
     @property
     def parse_errors(self) -> list[ParseError]:
@@ -236,7 +250,7 @@ class Package:
             raise ParseError(Location.start_of(path), f"cannot be read: {reason}") from error
 
     def _bytes_as_declared(self, path: str) -> Source:
-        from scaffold.model.manifest import decode  # noqa: PLC0415  only where used
+        from scaffold.model.manifest import decode
 
         return decode(path, self._read(path))
 
