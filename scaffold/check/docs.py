@@ -1,0 +1,61 @@
+"""What is known about a rule, as text: one function for the terminal and for ``docs/rules``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from inspect import cleandoc
+
+from scaffold.check.rule import Example, Rule
+
+_LANGUAGES = {".xml": "xml", ".py": "python", ".txt": "cmake", ".cfg": "ini", ".yaml": "yaml"}
+
+
+def summary(rule: type[Rule]) -> str:
+    """Return the first line of a rule's docstring, without Markdown of docstrings."""
+    return cleandoc(rule.__doc__ or "").partition("\n")[0].rstrip(".").replace("``", "`")
+
+
+def page(rule: type[Rule]) -> str:
+    """Return the documentation of a rule as Markdown."""
+    text = cleandoc(rule.__doc__ or "").replace("``", "`")
+    facts = f"Severity: {rule.severity.value} · since {rule.since}"
+    if has_fix(rule):
+        facts += " · can be mended with `--fix`"
+    parts = [f"# {rule.code} {rule.name}", facts, text]
+    rejected = [example for example in rule.examples if example.at]
+    accepted = [example for example in rule.examples if not example.at]
+    if rejected:
+        parts += ["## Reported", *(_example(example) for example in rejected[:2])]
+    if accepted:
+        parts += ["## Accepted", *(_example(example) for example in accepted[:1])]
+    return "\n\n".join(parts) + "\n"
+
+
+def table(rules: Sequence[type[Rule]]) -> str:
+    """Return a Markdown table of rules."""
+    rows = [
+        f"| [{rule.code}](docs/rules/{rule.code}.md) | {rule.name} | {rule.severity.value} "
+        f"| {'yes' if has_fix(rule) else ''} | {summary(rule)} |"
+        for rule in rules
+    ]
+    return "\n".join(["| code | name | severity | fix | what |", "|---|---|---|---|---|", *rows])
+
+
+def has_fix(rule: type[Rule]) -> bool:
+    """Tell whether a rule can mend what it reports: its examples say so."""
+    return any(example.fixed is not None for example in rule.examples)
+
+
+def _example(example: Example) -> str:
+    parts = [f"*{example.title}*"]
+    for path, text in example.files.items():
+        places = [at.rpartition(":")[2] for at in example.at if at.rpartition(":")[0] == path]
+        note = f" (line {', '.join(places)})" if places else ""
+        parts.append(f"`{path}`{note}:")
+        if text:
+            parts.append(f"```{_language(path)}\n{text.rstrip()}\n```")
+    return "\n\n".join(parts)
+
+
+def _language(path: str) -> str:
+    return next((name for ending, name in _LANGUAGES.items() if path.endswith(ending)), "text")

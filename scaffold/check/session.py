@@ -1,0 +1,93 @@
+"""One run of `check`: style in the background, rules, suppression, in reading order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from scaffold.check import runner, suppression
+from scaffold.check.diagnostic import Diagnostic, Severity
+from scaffold.check.internal import INTERNAL_RULES, RuleCrashed, UnparsableFile
+from scaffold.check.rule import Rule
+from scaffold.check.selection import Selection
+from scaffold.model.discovery import Target
+from scaffold.model.package import Package
+
+
+class Result(NamedTuple):
+    """What was found in one package."""
+
+    package: Package
+    files: int
+    diagnostics: list[Diagnostic]
+
+
+class Summary(NamedTuple):
+    """Counts over a whole run."""
+
+    packages: int
+    files: int
+    errors: int
+    warnings: int
+    infos: int
+
+    @classmethod
+    def of(cls, results: Sequence[Result]) -> Summary:
+        """Count."""
+        severities = [d.severity for result in results for d in result.diagnostics]
+        return cls(
+            len(results),
+            sum(result.files for result in results),
+            severities.count(Severity.ERROR),
+            severities.count(Severity.WARNING),
+            severities.count(Severity.INFO),
+        )
+
+
+class Session:
+    """Rules and a selection, ready to run over packages."""
+
+    def __init__(self, rules: Sequence[type[Rule]], selection: Selection) -> None:
+        self.selection = selection
+        self._rules = [rule() for rule in rules if selection.wants(rule.code)]
+        self._ran = {rule.code for rule in self._rules}
+
+    def run(self, targets: Sequence[Target]) -> Iterator[Result]:
+        """Check packages, one after the other, in the order given."""
+        from scaffold.style import StyleCheck  # noqa: PLC0415  only where used
+
+        style = StyleCheck([target.package for target in targets])
+        for target in targets:
+            found = self._check_rules(target.package)
+            found += style.diagnostics(target.package)
+            yield Result(target.package, len(target.package.files), self._report(target, found))
+
+    def check(self, package: Package) -> list[Diagnostic]:
+        """Check one package, for instance one in memory."""
+        (result,) = self.run([Target(package)])
+        return result.diagnostics
+
+    def _check_rules(self, package: Package) -> list[Diagnostic]:
+        said = runner.check(package, self._rules)
+        return suppression.apply(package, said, self._ran)
+
+    def _report(self, target: Target, found: list[Diagnostic]) -> list[Diagnostic]:
+        """Return what is asked for, in reading order, each thing once."""
+        # flake8 has its own code for a Python file that does not parse.
+        told = {d.location.path for d in found if d.code.startswith("E9")}
+        return sorted(
+            (
+                d
+                for d in found
+                if not (d.code == UnparsableFile.code and d.location.path in told)
+                and (target.only is None or d.location.path in target.only)
+                and (d.code == RuleCrashed.code or self.selection.wants(d.code))
+                and self.selection.wants_at(d.code, d.location.path)
+            ),
+            key=lambda d: d.sort_key,
+        )
+
+
+def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
+    """Return the rules of the content directories and those of the engine, sorted by code."""
+    return sorted([*rules, *INTERNAL_RULES], key=lambda rule: rule.code)

@@ -1,0 +1,38 @@
+"""One JSON object for programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from json import dumps
+from typing import TextIO
+
+from scaffold.check.diagnostic import Diagnostic
+from scaffold.check.session import Result, Summary
+from scaffold.reporters.paths import shown
+
+
+def report(results: Sequence[Result], out: TextIO) -> None:
+    """Write ``{"diagnostics": [...], "summary": {...}}``."""
+    diagnostics = [
+        _as_data(diagnostic, shown(result.package, diagnostic.location.path))
+        for result in results
+        for diagnostic in result.diagnostics
+    ]
+    summary = Summary.of(results)._asdict()
+    out.write(dumps({"diagnostics": diagnostics, "summary": summary}, indent=2) + "\n")
+
+
+def _as_data(diagnostic: Diagnostic, path: str) -> dict[str, object]:
+    at = diagnostic.location
+    return {
+        "code": diagnostic.code,
+        "name": diagnostic.name,
+        "severity": diagnostic.severity.value,
+        "path": path,
+        "line": at.line,
+        "column": at.column,
+        "end_line": at.end_line,
+        "end_column": at.end_column,
+        "message": diagnostic.message,
+        "fixable": diagnostic.fix is not None,
+    }

@@ -1,0 +1,56 @@
+"""Text for people: one line per diagnostic that terminals and editors can jump to."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import TextIO
+
+from scaffold.check.diagnostic import Severity
+from scaffold.check.session import Result, Summary
+from scaffold.reporters.paths import shown
+
+_COLOURS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
+
+
+def report(results: Sequence[Result], out: TextIO) -> None:
+    """Write the diagnostics and a summary."""
+    paint = _painter(out)
+    for result in results:
+        for diagnostic in result.diagnostics:
+            at = diagnostic.location
+            place = f"{shown(result.package, at.path)}:{at.line}:{at.column}:"
+            severity = paint(diagnostic.severity.value, _COLOURS[diagnostic.severity])
+            code = paint(diagnostic.code, "1")
+            out.write(f"{place} {severity} {code} {diagnostic.message} [{diagnostic.name}]\n")
+    out.write(_summary(results) + "\n")
+
+
+def _summary(results: Sequence[Result]) -> str:
+    summary = Summary.of(results)
+    checked = f"{_count(summary.packages, 'package')}, {_count(summary.files, 'file')}"
+    if not any(result.diagnostics for result in results):
+        return f"{checked}: nothing to report"
+    found = [
+        _count(number, noun)
+        for number, noun in (
+            (summary.errors, "error"),
+            (summary.warnings, "warning"),
+            (summary.infos, "info"),
+        )
+        if number
+    ]
+    fixable = sum(d.fix is not None for result in results for d in result.diagnostics)
+    fix = f"; {fixable} can be mended with --fix" if fixable else ""
+    return f"{checked}: {', '.join(found)}{fix}"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _painter(out: TextIO) -> Callable[[str, str], str]:
+    """Return a function that wraps text in a colour when a terminal shows it."""
+    if out.isatty() and not os.environ.get("NO_COLOR"):
+        return lambda text, colour: f"\033[{colour}m{text}\033[0m"
+    return lambda text, colour: text  # noqa: ARG005  same shape as the other
