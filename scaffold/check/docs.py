@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from inspect import cleandoc
+from typing import TYPE_CHECKING
 
 from scaffold.check.rule import Example, Rule
+
+if TYPE_CHECKING:
+    from scaffold.style.codes import StyleCode
 
 _LANGUAGES = {".xml": "xml", ".py": "python", ".txt": "cmake", ".cfg": "ini", ".yaml": "yaml"}
 
@@ -29,6 +33,37 @@ def page(rule: type[Rule]) -> str:
     if accepted:
         parts += ["## Accepted", *(_example(example) for example in accepted[:1])]
     return "\n\n".join(parts) + "\n"
+
+
+def style_page(code: str, style: StyleCode) -> str:
+    """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
+    return f"# {code} {style.name}\n\nReported by {style.linter}.\n\n{style.text}\n"
+
+
+def as_data(rule: type[Rule]) -> dict[str, object]:
+    """Return what a program may want to know about a rule."""
+    return {
+        "code": rule.code,
+        "name": rule.name,
+        "severity": rule.severity.value,
+        "since": rule.since,
+        "fixable": has_fix(rule),
+        "summary": summary(rule),
+    }
+
+
+def write(directory: str, rules: Sequence[type[Rule]]) -> None:
+    """Write a page per rule, and remove pages of rules that are no more."""
+    import os  # noqa: PLC0415  only for this
+
+    os.makedirs(directory, exist_ok=True)
+    pages = {f"{rule.code}.md": page(rule) for rule in rules}
+    for name in os.listdir(directory):
+        if name.endswith(".md") and name not in pages:
+            os.remove(os.path.join(directory, name))
+    for name, text in pages.items():
+        with open(os.path.join(directory, name), "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def table(rules: Sequence[type[Rule]]) -> str:

@@ -44,9 +44,13 @@ def validate(prefixes: Iterable[str], codes: Collection[str], origin: str) -> No
     for prefix in prefixes:
         if any(code.startswith(prefix) for code in codes):
             continue
-        near = get_close_matches(prefix, codes, n=3, cutoff=0.5)
-        hint = f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
-        raise ConfigError(f"{origin}: no rule has the code {prefix!r}{hint}")
+        raise ConfigError(f"{origin}: no rule has the code {prefix!r}{nearest(prefix, codes)}")
+
+
+def nearest(word: str, known: Collection[str]) -> str:
+    """Return the end of an error message: the known words next to a wrong one."""
+    near = get_close_matches(word, known, n=3, cutoff=0.5)
+    return f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
 
 
 def split(values: Sequence[str] | None) -> tuple[str, ...]:

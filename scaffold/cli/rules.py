@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.check.rule import Rule
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,65 +20,54 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--content", action="append", default=[], metavar="DIR", help="with rules of your own"
     )
     parser.add_argument(
-        "--write-docs",
-        metavar="DIR",
-        help="write a page per rule into a directory instead",
+        "--write-docs", metavar="DIR", help="write a page per rule into a directory instead"
     )
 
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
     from scaffold import config, content
-    from scaffold.check import registry
+    from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
+    from scaffold.style.codes import CODES
 
     settings = config.load(content=tuple(options.content))
     rules = all_rules(registry.load(content.roots("rules", settings.content)))
     if options.write_docs:
-        return _write_docs(options.write_docs, rules)
-    if options.format == "json":
-        return _as_json(options.codes, rules)
-    if options.codes:
-        return _explain(options.codes, rules)
-    return _list(rules)
+        docs.write(options.write_docs, rules)
+    elif options.codes:
+        pages = [_page(word, rules) for word in options.codes]
+        sys.stdout.write("\n".join(pages))
+    elif options.format == "json":
+        from json import dumps
 
-
-def _list(rules: list[type[Rule]]) -> int:
-    from scaffold.check.docs import has_fix, summary
-    from scaffold.style.codes import CODES
-
-    rows = [(r.code, r.severity.value, has_fix(r), r.name, summary(r)) for r in rules]
-    width = max(len(row[3]) for row in rows)
-    for code, severity, fixable, name, text in rows:
-        fix = "fix" if fixable else ""
-        sys.stdout.write(f"{code}  {severity:<7}  {fix:<3}  {name:<{width}}  {text}\n")
-    sys.stdout.write(
-        f"\n{len(rows)} rules, and {len(CODES)} codes of Python style and docstrings with "
-        "ament's verdict:\n"
-    )
-    for code, style in CODES.items():
-        sys.stdout.write(f"{code}  {style.name:<{width + 14}}  {style.text}\n")
+        sys.stdout.write(dumps([docs.as_data(rule) for rule in rules], indent=2) + "\n")
+    else:
+        width = max(len(rule.name) for rule in rules)
+        for rule in rules:
+            fix = "fix" if docs.has_fix(rule) else ""
+            facts = f"{rule.code}  {rule.severity.value:<7}  {fix:<3}  {rule.name:<{width}}"
+            sys.stdout.write(f"{facts}  {docs.summary(rule)}\n")
+        sys.stdout.write(
+            f"\n{len(rules)} rules. Python style and docstrings keep the codes of flake8 and "
+            f"pydocstyle, with ament's verdict: {len(CODES)} codes from {min(CODES)} to "
+            f"{max(CODES)}.\n`ros2-scaffold rules CODE` explains one.\n"
+        )
     return 0
 
 
-def _explain(codes: list[str], rules: list[type[Rule]]) -> int:
-    from scaffold.check.docs import page
-
-    pages = [page(rule) if rule else "" for rule in (_find(code, rules) for code in codes)]
-    for number, (code, text) in enumerate(zip(codes, pages, strict=True)):
-        sys.stdout.write("\n" * bool(number) + (text or _style_page(code)))
-    return 0
-
-
-def _find(code: str, rules: list[type[Rule]]) -> type[Rule] | None:
-    return next((rule for rule in rules if code in (rule.code, rule.name) or code.upper() == rule.code), None)
-
-
-def _style_page(code: str) -> str:
-    from scaffold.check.selection import validate
+def _page(word: str, rules: list[type[Rule]]) -> str:
+    """Return what is known about the rule of a code or a name."""
+    from scaffold.check import docs
+    from scaffold.check.selection import nearest
+    from scaffold.errors import InputError
     from scaffold.style.codes import CODES
 
-    style = CODES.get(code.upper())
-    if style is None:
-        raise unknown
-    return f"# {code.upper()} {style.name}\n\nReported by {style.linter}.\n\n{style.text}.\n"
+    for rule in rules:
+        if word.upper() == rule.code or word == rule.name:
+            return docs.page(rule)
+    style = CODES.get(word.upper())
+    if style is not None:
+        return docs.style_page(word.upper(), style)
+    known = [*(rule.code for rule in rules), *(rule.name for rule in rules), *CODES]
+    raise InputError(f"there is no rule {word!r}{nearest(word, known)}")

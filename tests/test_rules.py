@@ -1,0 +1,129 @@
+"""Every rule's examples are its tests."""
+
+from __future__ import annotations
+
+import ast
+import re
+from inspect import cleandoc
+from pathlib import Path
+
+import pytest
+
+from scaffold import content
+from scaffold.check import fixer, registry, runner, suppression
+from scaffold.check.rule import Example, Rule
+from scaffold.model.package import Package
+from scaffold.model.tree import MemoryTree
+from scaffold.model.workspace import Workspace
+
+RULES = registry.load(content.roots("rules"))
+CASES = [
+    pytest.param(rule, example, id=f"{rule.code}-{example.title}")
+    for rule in RULES
+    for example in rule.examples
+]
+AREAS = {
+    "package_xml": "PX",
+    "cmake": "CM",
+    "setup_py": "SP",
+    "layout": "LY",
+    "names": "NM",
+    "nodes": "ND",
+    "messages": "MS",
+    "launch": "LF",
+}
+
+
+def package_of(example: Example) -> Package:
+    """Return the package of an example, in the workspace of its neighbours."""
+    workspace = Workspace()
+    tree = MemoryTree(dict(example.files), example.executable)
+    package = Package(tree, directory="", workspace=workspace)
+    workspace.add(package)
+    for directory, files in example.neighbours.items():
+        workspace.add(Package(MemoryTree(dict(files)), directory=directory, workspace=workspace))
+    return package
+
+
+@pytest.mark.parametrize(("rule", "example"), CASES)
+def test_example(rule: type[Rule], example: Example) -> None:
+    package = package_of(example)
+    said = runner.check(package, [rule()])
+    assert [f"{d.location.path}:{d.location.line}" for d in said] == list(example.at)
+    assert {d.code for d in said} <= {rule.code}
+
+    fixed = fixer.fix(package, lambda one: runner.check(one, [rule()]), unsafe=True)
+    after = dict(fixed.changed)
+    expected = {path: text.encode() for path, text in (example.fixed or {}).items()}
+    for path in fixed.executable - after.keys():
+        after[path] = package.tree.read(path)
+    assert after == expected
+    if example.fixed is not None:
+        assert runner.check(fixed.package, [rule()]) == []
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
+def test_is_documented(rule: type[Rule]) -> None:
+    text = cleandoc(rule.__doc__ or "")
+    for part in ("**Why.**", "**Fix.**", "**Source.**"):
+        assert part in text, f"{rule.code} has no {part}"
+    assert re.fullmatch(r"[A-Z]{2}[0-9]{3}", rule.code)
+    assert any(example.at for example in rule.examples), "no rejected example"
+    assert any(not example.at for example in rule.examples), "no accepted example"
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
+def test_stands_in_its_area(rule: type[Rule]) -> None:
+    area = rule.__module__.split(".")[-2]
+    assert rule.code.startswith(AREAS[area])
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
+def test_imports_little(rule: type[Rule]) -> None:
+    """A rule file imports what is cheap and stable; the rest would cost every run."""
+    tree = ast.parse(Path(_file_of(rule)).read_text(encoding="utf-8"))
+    roots = {
+        name.split(".")[0]
+        for node in ast.walk(tree)
+        for name in (
+            [alias.name for alias in node.names]
+            if isinstance(node, ast.Import)
+            else [node.module or ""]
+            if isinstance(node, ast.ImportFrom)
+            else []
+        )
+    }
+    allowed = {"__future__", "ast", "collections", "difflib", "os", "posixpath", "re", "typing"}
+    assert roots <= {*allowed, "fnmatch", "itertools", "scaffold", "tokenize", "io", "sys"}
+
+
+def test_examples_can_be_suppressed() -> None:
+    """A rejected Python or CMake example falls silent with ``noqa`` on the reported line."""
+    silenced = 0
+    for rule in RULES:
+        for example in rule.examples:
+            if len(example.at) != 1:
+                continue
+            path, _, line = example.at[0].rpartition(":")
+            if not path.endswith((".py", ".txt")) or path not in example.files:
+                continue
+            lines = example.files[path].split("\n")
+            if int(line) > len(lines) or '"""' in lines[int(line) - 1]:
+                continue
+            lines[int(line) - 1] += f"  # noqa: {rule.code}"
+            files = {**example.files, path: "\n".join(lines)}
+            package = package_of(
+                Example("", files, executable=example.executable, neighbours=example.neighbours)
+            )
+            said = runner.check(package, [rule()])
+            assert suppression.apply(package, said, {rule.code}) == [], example.title
+            silenced += bool(said)
+    assert silenced > 0
+
+
+def _file_of(rule: type[Rule]) -> str:
+    import sys
+
+    path = sys.modules[rule.__module__].__file__
+    assert path is not None
+    return path
