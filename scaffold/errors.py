@@ -47,3 +47,12 @@ class ParseError(ViewError):
         super().__init__(message)
         self.location = location
         self.message = message
+
+
+class NewerSyntaxError(ViewError):
+    """A Python file that only a newer Python than the running one can parse; not a flaw."""
+
+    def __init__(self, location: Location, version: tuple[int, int]) -> None:
+        super().__init__(f"needs Python {version[0]}.{version[1]} or newer")
+        self.location = location
+        self.version = version

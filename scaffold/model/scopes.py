@@ -1,0 +1,271 @@
+"""Which names are bound where: Python's scopes, from the syntax tree alone."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeVar, cast
+
+FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+_COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+_SCOPES = (ast.Module, ast.ClassDef, ast.Lambda, *_FUNCTIONS, *_COMPREHENSIONS)
+
+_LEAVES = frozenset(
+    {ast.Constant, ast.Name, ast.alias, ast.Pass, ast.Break, ast.Continue, ast.Global}
+    | {ast.Nonlocal, ast.MatchSingleton, ast.MatchStar}
+)
+_NOT_NODES = frozenset(
+    {"ctx", "op", "ops", "attr", "arg", "asname", "type_comment", "level", "module", "conversion"}
+    | {"is_async", "simple", "type_ignores", "rest", "kwd_attrs"}
+)
+"""Fields without nodes, or whose nodes (operators, contexts) are shared and have no place."""
+
+Node = TypeVar("Node", bound=ast.AST)
+
+
+class Binding(NamedTuple):
+    """One place that gives a name a value."""
+
+    name: str
+    kind: str
+    """``import``, ``function``, ``class``, ``assignment``, ``annotation`` (without a value),
+    ``augmented``, ``parameter``, ``loop``, ``deletion`` or ``other``."""
+    node: ast.AST
+    value: ast.expr | None = None
+    """What is assigned, when it is written there."""
+    target: str = ""
+    """For an import: the full dotted name of what is imported, dots of the level in front."""
+
+
+class SyntaxIndex:
+    """The nodes of a module: who holds whom, and all of a kind."""
+
+    def __init__(self, tree: ast.Module) -> None:
+        self.tree = tree
+        self.depth = 0
+        self._parents: dict[ast.AST, ast.AST] = {}
+        self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
+        self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
+        self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
+
+    def build(self, deepest: int) -> bool:
+        """Visit all nodes; give up and return false when they nest deeper than allowed."""
+        parents, by_type = self._parents, self._by_type
+        level: list[ast.AST] = [self.tree]
+        while level:
+            self.depth += 1
+            if self.depth > deepest:
+                return False
+            below: list[ast.AST] = []
+            for node in level:
+                kind = type(node)
+                by_type.setdefault(kind, []).append(node)
+                for field in _fields(kind):
+                    value = getattr(node, field, None)
+                    if isinstance(value, list):
+                        for item in value:
+                            if isinstance(item, ast.AST):
+                                parents[item] = node
+                                below.append(item)
+                    elif isinstance(value, ast.AST):
+                        parents[value] = node
+                        below.append(value)
+            level = below
+        return True
+
+    def all_of(self, kind: type[Node]) -> Sequence[Node]:
+        """Return the nodes of a type in the order of the text."""
+        if kind not in self._sorted:
+            self._sorted[kind] = sorted(self._by_type.get(kind, ()), key=_order)
+        return cast("Sequence[Node]", self._sorted[kind])
+
+    def parent(self, node: ast.AST) -> ast.AST | None:
+        """Return the node that holds another."""
+        return self._parents.get(node)
+
+    def parents(self, node: ast.AST) -> Iterator[ast.AST]:
+        """Yield the nodes around another, from the inside out."""
+        parent = self._parents.get(node)
+        while parent is not None:
+            yield parent
+            parent = self._parents.get(parent)
+
+    # -- scopes
+
+    def scope_of(self, node: ast.AST) -> ast.AST:
+        """Return the scope that a node is evaluated in: a module, class, function ..."""
+        child = below = node
+        for parent in self.parents(node):
+            if isinstance(parent, _SCOPES) and _is_inside(parent, child, below):
+                return parent
+            child, below = parent, child
+        return self.tree
+
+    def bindings(self, scope: ast.AST) -> Mapping[str, Sequence[Binding]]:
+        """Return what a scope binds itself, by name."""
+        if self._scopes is None:
+            self._scopes = {}
+            for owner, binding in self._all_bindings():
+                self._scopes.setdefault(owner, {}).setdefault(binding.name, []).append(binding)
+        return self._scopes.get(scope, {})
+
+    def lookup(self, name: str, at: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
+        """Return the scope that binds a name seen from a node, and its bindings there."""
+        scope = self.scope_of(at)
+        first = True
+        while True:
+            # A class body's names are seen by the body alone, not by the functions in it.
+            if first or not isinstance(scope, ast.ClassDef):
+                found = self.bindings(scope).get(name)
+                if found:
+                    return scope, found
+            if isinstance(scope, ast.Module):
+                return None
+            first = False
+            scope = self.scope_of(scope)
+
+    def _all_bindings(self) -> Iterator[tuple[ast.AST, Binding]]:
+        redirected = self._redirected_names()
+        for owner, binding in self._own_bindings():
+            yield redirected.get((owner, binding.name), owner), binding
+
+    def _redirected_names(self) -> dict[tuple[ast.AST, str], ast.AST]:
+        """Return which names of which functions belong elsewhere: ``global``, ``nonlocal``."""
+        redirected: dict[tuple[ast.AST, str], ast.AST] = {}
+        for declared in self.all_of(ast.Global):
+            scope = self.scope_of(declared)
+            redirected.update({(scope, name): self.tree for name in declared.names})
+        for shared in self.all_of(ast.Nonlocal):
+            scope = self.scope_of(shared)
+            outer = self._enclosing_function_scope(scope)
+            redirected.update({(scope, name): outer for name in shared.names})
+        return redirected
+
+    def _enclosing_function_scope(self, scope: ast.AST) -> ast.AST:
+        for parent in self.parents(scope):
+            if isinstance(parent, _FUNCTIONS):
+                return parent
+        return self.tree
+
+    def _own_bindings(self) -> Iterator[tuple[ast.AST, Binding]]:
+        functions: list[FunctionNode] = [
+            *self.all_of(ast.FunctionDef),
+            *self.all_of(ast.AsyncFunctionDef),
+        ]
+        for function in functions:
+            yield self.scope_of(function), Binding(function.name, "function", function)
+        for class_ in self.all_of(ast.ClassDef):
+            yield self.scope_of(class_), Binding(class_.name, "class", class_)
+        for arg in self.all_of(ast.arg):
+            yield self._parents[self._parents[arg]], Binding(arg.arg, "parameter", arg)
+        imports: list[ast.Import | ast.ImportFrom] = [
+            *self.all_of(ast.Import),
+            *self.all_of(ast.ImportFrom),
+        ]
+        for import_ in imports:
+            scope = self.scope_of(import_)
+            for binding in _imported(import_):
+                yield scope, binding
+        for name in self.all_of(ast.Name):
+            if not isinstance(name.ctx, ast.Load):
+                yield self._scope_of_target(name), self._of_target(name)
+        yield from self._rare_bindings()
+
+    def _rare_bindings(self) -> Iterator[tuple[ast.AST, Binding]]:
+        for kind_name in ("ExceptHandler", "MatchAs", "MatchStar", "TypeVar", "ParamSpec"):
+            for node in self.all_of(getattr(ast, kind_name, ast.AST)):
+                name = getattr(node, "name", None)
+                if name:
+                    yield self.scope_of(node), Binding(name, "other", node)
+        for mapping in self.all_of(ast.MatchMapping):
+            if mapping.rest:
+                yield self.scope_of(mapping), Binding(mapping.rest, "other", mapping)
+
+    def _scope_of_target(self, node: ast.Name) -> ast.AST:
+        scope = self.scope_of(node)
+        if isinstance(self.parent(node), ast.NamedExpr):
+            while isinstance(scope, _COMPREHENSIONS):
+                scope = self.scope_of(scope)
+        return scope
+
+    def _of_target(self, node: ast.Name) -> Binding:
+        """Return the binding that a name makes where it is a target."""
+        if isinstance(node.ctx, ast.Del):
+            return Binding(node.id, "deletion", node)
+        parent = self.parent(node)
+        kind = "other"
+        value: ast.expr | None = None
+        match parent:
+            case ast.AnnAssign(value=None):
+                kind = "annotation"
+            case ast.Assign() | ast.AnnAssign() | ast.NamedExpr():
+                kind, value = "assignment", parent.value
+            case ast.AugAssign():
+                kind = "augmented"
+            case ast.For() | ast.AsyncFor() | ast.comprehension():
+                kind = "loop"
+            case ast.Tuple() | ast.List():
+                kind, value = self._unpacked(node, parent)
+        return Binding(node.id, kind, node, value)
+
+    def _unpacked(
+        self, node: ast.Name, targets: ast.Tuple | ast.List
+    ) -> tuple[str, ast.expr | None]:
+        """Pair ``a, b = 1, 2`` when both sides are written out."""
+        above = self.parent(targets)
+        if not isinstance(above, ast.Assign):
+            return "other", None
+        values = above.value
+        starred = any(isinstance(item, ast.Starred) for item in targets.elts)
+        if (
+            starred
+            or not isinstance(values, ast.Tuple | ast.List)
+            or len(values.elts) != len(targets.elts)
+            or any(isinstance(item, ast.Starred) for item in values.elts)
+        ):
+            return "other", None
+        return "assignment", values.elts[targets.elts.index(node)]
+
+
+def _order(node: ast.AST) -> tuple[int, int]:
+    return getattr(node, "lineno", 0), getattr(node, "col_offset", 0)
+
+
+_FIELDS: dict[type[ast.AST], tuple[str, ...]] = {}
+
+
+def _fields(kind: type[ast.AST]) -> tuple[str, ...]:
+    """Return the fields of a node type that can hold nodes worth visiting."""
+    fields = _FIELDS.get(kind)
+    if fields is None:
+        fields = () if kind in _LEAVES else tuple(f for f in kind._fields if f not in _NOT_NODES)
+        _FIELDS[kind] = fields
+    return fields
+
+
+def _is_inside(scope: ast.AST, child: ast.AST, below: ast.AST) -> bool:
+    """Tell whether a direct child of a scope is evaluated in it, not around it."""
+    match scope:
+        case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+            return isinstance(child, ast.stmt)
+        case ast.Lambda(body=body):
+            return child is body
+        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+            first = scope.generators[0]
+            return child is not first or below is not first.iter
+        case _:
+            return True
+
+
+def _imported(node: ast.Import | ast.ImportFrom) -> Iterator[Binding]:
+    if isinstance(node, ast.Import):
+        for alias in node.names:
+            target = alias.name if alias.asname else alias.name.partition(".")[0]
+            yield Binding(alias.asname or target, "import", alias, None, target)
+    else:
+        prefix = "." * node.level + (node.module or "")
+        for alias in node.names:
+            dot = "" if prefix.endswith(".") else "."
+            name = alias.asname or alias.name
+            yield Binding(name, "import", alias, None, f"{prefix}{dot}{alias.name}")
