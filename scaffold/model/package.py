@@ -234,6 +234,12 @@ class Package:
         """What could not be parsed among the views asked for so far."""
         return [error for error in self._views.values() if isinstance(error, ParseError)]
 
+    def forget(self) -> None:
+        """Drop the views and the list of files: they are made again when asked for."""
+        self._views.clear()
+        if isinstance(self.tree, DiskTree):
+            self.tree.forget()
+
     # -- inside
 
     @property

@@ -75,6 +75,11 @@ class DiskTree:
         """The directories that hold a package of their own."""
         return sorted(self._nested) if self._listing else ()
 
+    def forget(self) -> None:
+        """Drop the listing."""
+        self.__dict__.pop("_listing", None)
+        self._nested.clear()
+
     def read(self, path: str) -> bytes:
         """Return what is in a file; raises OSError."""
         with open(os.path.join(self.root, path), "rb") as file:
