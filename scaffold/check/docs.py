@@ -53,11 +53,12 @@ def as_data(rule: type[Rule]) -> dict[str, object]:
 
 
 def write(directory: str, rules: Sequence[type[Rule]]) -> None:
-    """Write a page per rule, and remove pages of rules that are no more."""
+    """Write a page per rule and a table of all, and remove pages of rules that are no more."""
     import os  # noqa: PLC0415  only for this
 
     os.makedirs(directory, exist_ok=True)
     pages = {f"{rule.code}.md": page(rule) for rule in rules}
+    pages["README.md"] = f"# Rules\n\n{table(rules)}\n"
     for name in os.listdir(directory):
         if name.endswith(".md") and name not in pages:
             os.remove(os.path.join(directory, name))
@@ -69,7 +70,7 @@ def write(directory: str, rules: Sequence[type[Rule]]) -> None:
 def table(rules: Sequence[type[Rule]]) -> str:
     """Return a Markdown table of rules."""
     rows = [
-        f"| [{rule.code}](docs/rules/{rule.code}.md) | {rule.name} | {rule.severity.value} "
+        f"| [{rule.code}]({rule.code}.md) | {rule.name} | {rule.severity.value} "
         f"| {'yes' if has_fix(rule) else ''} | {summary(rule)} |"
         for rule in rules
     ]
