@@ -1,0 +1,36 @@
+"""LY002: no package lies inside another one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+
+class NestedPackage(Rule):
+    """A package lies inside another package.
+
+    **Why.** colcon does not look inside a package that it has found: the inner one is never
+    built, without a message.
+
+    **Fix.** Move the inner package beside the outer one, below ``src/``.
+
+    **Source.** ROS 2 documentation, "Creating a package": "You can also not have nested packages".
+    """
+
+    code = "LY002"
+    name = "nested-package"
+    examples = (
+        Example("one package", {"package.xml": "<package/>\n", "msgs/readme.txt": ""}),
+        Example(
+            "a package of messages inside the package that uses them",
+            {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
+            at=("robot_msgs/package.xml:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        outer = package.name or "the package above it"
+        for directory in package.tree.nested:
+            at = package.start_of(f"{directory}/package.xml")
+            yield self.report(at, f"lies inside the package {outer!r}: colcon never builds it")
