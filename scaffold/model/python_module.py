@@ -297,29 +297,34 @@ class PythonModule:
         as it is; relative imports keep their dots. ``None`` for what the module makes itself
         and for what cannot be told.
         """
-        parts: list[str] = []
+        names = self.qualified_names(node)
+        return next(iter(names)) if len(names) == 1 else None
+
+    def qualified_names(self, node: ast.AST) -> frozenset[str]:
+        """Return all full names that an expression may have: imports in ``try`` give several.
+
+        Empty for what the module makes itself and for what cannot be told.
+        """
+        parts = ""
         while isinstance(node, ast.Attribute):
-            parts.append(node.attr)
+            parts = f".{node.attr}{parts}"
             node = node.value
         if not isinstance(node, ast.Name):
-            return None
-        root = self._imported_as(node)
-        if root is None:
-            return None
+            return frozenset()
+        roots = self._imported_as(node)
         if not parts:
-            return root
-        dot = "" if root.endswith(".") else "."
-        return f"{root}{dot}{'.'.join(reversed(parts))}"
+            return roots
+        return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)
 
-    def _imported_as(self, node: ast.Name) -> str | None:
+    def _imported_as(self, node: ast.Name) -> frozenset[str]:
         found = self.index.lookup(node.id, node)
         if found is None:
             is_star = "*" in self.index.bindings(self.tree)
-            return node.id if hasattr(builtins, node.id) and not is_star else None
-        targets = {binding.target for binding in found[1]}
-        if len(targets) != 1 or any(binding.kind != "import" for binding in found[1]):
-            return None
-        return targets.pop()
+            is_builtin = hasattr(builtins, node.id) and not is_star
+            return frozenset({node.id} if is_builtin else ())
+        if any(binding.kind != "import" for binding in found[1]):
+            return frozenset()
+        return frozenset(binding.target for binding in found[1])
 
     # -- import statements
 
