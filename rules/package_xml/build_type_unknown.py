@@ -1,0 +1,53 @@
+"""PX012: the build type exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+
+KNOWN = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "python")
+
+
+class BuildTypeUnknown(Rule):
+    """``<build_type>`` is misspelt.
+
+    **Why.** colcon has no task for it: the package is skipped or built by the wrong one.
+
+    **Fix.** Write ``ament_cmake``, ``ament_python`` or ``cmake``.
+
+    **Source.** REP-149, ``<build_type>``; ``colcon_ros`` extension points.
+    """
+
+    code = "PX012"
+    name = "build-type-unknown"
+    examples = (
+        Example(
+            "known",
+            {"package.xml": "<package><export><build_type>cmake</build_type></export></package>\n"},
+        ),
+        Example(
+            "misspelt",
+            {
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_pyton</build_type>\n"
+                "</export></package>\n"
+            },
+            at=("package.xml:2",),
+            fixed={
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_python</build_type>\n"
+                "</export></package>\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element in package.manifest.build_type_elements:
+            near = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
+            if element.text in KNOWN or not near:
+                continue
+            message = f"colcon knows no build type {element.text!r}; {near[0]!r} is meant"
+            edit = Edit("package.xml", *element.text_span, near[0])
+            yield self.report(element.text_location, message, Fix(f"write {near[0]}", (edit,)))

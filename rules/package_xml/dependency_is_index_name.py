@@ -1,0 +1,46 @@
+"""PX023: Python libraries are declared by their rosdep key."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.known import keys_of_module, module_of_key
+
+
+class DependencyIsIndexName(Rule):
+    """A dependency is named as Python's package index does, not as rosdep does.
+
+    **Why.** rosdep finds no rule for ``numpy``: ``rosdep install`` and the release stop.
+
+    **Fix.** Write the rosdep key, usually ``python3-`` and the name.
+
+    **Source.** ROS 2 documentation, "Using Python packages with ROS 2".
+    """
+
+    code = "PX023"
+    name = "dependency-is-index-name"
+    examples = (
+        Example(
+            "the rosdep key",
+            {"package.xml": "<package><exec_depend>python3-numpy</exec_depend></package>\n"},
+        ),
+        Example(
+            "the name for pip",
+            {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
+            at=("package.xml:2",),
+            fixed={
+                "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for dependency in package.manifest.dependencies:
+            module = module_of_key(dependency.name)
+            if module is None or package.workspace.get(dependency.name) is not None:
+                continue
+            key = keys_of_module(module)[0]
+            message = f"rosdep has no rule for {dependency.name!r}; its key is {key!r}"
+            edit = Edit("package.xml", *dependency.element.text_span, key)
+            yield self.report(dependency, message, Fix(f"write {key}", (edit,)))

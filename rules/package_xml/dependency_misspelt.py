@@ -1,0 +1,45 @@
+"""PX022: dependencies are spelt right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.known import similar_package
+
+
+class DependencyMisspelt(Rule):
+    """A dependency has the name of a well-known package, but for a letter.
+
+    **Why.** rosdep finds no rule for it: ``rosdep install`` and the release stop.
+
+    **Fix.** Write the name as the package spells it.
+
+    **Source.** ROS 2 documentation, "Managing dependencies with rosdep".
+    """
+
+    code = "PX022"
+    name = "dependency-misspelt"
+    examples = (
+        Example(
+            "right, and one that nobody knows",
+            {"package.xml": "<package>\n  <depend>std_msgs</depend>\n"
+             "  <depend>our_own_msgs</depend>\n</package>\n"},
+        ),
+        Example(
+            "a letter is missing",
+            {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
+            at=("package.xml:2",),
+            fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for dependency in package.manifest.dependencies:
+            name = dependency.name
+            meant = similar_package(name)
+            if meant is None or package.workspace.get(name) is not None or name == package.name:
+                continue
+            message = f"no package {name!r} is known; {meant!r} is meant"
+            edit = Edit("package.xml", *dependency.element.text_span, meant)
+            yield self.report(dependency, message, Fix(f"write {meant}", (edit,)))

@@ -1,0 +1,52 @@
+"""PX024: dependencies exist in ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.known import ROS1_PACKAGES
+
+
+class DependencyOfRos1(Rule):
+    """A dependency is a package of ROS 1.
+
+    **Why.** ROS 2 does not have it: rosdep finds no rule, and a build that looks for it stops.
+
+    **Fix.** Depend on what took its place. No automatic fix: the code has to change with it.
+
+    **Source.** ROS 2 documentation, "Migrating your package.xml to ROS 2".
+    """
+
+    code = "PX024"
+    name = "dependency-of-ros1"
+    examples = (
+        Example("of ROS 2", {"package.xml": "<package><depend>rclpy</depend></package>\n"}),
+        Example(
+            "for ROS 1 only, by its condition",
+            {
+                "package.xml": '<package format="3">\n'
+                '  <depend condition="$ROS_VERSION == 1">rospy</depend>\n</package>\n'
+            },
+        ),
+        Example(
+            "left over",
+            {
+                "package.xml": "<package>\n"
+                "  <buildtool_depend>catkin</buildtool_depend>\n"
+                "  <depend>rospy</depend>\n"
+                "</package>\n"
+            },
+            at=("package.xml:2", "package.xml:3"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        if manifest.build_type == "catkin":
+            return
+        for dependency in manifest.dependencies:
+            name = dependency.name
+            heir = ROS1_PACKAGES.get(name)
+            if heir and dependency.active and package.workspace.get(name) is None:
+                yield self.report(dependency, f"{name!r} is of ROS 1; ROS 2 has {heir} instead")

@@ -1,0 +1,50 @@
+"""PX002: the package is described."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.placeholders import is_placeholder
+
+
+class DescriptionPlaceholder(Rule):
+    """``<description>`` is empty or still waits for its text.
+
+    **Why.** catkin_pkg, and with it colcon and bloom, refuses an empty description; a placeholder
+    becomes the text of the Debian package.
+
+    **Fix.** Say in a sentence what the package is for.
+
+    **Source.** REP-149, ``<description>``; ``catkin_pkg.package.Package.validate``.
+    """
+
+    code = "PX002"
+    name = "description-placeholder"
+    examples = (
+        Example(
+            "a sentence",
+            {"package.xml": "<package><description>Talks.</description></package>\n"},
+        ),
+        Example(
+            "as written by ros2 pkg create",
+            {
+                "package.xml": "<package>\n"
+                "  <description>TODO: Package description</description>\n"
+                "</package>\n"
+            },
+            at=("package.xml:2",),
+        ),
+        Example(
+            "nothing",
+            {"package.xml": "<package>\n  <description> </description>\n</package>\n"},
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element in package.manifest.all("description"):
+            if is_placeholder(element.text):
+                yield self.report(element, f"the description is a placeholder, {element.text!r}")
+            elif not element.text:
+                yield self.report(element, "the description is empty: colcon refuses the package")

@@ -1,0 +1,76 @@
+"""PX020: what is imported is declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.model.needs import declared, needs
+
+
+class ImportUndeclared(Rule):
+    """Python code imports a package that the manifest does not declare.
+
+    **Why.** It works on the machine of its author; on a clean one rosdep does not install the
+    package and the node ends with ``ModuleNotFoundError``.
+
+    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it.
+
+    **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
+    """
+
+    code = "PX020"
+    name = "import-undeclared"
+    examples = (
+        Example(
+            "declared; the standard library, own modules and guarded imports need nothing",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import math\n\nimport rclpy\nfrom talker.text import hello\n"
+                "try:\n    import numpy\nexcept ImportError:\n    numpy = None\n",
+                "talker/text.py": "",
+            },
+        ),
+        Example(
+            "a message package and a Python library are missing",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
+                "test/test_node.py": "import numpy\n",
+            },
+            at=("package.xml:3", "package.xml:3"),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "  <exec_depend>std_msgs</exec_depend>\n"
+                "  <test_depend>python3-numpy</test_depend>\n"
+                "</package>\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        for need in needs(package):
+            there = declared(package, for_tests=need.for_tests)
+            if any(key in there.direct or key in there.along for key in need.keys):
+                continue
+            tag = "test_depend" if need.for_tests else "exec_depend"
+            tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
+            last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
+            at = need.location
+            message = (
+                f"{at.path}:{at.line} imports {need.module!r}, which no dependency here provides; "
+                f"add <{tag}>{need.keys[0]}</{tag}>"
+            )
+            fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
+            yield self.report(last.name_location, message, fix)

@@ -1,0 +1,61 @@
+"""PX003: somebody maintains the package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.placeholders import is_placeholder, is_placeholder_address
+
+
+class MaintainerPlaceholder(Rule):
+    """``<maintainer>`` or ``<author>`` has no name, or an address that reaches nobody.
+
+    **Why.** The build farm writes to this address when the package breaks.
+
+    **Fix.** Write a name and an address that is read.
+
+    **Source.** REP-149, ``<maintainer>``; ``ros2 pkg create`` writes ``@todo.todo``.
+    """
+
+    code = "PX003"
+    name = "maintainer-placeholder"
+    examples = (
+        Example(
+            "somebody",
+            {
+                "package.xml": "<package>\n"
+                '  <maintainer email="ada@example.com">Ada Lovelace</maintainer>\n'
+                "</package>\n"
+            },
+        ),
+        Example(
+            "as written by ros2 pkg create",
+            {
+                "package.xml": "<package>\n"
+                '  <maintainer email="root@todo.todo">root</maintainer>\n'
+                "</package>\n"
+            },
+            at=("package.xml:2",),
+        ),
+        Example(
+            "no name",
+            {
+                "package.xml": "<package>\n"
+                '  <maintainer email="ada@example.com"></maintainer>\n'
+                "</package>\n"
+            },
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for tag in ("maintainer", "author"):
+            for element in package.manifest.all(tag):
+                address = element.attributes.get("email")
+                if address and is_placeholder_address(address.value):
+                    yield self.report(address, f"{address.value!r} of <{tag}> reaches nobody")
+                if not element.text:
+                    yield self.report(element, f"<{tag}> has no name")
+                elif is_placeholder(element.text):
+                    yield self.report(element, f"the name of <{tag}> is a placeholder")

@@ -1,0 +1,58 @@
+"""PX010: the manifest names its schema."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+
+LINE = (
+    '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" '
+    'schematypens="http://www.w3.org/2001/XMLSchema"?>'
+)
+
+
+class XmlModelMissing(Rule):
+    """package.xml has no ``<?xml-model ...?>`` line.
+
+    **Why.** ament_xmllint then accepts any content, and colcon drops an invalid manifest without
+    a warning: the package just is not there.
+
+    **Fix.** Add the line for the manifest's format.
+
+    **Source.** ``ament_xmllint/main.py``; ``colcon_ros/package_identification/ros.py``.
+    """
+
+    code = "PX010"
+    name = "xml-model-missing"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "with its schema",
+            {
+                "package.xml": '<?xml version="1.0"?>\n'
+                f'{LINE.format(3)}\n<package format="3"/>\n'
+            },
+        ),
+        Example(
+            "without",
+            {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
+            at=("package.xml:2",),
+            fixed={
+                "package.xml": '<?xml version="1.0"?>\n'
+                f'{LINE.format(3)}\n<package format="3"/>\n'
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        if manifest.xml_models:
+            return
+        fix = None
+        start = manifest.root.start
+        if manifest.format in (1, 2, 3):
+            text = LINE.format(manifest.format) + manifest.source.newline
+            fix = Fix("name the schema", (Edit("package.xml", start, start, text),))
+        at = manifest.root.name_location
+        yield self.report(at, "no <?xml-model ...?> line: no tool validates this manifest", fix)

@@ -1,0 +1,132 @@
+"""What the Python code of a package needs from other packages: its imports, as manifest keys."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.errors import ViewError
+from scaffold.model.known import ROS1_PACKAGES, keys_of_module, provided_by
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python_module import Import, PythonModule
+    from scaffold.model.source import Location
+
+INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
+_NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
+_OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
+
+
+class Need(NamedTuple):
+    """An import that another package has to provide."""
+
+    keys: tuple[str, ...]
+    """The manifest keys that would do, the usual one first."""
+    module: str
+    """The top-level name that is imported."""
+    location: Location
+    """The first import of it."""
+    for_tests: bool
+    """Only tests import it."""
+
+
+class Declared(NamedTuple):
+    """What the manifest says is there, directly and along the way."""
+
+    direct: set[str]
+    along: set[str]
+
+
+def needs(package: Package) -> list[Need]:
+    """Return what the package imports from others, once each; what is not known is left out."""
+    found: dict[str, Need] = {}
+    local = _local_names(package)
+    for module in package.modules():
+        if not is_shipped(package, module):
+            continue
+        for one in module.imports:
+            keys = _keys(package, one, local)
+            if not keys:
+                continue
+            known = found.get(one.root)
+            if known is None or (known.for_tests and not module.in_tests):
+                found[one.root] = Need(keys, one.root, one.location, module.in_tests)
+    return sorted(found.values(), key=lambda need: need.location)
+
+
+def declared(package: Package, *, for_tests: bool) -> Declared:
+    """Return what is there when the package runs, or when its tests run."""
+    manifest = package.manifest
+    direct = set(manifest.run_names)
+    if for_tests:
+        direct |= manifest.test_names | manifest.build_names
+    along = provided_by(direct)
+    for name in sorted(direct):
+        neighbour = package.workspace.get(name)
+        if neighbour is not None and neighbour is not package:
+            along |= _run_names(neighbour)
+    return Declared(direct, along | provided_by(along))
+
+
+def is_shipped(package: Package, module: PythonModule) -> bool:
+    """Tell whether a file is installed or is a test; helper scripts and documentation are not.
+
+    A module of a Python package, a launch file, a test, or a script that a build file names.
+    """
+    path = module.path
+    if path.startswith(_NOT_SHIPPED):
+        return False
+    if module.in_tests or path.endswith("launch.py") or not path.endswith(".py"):
+        return True
+    directory, _, name = path.rpartition("/")
+    if directory and package.has(f"{directory}/__init__.py"):
+        return True
+    return any(name in text or (directory and f"{directory}" in text) for text in _builds(package))
+
+
+def _builds(package: Package) -> Iterator[str]:
+    for path in ("CMakeLists.txt", "setup.py"):
+        try:
+            yield package.source(path).text
+        except ViewError:
+            continue
+
+
+def _keys(package: Package, one: Import, local: frozenset[str]) -> tuple[str, ...]:
+    root = one.root
+    if not root or one.guarded or root in local or root == package.name:
+        return ()
+    if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
+        return ()
+    known = keys_of_module(root)
+    if known:
+        return known
+    names = one.module.split(".")
+    is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
+    if is_interface or package.workspace.get(root) is not None or root in ROS1_PACKAGES:
+        return (root,)
+    return ()
+
+
+def _local_names(package: Package) -> frozenset[str]:
+    """Return the names of own modules: scripts import what lies beside them.
+
+    A directory counts when it is a Python package, or when no ROS package has its name: nearly
+    every package has a ``launch/``, which is not what ``import launch`` means.
+    """
+    files = {path.rpartition("/")[2][:-3] for path in package.python_files if path.endswith(".py")}
+    directories = {
+        path.rpartition("/")[2]
+        for path in package.tree.directories
+        if package.has(f"{path}/__init__.py") or not keys_of_module(path.rpartition("/")[2])
+    }
+    return frozenset(files | directories)
+
+
+def _run_names(package: Package) -> set[str]:
+    try:
+        return package.manifest.run_names
+    except ViewError:
+        return set()
