@@ -107,7 +107,8 @@ def _which(name: str) -> str | None:
 
 
 def _missing(name: str) -> str:
-    return f"{name} is not installed: apt-get install {SYSTEM_LINTERS[name]}"
+    ros = "ros-jazzy-" + name.replace("_", "-")
+    return f"{name} is not installed: apt-get install {SYSTEM_LINTERS[name]} (or {ros})"
 
 
 def _from_environment(name: str) -> str:

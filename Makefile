@@ -1,0 +1,81 @@
+# Every target makes the virtual environment that it needs in .venv/. Nothing outside of this
+# directory is changed.
+
+VENV = .venv
+BIN = $(VENV)/bin
+PYTHONS = python3 python3.12 python3.13 python3.11 python3.10
+PIP_INSTALL = $(BIN)/python -m pip --disable-pip-version-check install --quiet
+
+DEMO = demo
+SCAFFOLD = $(BIN)/ros2-scaffold
+
+# Set while a program of another environment with the ROS wheels runs make.
+ifdef _ROS_WHEELS_BOOTSTRAP_COMPLETE
+unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH
+endif
+
+.PHONY: help
+help:
+	@echo 'make demo        generate a package, check it, build it, run it, observe it'
+	@echo 'make test        all tests, real builds included; PYTEST_ARGS=... for pytest'
+	@echo 'make test-quick  the tests without real builds'
+	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
+	@echo 'make lint        ruff and mypy on the whole repository'
+	@echo 'make format      let ruff format the code'
+	@echo 'make docs        write docs/rules from the rules'
+	@echo 'make benchmark   how fast the tool is, as ratios'
+	@echo 'make clean       remove what all of these have made'
+
+.PHONY: test
+test: $(VENV)/test.stamp
+	$(BIN)/python -m pytest $(PYTEST_ARGS)
+
+.PHONY: test-quick
+test-quick: $(VENV)/test.stamp
+	$(BIN)/python -m pytest -m 'not build' $(PYTEST_ARGS)
+
+.PHONY: versions
+versions: $(VENV)/test.stamp
+	$(BIN)/nox -- $(PYTEST_ARGS)
+
+.PHONY: lint
+lint: $(VENV)/test.stamp
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+.PHONY: format
+format: $(VENV)/test.stamp
+	$(BIN)/ruff format .
+
+.PHONY: docs
+docs: $(VENV)/test.stamp
+	$(SCAFFOLD) rules --write-docs docs/rules
+
+.PHONY: clean
+clean:
+	rm -rf $(VENV) $(DEMO) .nox build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The environment. A stamp is younger than what its contents were made from.
+
+$(VENV)/demo.stamp: $(VENV)/made.stamp pyproject.toml
+	@echo 'installing ros2-scaffold and ROS 2 Jazzy into $(VENV)/ (about 350 MB, once)'
+	@$(PIP_INSTALL) --editable '.[ros]'
+	@touch $@
+
+$(VENV)/test.stamp: $(VENV)/made.stamp pyproject.toml
+	@echo 'installing ros2-scaffold, ROS 2 Jazzy and the test tools into $(VENV)/ (once)'
+	@$(PIP_INSTALL) --editable '.[ros,test]'
+	@touch $@ $(VENV)/demo.stamp
+
+$(VENV)/made.stamp:
+	@for python in $(PYTHON) $(PYTHONS); do \
+	  $$python -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 10))' \
+	    2> /dev/null || continue; \
+	  $$python -m venv --clear $(VENV) && touch $@ && exit 0; \
+	done; \
+	echo 'no Python 3.10 or newer with its venv module was found; on Debian and Ubuntu:' >&2; \
+	echo '  apt-get install python3-venv' >&2; \
+	echo 'or say which one to use: make PYTHON=/path/to/python3' >&2; \
+	exit 1

@@ -1,0 +1,22 @@
+"""The tests on every supported Python that this machine has; ``make test`` uses one."""
+
+from __future__ import annotations
+
+import nox
+
+PYTHONS = ["3.10", "3.11", "3.12", "3.13"]
+
+nox.needs_version = ">=2025.2"
+nox.options.default_venv_backend = "venv"
+nox.options.download_python = "never"
+nox.options.error_on_missing_interpreters = False
+
+
+@nox.session(python=PYTHONS)
+def tests(session: nox.Session) -> None:
+    """Run the tests; arguments after ``--`` are for pytest."""
+    # The ROS wheels of the environment that nox itself runs in have set these; with them this
+    # session would load the libraries of another Python.
+    session.env.update({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": None, "LD_LIBRARY_PATH": None})
+    session.install("--editable", ".[ros,test]")
+    session.run("python", "-m", "pytest", *session.posargs)
