@@ -1,0 +1,129 @@
+"""What is in the repository is in the distributions, and works from there."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from scaffold import __version__, content
+from scaffold.check import registry
+from scaffold.check.session import all_rules
+from tests.oracles import system_environment
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a directory with the sdist, and the wheel made from it."""
+    directory = tmp_path_factory.mktemp("dist")
+    run(sys.executable, "-m", "build", "--no-isolation", "--outdir", directory, ROOT)
+    return directory
+
+
+@pytest.fixture(scope="module")
+def wheel(built: Path) -> Path:
+    return only(built, "*.whl")
+
+
+@pytest.fixture(scope="module")
+def command(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return ``ros2-scaffold`` of an environment that the wheel alone is installed in.
+
+    The libraries that it needs are those of this environment, of which a ``.pth`` file shows the
+    packages but not the ``.pth`` files, so not the checkout.
+    """
+    fresh = tmp_path_factory.mktemp("installed") / "venv"
+    venv.create(fresh, symlinks=True)
+    python = fresh / "bin" / "python"
+    options = ["--quiet", "--no-deps", "--no-index", "--disable-pip-version-check"]
+    run(sys.executable, "-m", "pip", "--python", python, "install", *options, wheel)
+    site_packages = only(fresh, "lib/python*/site-packages")
+    (site_packages / "libraries.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    return fresh / "bin" / "ros2-scaffold"
+
+
+def test_wheel_holds_the_repository(wheel: Path) -> None:
+    names = names_in_wheel(wheel)
+    assert {name for name in names if ".dist-info/" not in name} == {
+        *tracked("scaffold"),
+        *(f"scaffold/_content/{path}" for path in tracked("rules", "templates")),
+    }
+
+
+def test_wheel_says_what_it_is(wheel: Path) -> None:
+    information = f"ros2_scaffold-{__version__}.dist-info"
+    with zipfile.ZipFile(wheel) as archive:
+        entry_points = archive.read(f"{information}/entry_points.txt").decode()
+        licence = archive.read(f"{information}/licenses/LICENSE")
+    assert "ros2-scaffold = scaffold.cli.main:main" in entry_points.splitlines()
+    assert licence == (ROOT / "LICENSE").read_bytes()
+
+
+def test_wheel_of_the_checkout_is_that_of_the_sdist(wheel: Path, tmp_path: Path) -> None:
+    run(sys.executable, "-m", "build", "--no-isolation", "--wheel", "--outdir", tmp_path, ROOT)
+    assert names_in_wheel(only(tmp_path, "*.whl")) == names_in_wheel(wheel)
+
+
+def test_sdist_holds_the_repository(built: Path) -> None:
+    with tarfile.open(only(built, "*.tar.gz")) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert names - {"PKG-INFO"} == tracked()
+
+
+def test_installed_command_has_its_content(command: Path, tmp_path: Path) -> None:
+    assert run(command, "--version", cwd=tmp_path) == f"ros2-scaffold {__version__}\n"
+
+    rules = json.loads(run(command, "rules", "--format", "json", cwd=tmp_path))
+    checkout = all_rules(registry.load(content.roots("rules")))
+    assert [rule["code"] for rule in rules] == [rule.code for rule in checkout]
+
+    program = "from scaffold import content; print(content.built_in())"
+    found = run(command.parent / "python", "-c", program, cwd=tmp_path).strip()
+    assert Path(found).is_relative_to(command.parent.parent)
+
+
+def run(*command: str | Path, cwd: Path = ROOT) -> str:
+    """Run a program of any environment; return what it prints."""
+    done = subprocess.run(
+        command,
+        cwd=cwd,
+        env=system_environment(),
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def tracked(*directories: str) -> set[str]:
+    """Return the files of the repository, those not committed yet included."""
+    if not (ROOT / ".git").exists():
+        pytest.skip("not a git checkout: nothing tells which files belong to it")
+    listed = run(
+        "git", "-c", f"safe.directory={ROOT}", "ls-files", "-z", "--cached", "--others",
+        "--exclude-standard", "--", *directories,
+    )  # fmt: skip
+    return {name for name in listed.split("\0") if name and os.path.lexists(ROOT / name)}
+
+
+def names_in_wheel(wheel: Path) -> set[str]:
+    with zipfile.ZipFile(wheel) as archive:
+        return set(archive.namelist())
+
+
+def only(directory: Path, pattern: str) -> Path:
+    """Return the one path that matches."""
+    (found,) = directory.glob(pattern)
+    return found
