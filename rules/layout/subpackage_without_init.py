@@ -1,0 +1,74 @@
+"""LY004: every imported directory is a Python package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.model.python_module import Import
+
+_FILES = {
+    "talker/__init__.py": "",
+    "talker/node.py": "from talker.text.hello import hello\n",
+    "talker/text/hello.py": "",
+}
+
+
+class SubpackageWithoutInit(Rule):
+    """A directory of modules that are imported has no ``__init__.py``.
+
+    **Why.** setuptools and ``ament_python_install_package`` leave the directory out: it works in
+    the source tree, and installed it is ``ModuleNotFoundError: No module named 'talker.text'``.
+
+    **Fix.** Add an empty ``__init__.py``.
+
+    **Source.** setuptools documentation, "Package discovery".
+    """
+
+    code = "LY004"
+    name = "subpackage-without-init"
+    examples = (
+        Example("with", {**_FILES, "talker/text/__init__.py": ""}),
+        Example(
+            "without",
+            _FILES,
+            at=("talker/text/__init__.py:1",),
+            fixed={"talker/text/__init__.py": ""},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        told: set[str] = set()
+        for module in package.modules():
+            for one in module.imports:
+                for directory in _directories(package, module.path, one):
+                    init = f"{directory}/__init__.py"
+                    if init in told or package.has(init):
+                        continue
+                    told.add(init)
+                    at = one.location
+                    message = (
+                        f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
+                        "installed without it"
+                    )
+                    fix = Fix(f"create {init}", (CreateFile(init, ""),))
+                    yield self.report(package.start_of(init), message, fix)
+
+
+def _directories(package: Package, path: str, one: Import) -> Iterator[str]:
+    """Yield the directories below an import package that an import goes through."""
+    if one.level:
+        base = path.split("/")[: -one.level]
+        parts = [*base, *(one.module.split(".") if one.module else ())]
+    else:
+        parts = one.module.split(".")
+    if not parts or not package.has(f"{parts[0]}/__init__.py"):
+        return
+    for depth in range(2, len(parts) + 1):
+        directory = "/".join(parts[:depth])
+        if package.has_directory(directory) and not package.has(f"{directory}.py"):
+            yield directory
+    for name in one.names:
+        directory = "/".join([*parts, name.name])
+        if package.has_directory(directory) and package.glob(f"{directory}/*.py"):
+            yield directory

@@ -1,0 +1,87 @@
+"""SP011: what data_files name exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.setup_files import matches
+from scaffold.model.values import Glob
+
+_SETUP = (
+    "from glob import glob\n\nfrom setuptools import setup\n\n"
+    "setup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
+)
+
+
+class DataFileMissing(Rule):
+    """data_files name a file that does not exist, or a pattern that matches none of the files.
+
+    **Why.** A missing file stops the build. A pattern that matches nothing is silent: the files
+    beside it are not there at run time.
+
+    **Fix.** Write the name, or the ending, that the files have.
+
+    **Source.** setuptools documentation, ``data_files``; ROS 2 documentation, "Integrating launch
+    files into ROS 2 packages".
+    """
+
+    code = "SP011"
+    name = "data-file-missing"
+    examples = (
+        Example(
+            "there; an empty directory may have no files yet",
+            {
+                "setup.py": _SETUP.format(
+                    "        ('share/talker', ['package.xml']),\n"
+                    "        ('share/talker/maps', glob('maps/*')),\n"
+                ),
+                "package.xml": "<package/>\n",
+            },
+        ),
+        Example(
+            "no such file, and files with another ending",
+            {
+                "setup.py": _SETUP.format(
+                    "        ('share/talker', ['package.xml', 'LICENCE']),\n"
+                    "        ('share/talker/launch', glob('launch/*_launch.py')),\n"
+                ),
+                "package.xml": "<package/>\n",
+                "launch/talk.launch.py": "",
+            },
+            at=("setup.py:8", "setup.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        marker = f"resource/{package.name}"
+        for data in package.setup_py.data_files:
+            if data.conditional:
+                continue
+            for source, at in zip(data.sources, data.source_locations, strict=True):
+                if isinstance(source, Glob):
+                    message = self._nothing_matches(package, source)
+                    if message:
+                        yield self.report(at, message)
+                elif isinstance(source, str) and source != marker:
+                    path = source.removeprefix("./")
+                    if "resource/" in path or package.has(path) or path.startswith(("/", "../")):
+                        continue
+                    what = "a directory" if package.has_directory(path) else "not there"
+                    yield self.report(at, f"data_files names {source}, which is {what}")
+
+    def _nothing_matches(self, package: Package, pattern: Glob) -> str | None:
+        directory, _, name = pattern.pattern.rpartition("/")
+        beside = [
+            path
+            for path in package.files
+            if path.startswith(f"{directory}/") and path.endswith((".py", ".yaml", ".xml"))
+        ]
+        if not directory or "*" in directory or not beside or pattern.filtered:
+            return None
+        if matches(pattern, package.files):
+            return None
+        ending = name.replace("*", "")
+        if not any(ending[-3:] == path[-3:] for path in beside):
+            return None
+        return f"the pattern {pattern.pattern} matches no file; {beside[0]} is there"

@@ -1,0 +1,87 @@
+"""SP001: entry points lead to functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.model.setup_py import EntryPoint
+
+_SETUP = "from setuptools import setup\n\nsetup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+
+
+class EntryPointMissing(Rule):
+    """A console script names a module or a function that does not exist.
+
+    **Why.** The build passes; ``ros2 run`` ends with ``ModuleNotFoundError`` or
+    ``AttributeError: module 'talker.node' has no attribute 'run'``.
+
+    **Fix.** Write the module and function that exist.
+
+    **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)".
+    """
+
+    code = "SP001"
+    name = "entry-point-missing"
+    examples = (
+        Example(
+            "a function that is there",
+            {
+                "setup.py": _SETUP.format("        'talker = talker.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+        ),
+        Example(
+            "another function, another module",
+            {
+                "setup.py": _SETUP.format(
+                    "        'talker = talker.node:run',\n        'other = talker.nodes:main',\n"
+                ),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            at=("setup.py:5", "setup.py:6"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for entry in package.setup_py.console_scripts:
+            if entry.malformed or not entry.module or not entry.function:
+                continue
+            problem = self._problem(package, entry)
+            if problem:
+                message = f"{problem}: `ros2 run` of {entry.name!r} fails"
+                yield self.report(entry, message)
+
+    def _problem(self, package: Package, entry: EntryPoint) -> str | None:
+        root, *_ = entry.module.split(".")
+        if not package.has_directory(root):
+            return self._missing_package(package, root)
+        base = entry.module.replace(".", "/")
+        path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
+        if path is None:
+            near = get_close_matches(f"{base}.py", package.python_files, n=1)
+            hint = f"; {near[0]} is near" if near else ""
+            return f"there is no {base}.py{hint}"
+        try:
+            module = package.module(path)
+        except ViewError:
+            return None
+        function = entry.function.partition(".")[0]
+        if module.defines(function) is not False:
+            return None
+        near = get_close_matches(function, list(module.functions), n=1)
+        hint = f"; it has {near[0]}()" if near else ""
+        return f"{path} has no {function!r}{hint}"
+
+    def _missing_package(self, package: Package, root: str) -> str | None:
+        where = package.setup_py.keyword("package_dir")
+        own = [path.partition("/")[0] for path in package.glob("*/__init__.py")]
+        if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
+            near = get_close_matches(root, own, n=1)
+            if where is None and near and not package.has(f"{root}.py"):
+                return f"the package has no module {root!r}; {near[0]} is near"
+            return None
+        return f"there is no directory {root}/"

@@ -1,0 +1,68 @@
+"""SP006: the marker of the ament index is there and installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+
+INDEX = "share/ament_index/resource_index/packages"
+_MANIFEST = (
+    "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
+)
+_SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[{}],\n)\n"
+_BOTH = f"('{INDEX}', ['resource/talker']), ('share/talker', ['package.xml'])"
+
+
+class MarkerMissing(Rule):
+    """The file ``resource/<package>`` is missing, or data_files do not install it.
+
+    **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the line
+    colcon warns and helps itself, and the released Debian package is not found by ``ros2``.
+
+    **Fix.** Create the empty file, and install it to the ament index.
+
+    **Source.** ROS 2 documentation, "Creating a package"; ``colcon_ros/task/ament_python/build.py``.
+    """
+
+    code = "SP006"
+    name = "marker-missing"
+    examples = (
+        Example(
+            "there and installed",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_BOTH),
+                "resource/talker": "",
+            },
+        ),
+        Example(
+            "the file is missing",
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH)},
+            at=("setup.py:5",),
+            fixed={"resource/talker": ""},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type != "ament_python" or not package.manifest.name:
+            return
+        setup = package.setup_py
+        marker = f"resource/{package.name}"
+        installed = [data for data in setup.data_files if data.destination == INDEX]
+        for data in installed:
+            for source, at in zip(data.sources, data.source_locations, strict=True):
+                if not isinstance(source, str) or package.has(source):
+                    continue
+                fix = Fix(f"create {marker}", (CreateFile(marker, ""),)) if source == marker else None
+                message = f"data_files names {source}, which does not exist: the build stops"
+                yield self.report(at, message, fix)
+            known = [source for source in data.sources if isinstance(source, str)]
+            names = [source.rpartition("/")[2] for source in known]
+            if data.complete and len(known) == len(data.sources) and package.name not in names:
+                message = f"installs {', '.join(names)} as marker; the package is {package.name!r}"
+                if all(package.has(source) for source in known):
+                    yield self.report(data.destination_location, message)
+        if not installed and setup.call is not None and setup.data_files_complete:
+            message = f"data_files does not install {marker} to {INDEX}: ros2 does not find it"
+            yield self.report(setup.keywords.get("data_files", setup), message)

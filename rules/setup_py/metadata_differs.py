@@ -1,0 +1,101 @@
+"""SP008: setup.py and package.xml say the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.manifest import Manifest
+
+_MANIFEST = (
+    '<package format="3">\n'
+    "  <name>talker</name>\n"
+    "  <version>0.2.0</version>\n"
+    "  <description>Talks.</description>\n"
+    '  <maintainer email="ada@example.com">Ada</maintainer>\n'
+    "  <license>Apache-2.0</license>\n"
+    "</package>\n"
+)
+_SETUP = (
+    "from setuptools import setup\n\n"
+    "setup(\n"
+    "    name='talker',\n"
+    "    version='{}',\n"
+    "    maintainer='Ada',\n"
+    "    maintainer_email='ada@example.com',\n"
+    "    description='Talks.',\n"
+    "    license='{}',\n"
+    ")\n"
+)
+
+
+class MetadataDiffers(Rule):
+    """Version, maintainer, description or licence differ between setup.py and package.xml.
+
+    **Why.** ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things;
+    ``catkin_prepare_release`` stops at two versions.
+
+    **Fix.** Write the same in both, or read package.xml in setup.py. No automatic fix: nobody but
+    the author knows which one is right.
+
+    **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)": "match
+    exactly"; ``catkin_pkg/package_version.py``.
+    """
+
+    code = "SP008"
+    name = "metadata-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example("the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}),
+        Example(
+            "another version and another licence",
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
+            at=("setup.py:5", "setup.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        setup = package.setup_py
+        for name, wanted in _expected(manifest).items():
+            keyword = setup.keyword(name)
+            if keyword is None or not isinstance(keyword.value, str) or not wanted:
+                continue
+            if _normal(keyword.value) in {_normal(one) for one in wanted}:
+                continue
+            tag = "maintainer" if name.startswith("maintainer") else name
+            element = manifest.one(tag)
+            line = element.location.line if element else 1
+            message = (
+                f"{name} is {_short(keyword.value)}, but {_short(wanted[0])} "
+                f"in package.xml, line {line}"
+            )
+            yield self.report(keyword, message)
+
+
+def _expected(manifest: Manifest) -> dict[str, list[str]]:
+    """Return what package.xml allows for each keyword."""
+    maintainers = manifest.all("maintainer")
+    names = [element.text for element in maintainers]
+    addresses = [element.get("email") or "" for element in maintainers]
+    licenses = [element.text for element in manifest.all("license")]
+    return {
+        "version": [manifest.version] if manifest.version else [],
+        "description": [manifest.description] if manifest.description else [],
+        "maintainer": _or_all(names),
+        "maintainer_email": _or_all(addresses),
+        "license": [*_or_all(licenses), " AND ".join(licenses), " and ".join(licenses)],
+    }
+
+
+def _or_all(values: list[str]) -> list[str]:
+    return [*values, ", ".join(values), "; ".join(values)] if values else []
+
+
+def _normal(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _short(text: str) -> str:
+    plain = _normal(text)
+    return repr(plain if len(plain) <= 40 else f"{plain[:37]}...")  # noqa: PLR2004  for a line

@@ -1,0 +1,59 @@
+"""SP009: setup.py and package.xml name the same package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model import setup_keywords
+
+_MANIFEST = '<package format="3"><name>talker</name></package>\n'
+
+
+class NameDiffers(Rule):
+    """The name in setup.py is not the name in package.xml.
+
+    **Why.** Executables land below the one name and ``ros2 run`` looks below the other.
+
+    **Fix.** Use one name in setup.py, setup.cfg, ``resource/`` and package.xml.
+
+    **Source.** ``colcon_ros/task/ament_python/build.py``; ROS 2 documentation, "Creating a package".
+    """
+
+    code = "SP009"
+    name = "name-differs"
+    examples = (
+        Example(
+            "one name",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+            },
+        ),
+        Example(
+            "copied from another package",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": "from setuptools import setup\n\nsetup(name='listener')\n",
+            },
+            at=("setup.py:3",),
+            fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        name = package.manifest.name
+        keyword = package.setup_py.keyword("name")
+        if keyword is None or not isinstance(keyword.value, str) or not name:
+            return
+        if keyword.value.replace("-", "_") == name.replace("-", "_"):
+            return
+        setup = package.setup_py
+        line = package.manifest.all("name")[0].location.line
+        message = f"the name is {keyword.value!r}, but {name!r} in package.xml, line {line}"
+        start, end = setup_keywords.literal_span(setup, keyword)
+        fix = None
+        if setup.module.source.text[start + 1 : end - 1] == keyword.value:
+            edit = Edit("setup.py", start + 1, end - 1, name)
+            fix = Fix(f"write {name}", (edit,), Safety.UNSAFE)
+        yield self.report(setup.module.source.location(start, end), message, fix)

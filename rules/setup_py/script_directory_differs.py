@@ -1,0 +1,74 @@
+"""SP004: setup.cfg sends executables to ``lib/<package>``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+
+KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
+_MANIFEST = "<package><name>talker</name></package>\n"
+_SETUP = (
+    "from setuptools import setup\n\n"
+    "setup(entry_points={'console_scripts': ['talk = talker.node:main']})\n"
+)
+_CFG = "[develop]\nscript_dir={}\n[install]\ninstall_scripts={}\n"
+
+
+class ScriptDirectoryDiffers(Rule):
+    """setup.cfg does not send executables to ``$base/lib/<package>``.
+
+    **Why.** ``ros2 run`` looks in ``lib/<package>`` alone: ``No executable found``.
+
+    **Fix.** Write ``$base/lib/`` and the name in package.xml.
+
+    **Source.** ROS 2 documentation, "Creating a package"; ``ros2pkg.api.get_executable_paths``.
+    """
+
+    code = "SP004"
+    name = "script-directory-differs"
+    examples = (
+        Example(
+            "the package's own",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP,
+                "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker"),
+            },
+        ),
+        Example(
+            "of the package that it was copied from",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP,
+                "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/other"),
+            },
+            at=("setup.cfg:4",),
+            fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
+        ),
+        Example(
+            "for pip alone",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP,
+                "setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n",
+            },
+            at=("setup.cfg:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cfg = package.setup_cfg
+        wanted = f"$base/lib/{package.name}"
+        if not package.setup_py.console_scripts or not package.manifest.name:
+            return
+        for section, key in KEYS:
+            entry = cfg.get(section, key) or cfg.get(section, key.replace("_", "-"))
+            if entry is None:
+                at = package.start_of("setup.cfg")
+                yield self.report(at, f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing")
+            elif entry.value.rstrip("/") not in (wanted, wanted.replace("$base", "${base}")):
+                message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
+                edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
+                fix = Fix(f"write {wanted}", (edit,))
+                yield self.report(entry.value_location, message, fix)

@@ -1,0 +1,59 @@
+"""SP003: executables land where ``ros2 run`` looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+
+_CFG = "[develop]\nscript_dir=$base/lib/{0}\n[install]\ninstall_scripts=$base/lib/{0}\n"
+_SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
+_ENTRY = "    entry_points={'console_scripts': ['talker = talker.node:main']},\n"
+_MANIFEST = (
+    "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
+)
+
+
+class SetupCfgMissing(Rule):
+    """There is no setup.cfg that says where executables go.
+
+    **Why.** They land in ``bin/``: ``ros2 run`` answers ``No executable found``.
+
+    **Fix.** Write a setup.cfg with ``script_dir`` and ``install_scripts`` set to
+    ``$base/lib/<package>``.
+
+    **Source.** ROS 2 documentation, "Developing a ROS 2 package".
+    """
+
+    code = "SP003"
+    name = "setup-cfg-missing"
+    examples = (
+        Example(
+            "there",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY),
+                "setup.cfg": _CFG.format("talker"),
+            },
+        ),
+        Example("no executables", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("")}),
+        Example(
+            "missing",
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY)},
+            at=("setup.cfg:1",),
+            fixed={"setup.cfg": _CFG.format("talker")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        scripts = package.setup_py.console_scripts
+        if package.build_type != "ament_python" or package.has("setup.cfg") or not scripts:
+            return
+        if package.has("pyproject.toml") and "script" in package.source("pyproject.toml").text:
+            return
+        fix = Fix("write setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
+        message = (
+            f"no setup.cfg: {scripts[0].name!r} of setup.py lands in bin/, where `ros2 run` "
+            "does not look"
+        )
+        yield self.report(package.start_of("setup.cfg"), message, fix)

@@ -1,0 +1,83 @@
+"""SP010: launch files and their data are installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, launch_files
+from scaffold.model.setup_files import installed_data
+
+_MANIFEST = (
+    "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
+)
+_SETUP = (
+    "from glob import glob\n\nfrom setuptools import setup\n\n"
+    "setup(\n    name='talker',\n    data_files=[\n"
+    "        ('share/talker', ['package.xml']),\n{}    ],\n)\n"
+)
+_LAUNCH = "def generate_launch_description():\n    pass\n"
+
+
+class ShareFileNotInstalled(Rule):
+    """data_files do not install a launch file, or a directory of files read at run time.
+
+    **Why.** ``ros2 launch`` answers ``file 'talk.launch.py' was not found in the share
+    directory``; a missing parameter file is a warning among others, and nodes run with defaults.
+
+    **Fix.** Add a line such as ``('share/' + package_name + '/launch', glob('launch/*'))``.
+
+    **Source.** ROS 2 documentation, "Integrating launch files into ROS 2 packages".
+    """
+
+    code = "SP010"
+    name = "share-file-not-installed"
+    examples = (
+        Example(
+            "installed",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+            },
+        ),
+        Example(
+            "a launch file and a parameter file are forgotten",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(""),
+                "launch/talk.launch.py": _LAUNCH,
+                "config/talker.yaml": "",
+            },
+            at=("setup.py:7", "setup.py:7"),
+        ),
+        Example(
+            "a name that the pattern does not match",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+                "launch/talk_all.py": _LAUNCH,
+            },
+            at=("setup.py:7",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        installed = installed_data(package)
+        if package.build_type != "ament_python" or installed is None:
+            return
+        at = package.setup_py.keywords.get("data_files", package.setup_py)
+        for path in launch_files(package):
+            if path not in installed:
+                message = f"data_files does not install {path}: `ros2 launch` does not find it"
+                yield self.report(at, message)
+        for directory in DATA_DIRECTORIES:
+            files = data_files(package, directory)
+            if files and not installed.intersection(files):
+                message = f"data_files installs nothing of {directory}/, for instance {files[0]}"
+                yield self.report(at, message)

@@ -1,0 +1,62 @@
+"""SP013: sub-packages are installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.setup_py import FindPackages
+
+_SETUP = "from setuptools import {}\n\nsetup(\n    name='talker',\n    packages={},\n)\n"
+_FILES = {
+    "talker/__init__.py": "",
+    "talker/text/__init__.py": "",
+    "test/__init__.py": "",
+}
+_FIND = "find_packages(exclude=['test'])"
+
+
+class SubpackageNotInstalled(Rule):
+    """``packages`` lists the package, but not a sub-package of it.
+
+    **Why.** It works in the source tree; installed it is ``ModuleNotFoundError: No module named
+    'talker.text'``.
+
+    **Fix.** Write ``packages=find_packages(exclude=['test'])``.
+
+    **Source.** setuptools documentation, "Package discovery"; the template of ``ros2 pkg create``.
+    """
+
+    code = "SP013"
+    name = "subpackage-not-installed"
+    examples = (
+        Example("found", {**_FILES, "setup.py": _SETUP.format("find_packages, setup", _FIND)}),
+        Example(
+            "one listed",
+            {**_FILES, "setup.py": _SETUP.format("find_packages, setup", "['talker']")},
+            at=("setup.py:5",),
+            fixed={"setup.py": _SETUP.format("find_packages, setup", _FIND)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        packages = setup.packages
+        keyword = setup.keyword("packages")
+        if keyword is None or isinstance(packages, FindPackages) or not packages:
+            return
+        missing = sorted(
+            name
+            for path in package.files
+            if path.endswith("/__init__.py") and path.count("/") > 1
+            for name in (path.removesuffix("/__init__.py").replace("/", "."),)
+            if name.rpartition(".")[0] in packages and name not in packages
+        )
+        if not missing or setup.keyword("package_dir"):
+            return
+        fix = None
+        if "find_packages" in setup.module.index.bindings(setup.module.tree):
+            start, end = setup.module.span(keyword.node)
+            fix = Fix(f"write {_FIND}", (Edit("setup.py", start, end, _FIND),))
+        message = f"packages leaves out {', '.join(missing)}: it is not installed; write {_FIND}"
+        yield self.report(keyword, message, fix)

@@ -1,0 +1,79 @@
+"""SP012: ``colcon test`` runs the tests with pytest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model import setup_keywords
+
+EXTRAS = ("test", "tests", "testing")
+_SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
+_EXTRA = "    extras_require={'test': ['pytest']},\n"
+_TEST = "def test_talk():\n    pass\n"
+
+
+class TestsNotRun(Rule):
+    """setup.py does not say that the tests need pytest.
+
+    **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
+    tests ... OK``. setuptools 72 dropped ``tests_require``, which used to say it.
+
+    **Fix.** Write ``extras_require={'test': ['pytest']}``.
+
+    **Source.** ``colcon_core/task/python/test``; colcon-core issue 678.
+    """
+
+    code = "SP012"
+    name = "tests-not-run"
+    examples = (
+        Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
+        Example("no tests", {"setup.py": _SETUP.format("")}),
+        Example(
+            "not said",
+            {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
+            at=("setup.py:3",),
+            fixed={"setup.py": _SETUP.format(_EXTRA)},
+        ),
+        Example(
+            "said in the old way",
+            {
+                "setup.py": _SETUP.format("    tests_require=['pytest'],\n"),
+                "test/test_talker.py": _TEST,
+            },
+            at=("setup.py:5",),
+            fixed={"setup.py": _SETUP.format(_EXTRA)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if package.build_type != "ament_python" or setup.call is None:
+            return
+        tests = [*package.glob("test/test_*.py"), *package.glob("tests/test_*.py")]
+        if not tests or setup.has_unknown_keywords or self._has_extra(package):
+            return
+        old = setup.keyword("tests_require")
+        new = "extras_require={'test': ['pytest']}"
+        if old is not None:
+            span = setup_keywords.span(setup, "tests_require")
+            message = "setuptools 72 and later ignore tests_require: colcon runs 0 tests"
+            edit = Edit("setup.py", *span, new) if span else None
+            at = old.location
+        else:
+            message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {new}"
+            edit = setup_keywords.insert(setup, new)
+            at = setup.location
+        can_fix = edit is not None and setup.keyword("extras_require") is None
+        yield self.report(at, message, Fix(f"write {new}", (edit,)) if edit and can_fix else None)
+
+    def _has_extra(self, package: Package) -> bool:
+        extras = package.setup_py.keyword("extras_require")
+        if extras is None:
+            return "extras_require" in self._text(package, "setup.cfg")
+        if not isinstance(extras.value, dict):
+            return True
+        return any(name in extras.value for name in EXTRAS)
+
+    def _text(self, package: Package, path: str) -> str:
+        return package.source(path).text if package.has(path) else ""
