@@ -234,6 +234,13 @@ class Package:
         """What could not be parsed among the views asked for so far."""
         return [error for error in self._views.values() if isinstance(error, ParseError)]
 
+    def remember(self, key: object, build: Callable[[], View]) -> View:
+        """Return what ``build`` makes of the package; it is made once for a key.
+
+        For facts that several rules share and no view of this class has.
+        """
+        return self._view(("derived", key), build)
+
     def forget(self) -> None:
         """Drop the views and the list of files: they are made again when asked for."""
         self._views.clear()

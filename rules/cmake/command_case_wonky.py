@@ -1,0 +1,47 @@
+"""CM077: no command has upper and lower case in one word."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.model import cmake_style
+
+
+class CommandCaseWonky(Rule):
+    """A command has capitals and small letters in one word.
+
+    **Why.** ``ament_lint_cmake`` fails under ``colcon test``; the style guide wants lower case.
+
+    **Fix.** Write it in lower case: CMake does not tell the cases apart.
+
+    **Source.** ament_lint_cmake, filter ``readability/wonkycase``; ROS 2 code style, CMake.
+    """
+
+    code = "CM077"
+    name = "command-case-wonky"
+    severity = Severity.WARNING
+    examples = (
+        Example("lower case", {"CMakeLists.txt": "include(FetchContent)\n"}),
+        Example(
+            "as the documentation of a module spells it",
+            {"CMakeLists.txt": "FetchContent_Declare(json)\n"},
+            at=("CMakeLists.txt:1",),
+            fixed={"CMakeLists.txt": "fetchcontent_declare(json)\n"},
+        ),
+        Example(
+            "looks like a command, is an argument",
+            {"CMakeLists.txt": "set(WORDS\n  Word(s)\n)\n"},
+            at=("CMakeLists.txt:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for found in cmake_style.findings(package, "readability/wonkycase"):
+            source = found.source
+            lower = found.said.lower()
+            fix = None
+            if found.start in cmake_style.outline(package, source).commands:
+                edit = Edit(source.path, found.start, found.end, lower)
+                fix = Fix(f"write {lower}", (edit,))
+            yield self.report(found, f'"{found.said}" mixes cases: write "{lower}"', fix)

@@ -1,0 +1,37 @@
+"""CM083: every command has its closing parenthesis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model import cmake_style
+
+
+class CommandUnclosed(Rule):
+    """No ``)`` follows a command up to the end of the file.
+
+    **Why.** CMake stops there; ``ament_lint_cmake`` fails under ``colcon test``. To the linter
+    a ``#`` begins a comment even inside of a string and hides the ``)`` behind it.
+
+    **Fix.** Close the command; break the line behind a string with a ``#``.
+
+    **Source.** ament_lint_cmake, filter ``syntax``.
+    """
+
+    code = "CM083"
+    name = "command-unclosed"
+    severity = Severity.WARNING
+    examples = (
+        Example("closed", {"cmake/talker.cmake": "set(TALKER\n  1\n)\n"}),
+        Example("open", {"cmake/talker.cmake": "set(TALKER\n  1\n"}, at=("cmake/talker.cmake:1",)),
+        Example(
+            "hidden from the linter",
+            {"cmake/talker.cmake": 'set(COLOUR "#fff")\n'},
+            at=("cmake/talker.cmake:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for found in cmake_style.findings(package, "syntax"):
+            yield self.report(found, f'no ")" follows the "(" of {found.said}')

@@ -1,0 +1,45 @@
+"""CM074: lines of CMake files do not end in blanks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.model import cmake_style
+
+
+class TrailingSpaceInCmake(Rule):
+    """A line of a CMake file ends in blanks.
+
+    **Why.** ``ament_lint_cmake`` fails under ``colcon test``.
+
+    **Fix.** Remove them; inside of a string that goes over several lines they count, and stay.
+
+    **Source.** ament_lint_cmake, filter ``whitespace/eol``.
+    """
+
+    code = "CM074"
+    name = "trailing-space-in-cmake"
+    severity = Severity.WARNING
+    examples = (
+        Example("none", {"CMakeLists.txt": "project(talker)\n\n# A talker.\n"}),
+        Example(
+            "behind a command, a comment, and alone",
+            {"CMakeLists.txt": "project(talker) \n  \n# A talker.\t\n"},
+            at=("CMakeLists.txt:1", "CMakeLists.txt:2", "CMakeLists.txt:3"),
+            fixed={"CMakeLists.txt": "project(talker)\n\n# A talker.\n"},
+        ),
+        Example(
+            "in a string",
+            {"CMakeLists.txt": 'set(TEXT "one \ntwo")\n'},
+            at=("CMakeLists.txt:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for found in cmake_style.findings(package, "whitespace/eol"):
+            path, start, end = found.source.path, found.start, found.end
+            fix = None
+            if not cmake_style.outline(package, found.source).touches_literal(start, end):
+                fix = Fix("remove the blanks", (Edit(path, start, end, ""),))
+            yield self.report(found, "the line ends in blanks", fix)
