@@ -130,10 +130,10 @@ class Evaluator:
             self._depth -= 1
             self._running.discard(node)
             notes, self._notes = self._notes, outer | self._notes
-        if self._depth == 0:
-            self._is_cut = False
         if not self._local and not self._is_cut:
             self._memo[node] = value, notes
+        if self._depth == 0:
+            self._is_cut = False
         return value
 
     def text(self, node: ast.expr | None) -> str | Unknown:
@@ -164,6 +164,10 @@ class Evaluator:
     def note(self, text: str) -> None:
         """Remember something about the value that is being evaluated."""
         self._notes |= {text}
+
+    def cut(self) -> None:
+        """Say that the value being evaluated is not the last word, so it is not remembered."""
+        self._is_cut = True
 
     def attribute(self, node: ast.Attribute) -> object:
         """Return the value of an attribute that is none of the known constants."""

@@ -182,7 +182,7 @@ class Package:
         def parse() -> NodeFacts:
             from scaffold.model.nodes import NodeFacts
 
-            return NodeFacts.of(self.module(path))
+            return NodeFacts.of(self.module(path), self)
 
         return self._view(("nodes", path), parse)
 
