@@ -1,0 +1,196 @@
+"""Compare ``scaffold.style`` with the real Jazzy linters, finding by finding.
+
+    python benchmarks/style_parity.py --flake8 PATH/ament_flake8 --pep257 PATH/ament_pep257 \
+        [--keep DIRECTORY] [--show CODE] DIRECTORY...
+
+Every DIRECTORY is checked as one tree by ``ament_flake8`` and ``ament_pep257`` (they are run
+inside it, as a package's own tests do) and by ``scaffold.style``. A finding is (file, line, code);
+one that both linters report counts once. Printed per code: how many the linters report, how many
+agree, how many only they and only we report. A *false pass* is a file or a package (a directory
+with a package.xml, else the DIRECTORY) in which the linters find something and we find nothing.
+
+``--keep`` stores what the linters said, so that they run only once for each directory.
+The exit status is 1 when there is a false pass.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from xml.etree import ElementTree
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from scaffold.model.package import Package
+from scaffold.model.tree import DiskTree
+from scaffold.style import StyleCheck
+
+Finding = tuple[str, int, str]
+FLAKE8_LINE = re.compile(r"^(.+?):(\d+):(-?\d+): ([A-Z]+\d+) ", re.MULTILINE)
+PEP257_CASE = re.compile(r"^(.+) \((.+):(\d+|-)\)$")
+
+
+def ament_flake8(executable: str, directory: Path) -> set[Finding]:
+    """Return what ament_flake8 reports for a directory; the findings of a crash are none."""
+    done = subprocess.run(  # noqa: S603 - the executable is the user's choice
+        [executable], cwd=directory, capture_output=True, text=True, check=False, errors="replace"
+    )
+    if done.returncode not in (0, 1) or "files checked" not in done.stdout:
+        raise SystemExit(f"{executable} failed in {directory}:\n{done.stderr[-2000:]}")
+    return {
+        (os.path.normpath(path), int(line), code)
+        for path, line, _, code in FLAKE8_LINE.findall(done.stdout)
+    }
+
+
+def ament_pep257(executable: str, directory: Path) -> set[Finding]:
+    """Return what ament_pep257 reports for a directory; an unreadable file counts as E999."""
+    with tempfile.TemporaryDirectory() as scratch:
+        report = Path(scratch) / "pep257.xunit.xml"
+        subprocess.run(  # noqa: S603 - the executable is the user's choice
+            [executable, "--xunit-file", str(report)],
+            cwd=directory,
+            capture_output=True,
+            check=False,
+        )
+        cases = ElementTree.parse(report).iter("testcase")  # noqa: S314 - written by the linter
+        found = set()
+        for case in cases:
+            match = PEP257_CASE.match(case.get("name", ""))
+            if match and case.find("failure") is not None:
+                code, path, line = match.groups()
+                is_rule = line != "-"
+                found.add(
+                    (
+                        os.path.normpath(path),
+                        int(line) if is_rule else 0,
+                        code if is_rule else "E999",
+                    )
+                )
+        return found
+
+
+def oracle(args: argparse.Namespace, directory: Path) -> tuple[set[Finding], set[Finding]]:
+    """Return the findings of both linters, from the store if they are there."""
+    kept = Path(args.keep, directory.name + ".json") if args.keep else None
+    if kept and kept.exists():
+        stored = json.loads(kept.read_text())
+        return (
+            {tuple(item) for item in stored["flake8"]},
+            {tuple(item) for item in stored["pep257"]},
+        )
+    started = time.perf_counter()
+    flake8 = ament_flake8(args.flake8, directory)
+    middle = time.perf_counter()
+    pep257 = ament_pep257(args.pep257, directory)
+    seconds = [middle - started, time.perf_counter() - middle]
+    if kept:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        data = {"flake8": sorted(flake8), "pep257": sorted(pep257), "seconds": seconds}
+        kept.write_text(json.dumps(data))
+    return flake8, pep257
+
+
+def union(flake8: Iterable[Finding], pep257: Iterable[Finding]) -> set[Finding]:
+    """Merge both; ament_pep257 has no line for a file it cannot parse, so flake8's is taken."""
+    broken = {path for path, _, code in flake8 if code in ("E999", "E902")}
+    return {*flake8, *(item for item in pep257 if item[1] or item[0] not in broken)}
+
+
+class WholeTree(DiskTree):
+    """All Python files below a directory, those of nested packages too."""
+
+    @property
+    def files(self) -> Sequence[str]:
+        """The paths of the files that the linters would find from here."""
+        root = Path(self.root)
+        names = (
+            path for path in root.rglob("*") if path.suffix == ".py" or path.name == "AMENT_IGNORE"
+        )
+        return sorted(str(path.relative_to(root)) for path in names if path.is_file())
+
+
+def ours(directory: Path) -> set[Finding]:
+    """Return what scaffold.style reports for a directory."""
+    package = Package(WholeTree(directory))
+    found = StyleCheck([package]).diagnostics(package)
+    return {(one.location.path, one.location.line, one.code) for one in found}
+
+
+def package_of(path: str, packages: list[str]) -> str:
+    """Return the innermost package that a file belongs to."""
+    return max((p for p in packages if not p or path.startswith(p + "/")), key=len, default="")
+
+
+def main() -> int:
+    """Compare and print."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("directories", nargs="+", type=Path)
+    parser.add_argument("--flake8", default="ament_flake8")
+    parser.add_argument("--pep257", default="ament_pep257")
+    parser.add_argument("--keep")
+    parser.add_argument("--show", action="append", default=[], help="list differences of a code")
+    parser.add_argument("--oracle-only", action="store_true")
+    args = parser.parse_args()
+
+    agree: Counter[str] = Counter()
+    missing: Counter[str] = Counter()
+    extra: Counter[str] = Counter()
+    passes: Counter[str] = Counter()
+    for directory in args.directories:
+        theirs = union(*oracle(args, directory))
+        if args.oracle_only:
+            print(f"{directory.name}: {len(theirs)} findings", flush=True)
+            continue
+        mine = ours(directory)
+        agree.update(code for _, _, code in theirs & mine)
+        missing.update(code for _, _, code in theirs - mine)
+        extra.update(code for _, _, code in mine - theirs)
+        for sign, difference in (("-", theirs - mine), ("+", mine - theirs)):
+            for path, line, code in sorted(difference):
+                if code in args.show or "all" in args.show:
+                    print(f"{sign} {directory / path}:{line}: {code}")
+        packages = [
+            "",
+            *(str(p.parent.relative_to(directory)) for p in directory.rglob("package.xml")),
+        ]
+        packages = ["" if p == "." else p for p in packages]
+        their_files, my_files = {f for f, _, _ in theirs}, {f for f, _, _ in mine}
+        their_packages = {package_of(f, packages) for f in their_files}
+        my_packages = {package_of(f, packages) for f in my_files}
+        passes["files"] += len(their_files - my_files)
+        passes["packages"] += len(their_packages - my_packages)
+        passes["files that only we fail"] += len(my_files - their_files)
+        passes["packages that only we fail"] += len(my_packages - their_packages)
+
+    if args.oracle_only:
+        return 0
+    print(f"{'code':8}{'ament':>8}{'agree':>8}{'-':>6}{'+':>6}")
+    for code in sorted({*agree, *missing, *extra}):
+        total = agree[code] + missing[code]
+        print(f"{code:8}{total:8}{agree[code]:8}{missing[code]:6}{extra[code]:6}")
+    total, same = sum(agree.values()) + sum(missing.values()), sum(agree.values())
+    union_size = total + sum(extra.values())
+    print(
+        f"{'all':8}{total:8}{same:8}{sum(missing.values()):6}{sum(extra.values()):6}"
+        f"   agreement {same / union_size if union_size else 1:.4%}"
+    )
+    print(
+        f"false passes: {passes['files']} files, {passes['packages']} packages; only we fail: "
+        f"{passes['files that only we fail']} files, "
+        f"{passes['packages that only we fail']} packages"
+    )
+    return 1 if passes["files"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+"""Python style and docstrings of packages, with the verdict of the Jazzy ament linters."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.check.diagnostic import Diagnostic, Edit, Fix, Safety
+from scaffold.errors import ViewError
+from scaffold.model.package import Package
+from scaffold.model.source import Location, Source
+from scaffold.style import ruff
+from scaffold.style.cache import Cache
+from scaffold.style.codes import CODES
+from scaffold.style.finding import Finding
+from scaffold.style.selection import select
+
+if TYPE_CHECKING:
+    from scaffold.style.ruff import Said
+
+VERSION = "1"
+"""Changes whenever the own rules say something else about a file; part of the cache's keys."""
+
+
+class _File:
+    """A file to check: read once, answered from the cache or by ruff and the own rules."""
+
+    def __init__(self, path: str, on_disk: str, data: bytes, linters: int) -> None:
+        self.path = path
+        self.on_disk = on_disk
+        self.data = data
+        self.linters = linters
+        self.key = ""
+        self.findings: list[Finding] | None = None
+
+
+class StyleCheck:
+    """Checks the Python files of packages; ruff runs in the background from the start."""
+
+    def __init__(self, packages: Sequence[Package]) -> None:
+        self._scratch = ""
+        self._cache = Cache.of_user(f"{VERSION}:{ruff.identity()}")
+        self._files = {id(package): self._read(package) for package in packages}
+        self._keep = list(packages)
+        wanted = [one for files in self._files.values() for one in files if one.findings is None]
+        self._run = ruff.Run([one.on_disk for one in wanted]) if wanted else None
+        self._said: Mapping[str, list[Said]] | None = None
+
+    def diagnostics(self, package: Package) -> list[Diagnostic]:
+        """Return what the two linters would report about a package, each thing once.
+
+        Raises:
+            EnvironmentMissingError: ruff does not run.
+        """
+        found: list[Diagnostic] = []
+        for file in self._files.pop(id(package), ()):
+            findings = self._findings(file)
+            found.extend(_diagnostic(package, file.path, one) for one in findings)
+        return found
+
+    def _findings(self, file: _File) -> list[Finding]:
+        if file.findings is not None:
+            return file.findings
+        from scaffold.style.rules import check
+
+        said = self._results().get(file.on_disk, [])
+        name = file.path.rpartition("/")[2]
+        findings = check(name, file.data, said, file.linters)
+        if self._cache is not None and file.key:
+            self._cache.put(file.key, findings)
+        return findings
+
+    def _results(self) -> Mapping[str, list[Said]]:
+        if self._said is None:
+            self._said = self._run.results() if self._run else {}
+            if self._scratch:
+                import shutil
+
+                shutil.rmtree(self._scratch, ignore_errors=True)
+        return self._said
+
+    def _read(self, package: Package) -> list[_File]:
+        files: list[_File] = []
+        for path, linters in select(package.tree.files).items():
+            try:
+                data = package.tree.read(path)
+            except OSError:
+                continue
+            file = _File(path, "", data, linters)
+            if self._cache is not None:
+                file.key = self._cache.key(path.rpartition("/")[2], linters, data)
+                file.findings = self._cache.get(file.key)
+            if file.findings is None:
+                file.on_disk = self._place(package, file, len(files))
+            files.append(file)
+        return files
+
+    def _place(self, package: Package, file: _File, number: int) -> str:
+        """Return where ruff finds the file; a package in memory is written out for it."""
+        if package.root is not None:
+            return os.path.abspath(os.path.join(package.root, file.path))
+        if not self._scratch:
+            import tempfile
+
+            self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
+        directory = os.path.join(self._scratch, f"{id(package):x}-{number}")
+        os.makedirs(directory, exist_ok=True)
+        on_disk = os.path.join(directory, file.path.rpartition("/")[2])
+        with open(on_disk, "wb") as out:
+            out.write(file.data)
+        return on_disk
+
+
+def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
+    code = CODES[finding.code]
+    end = (finding.end_line or finding.line, finding.end_column or finding.column)
+    location = Location(path, finding.line, finding.column, *max(end, finding[1:3]))
+    fix = _fix(package, path, finding) if finding.fix else None
+    message = finding.message or code.summary
+    return Diagnostic(code.code, code.name, code.severity, location, message, fix)
+
+
+def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
+    """Return the fix with offsets in the text as it is on disk."""
+    try:
+        source = package.editable(path)
+    except ViewError:
+        return None
+    if "\r" in source.text.replace("\r\n", ""):
+        return None
+    shift = 1 if source.text.startswith("\ufeff") else 0
+    changes = tuple(_edits(source, path, finding, shift))
+    return Fix(finding.fix_title or "apply ruff's fix", changes, Safety.SAFE)
+
+
+def _edits(source: Source, path: str, finding: Finding, shift: int) -> Iterator[Edit]:
+    for line, column, end_line, end_column, text in finding.fix:
+        start = source.offset(line, column + (shift if line == 1 else 0))
+        end = source.offset(end_line, end_column + (shift if end_line == 1 else 0))
+        yield Edit(path, start, end, text.replace("\n", source.newline))

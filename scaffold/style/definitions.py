@@ -1,0 +1,190 @@
+"""Modules, classes and functions with their docstrings, the way pydocstyle cuts them."""
+
+from __future__ import annotations
+
+import ast
+import re
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import NamedTuple
+
+from scaffold.style.text import PythonText
+from scaffold.style.tokens import COMMENT, NEWLINE, NL
+
+MODULE, CLASS, FUNCTION, METHOD = range(4)
+
+_LITERAL = (
+    r"[rRuU]?"
+    r"(?:\"\"\"(?:[^\\\"]|\\.|\"(?!\"\"))*\"\"\"|'''(?:[^\\']|\\.|'(?!''))*'''"
+    r"|\"(?:[^\\\"\n]|\\.)*\"|'(?:[^\\'\n]|\\.)*')"
+)
+
+_Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+
+
+class Literal(NamedTuple):
+    """A string literal at the start of a body."""
+
+    text: str
+    line: int
+    column: int
+    """From 1."""
+    end_line: int
+    end_column: int
+
+
+class Definition:
+    """Something that may have a docstring."""
+
+    def __init__(
+        self, text: PythonText, kind: int, node: ast.Module | _Definition, literal: Literal
+    ) -> None:
+        self.kind = kind
+        self.node = node
+        self.literal = literal
+        self.docstring = literal.text
+        self._text = text
+
+    @property
+    def is_function(self) -> bool:
+        """Whether it is a function or a method."""
+        return self.kind in (FUNCTION, METHOD)
+
+    @property
+    def name(self) -> str:
+        """The name in the source; empty for a module."""
+        return "" if isinstance(self.node, ast.Module) else self.node.name
+
+    @cached_property
+    def value(self) -> str:
+        """The docstring without its quotes, escapes read."""
+        return str(ast.literal_eval(self.docstring))
+
+    @cached_property
+    def source(self) -> str:
+        """The lines of the definition without the comments and blank lines at its end."""
+        node = self.node
+        lines = self._text.lines
+        if isinstance(node, ast.Module):
+            start, end = 1, len(lines)
+        else:
+            start, end = node.lineno, node.end_lineno or node.lineno
+        while end >= start and _is_empty_or_comment(lines[end - 1]):
+            end -= 1
+        return "".join(lines[start - 1 : end])
+
+    @cached_property
+    def around(self) -> tuple[str, str]:
+        """The source before and after the docstring."""
+        before, _, after = self.source.partition(self.docstring)
+        return before, after
+
+    @cached_property
+    def indent(self) -> str:
+        """What stands on the line before the docstring's quotes."""
+        return self.around[0].rpartition("\n")[2]
+
+    @cached_property
+    def decorators(self) -> Sequence[str]:
+        """Names of the decorators up to their arguments."""
+        if isinstance(self.node, ast.Module):
+            return ()
+        return tuple(self._decorator(one) for one in self.node.decorator_list)
+
+    def _decorator(self, node: ast.expr) -> str:
+        line = self._text.lines[node.lineno - 1]
+        start = self._text.column(node.lineno, node.col_offset) - 1
+        name = "".join(line[start:].partition("(")[0].split())
+        return name.replace("\\", "")
+
+    @cached_property
+    def skipped(self) -> str:
+        """What pydocstyle's ``noqa`` names: codes, or ``all``."""
+        if "noqa" not in self._text.text:
+            return ""
+        for comment in self._header_comments():
+            codes = "".join(comment.split("noqa: ")[1:])
+            if codes:
+                return codes
+            if "noqa: " not in comment and comment.startswith("# noqa"):
+                return "all"
+        return ""
+
+    def _header_comments(self) -> Iterator[str]:
+        """Yield the comments from the end of the header, or the file's start, to the body."""
+        tokens = self._text.tokens
+        at = 0
+        if not isinstance(self.node, ast.Module):
+            at = bisect_left(self._text.token_rows, self.node.lineno)
+            while at < len(tokens) and tokens[at].kind != NEWLINE:
+                at += 1
+            if at == len(tokens) or tokens[at].start[0] >= self.literal.line:
+                return
+            if tokens[at - 1].kind == COMMENT:
+                at -= 1
+        while at < len(tokens) and tokens[at].kind in (COMMENT, NL, NEWLINE):
+            if tokens[at].kind == COMMENT:
+                yield tokens[at].text
+            at += 1
+
+
+def definitions(text: PythonText) -> Iterator[Definition]:
+    """Yield what has a docstring, outer before inner."""
+    if text.tree is None:
+        return
+    literal = _docstring(text, text.tree.body)
+    if literal:
+        yield Definition(text, MODULE, text.tree, literal)
+    pending: list[tuple[Sequence[ast.stmt], bool]] = [(text.tree.body, False)]
+    while pending:
+        body, in_class = pending.pop()
+        for node in body:
+            if isinstance(node, _Definition):
+                is_class = isinstance(node, ast.ClassDef)
+                literal = _docstring(text, node.body)
+                if literal:
+                    kind = CLASS if is_class else METHOD if in_class else FUNCTION
+                    yield Definition(text, kind, node, literal)
+                pending.append((node.body, is_class))
+            else:
+                pending.extend((inner, in_class) for inner in _blocks(node))
+
+
+def _blocks(node: ast.stmt) -> Iterator[Sequence[ast.stmt]]:
+    for field in ("body", "orelse", "finalbody"):
+        block = getattr(node, field, None)
+        if block:
+            yield block
+    for field in ("handlers", "cases"):
+        for part in getattr(node, field, ()):
+            yield part.body
+
+
+def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
+    """Return the literal that a body starts with, whatever is done with it.
+
+    pydocstyle fails on bytes; nothing is said about them here.
+    """
+    if not body or not isinstance(body[0], (ast.Expr, ast.Assign, ast.AugAssign, ast.AnnAssign)):
+        return None
+    node = body[0]
+    if isinstance(node, ast.Expr) and isinstance(node.value, (ast.Await, ast.Yield, ast.Name)):
+        return None
+    line = text.lines[node.lineno - 1]
+    column = text.column(node.lineno, node.col_offset)
+    if line[column - 1 : column] not in "\"'rRuU":
+        return None
+    start = text.line_starts[node.lineno - 1] + column - 1
+    found = re.compile(_LITERAL, re.DOTALL).match(text.text, start)
+    if found is None:
+        return None
+    literal = found[0]
+    rows = literal.count("\n")
+    end = len(literal) - literal.rfind("\n") if rows else column + len(literal)
+    return Literal(literal, node.lineno, column, node.lineno + rows, end)
+
+
+def _is_empty_or_comment(line: str) -> bool:
+    stripped = line.strip()
+    return not stripped or stripped.startswith("#")

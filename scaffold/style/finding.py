@@ -1,0 +1,32 @@
+"""What a style check found, before it becomes a diagnostic."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+FLAKE8 = 1
+"""Reported by ament_flake8."""
+PEP257 = 2
+"""Reported by ament_pep257."""
+
+Replacement = tuple[int, int, int, int, str]
+"""Line and column of the start, of the end (both from 1, the end exclusive), and the new text."""
+
+
+class Finding(NamedTuple):
+    """A code at a place of one file; only plain values, so that it can be cached.
+
+    Lines and columns count from 1, as in the text with universal newlines and without a byte
+    order mark. ``end_line`` 0 stands for an unknown end.
+    """
+
+    code: str
+    line: int
+    column: int
+    message: str = ""
+    """Empty: the summary of the code."""
+    end_line: int = 0
+    end_column: int = 0
+    fix: tuple[Replacement, ...] = ()
+    fix_title: str = ""
+    linters: int = FLAKE8

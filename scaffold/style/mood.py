@@ -1,0 +1,70 @@
+"""D401: is the first word of a docstring a command?
+
+The words are pydocstyle's own lists. They are read as files: importing pydocstyle takes longer
+than checking a package.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from functools import lru_cache
+
+
+@lru_cache(maxsize=4096)
+def correct(word: str) -> str | None:
+    """Return what the word should be, ``None`` when it is fine, empty when no form is known."""
+    lowered = word.lower()
+    if lowered in _blacklist():
+        return ""
+    forms = _imperatives().get(_stem(lowered))
+    if not forms or lowered in forms:
+        return None
+    best = max(sorted(forms), key=lambda form: len(os.path.commonprefix([lowered, form])))
+    return best.capitalize()
+
+
+@lru_cache(maxsize=1)
+def _blacklist() -> frozenset[str]:
+    return frozenset(_words("imperatives_blacklist.txt"))
+
+
+@lru_cache(maxsize=1)
+def _imperatives() -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for word in _words("imperatives.txt"):
+        found.setdefault(_stem(word), set()).add(word)
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _stem(word: str) -> str:
+    return str(_stemmer().stemWord(word))
+
+
+@lru_cache(maxsize=1)
+def _stemmer() -> object:
+    import snowballstemmer
+
+    return snowballstemmer.stemmer("english")
+
+
+def _words(name: str) -> Iterator[str]:
+    with open(os.path.join(_data(), name), encoding="utf-8") as file:
+        for line in file:
+            word = line.partition("#")[0].strip()
+            if word:
+                yield word
+
+
+def _data() -> str:
+    for entry in sys.path:
+        directory = os.path.join(entry or os.curdir, "pydocstyle", "data")
+        if os.path.isdir(directory):
+            return directory
+    from importlib.util import find_spec
+
+    spec = find_spec("pydocstyle")
+    origin = spec.origin if spec else None
+    return os.path.join(os.path.dirname(origin or ""), "data")

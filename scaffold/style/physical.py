@@ -1,0 +1,116 @@
+"""E101, E501, W191, W29x, W391: what is wrong with a line as it stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.style.finding import Finding
+from scaffold.style.text import PythonText
+from scaffold.style.tokens import FSTRING_END, FSTRING_START, STRING
+
+MAX_LENGTH = 99
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield what is wrong with single lines."""
+    if not text.lines:
+        return
+    if "\t" in text.text:
+        yield from _tabs(text)
+    if re.search(r"[ \t\v]\f*$", text.text, re.MULTILINE):
+        yield from _trailing(text)
+    yield from _end(text)
+    yield from _too_long(text)
+
+
+def _tabs(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        indent = line[: len(line) - len(line.lstrip(" \t"))]
+        if "\t" in indent:
+            at = indent.index("\t") + 1
+            yield Finding("W191", number, at, "the indentation contains tabs")
+        other = next((at for at, one in enumerate(indent, 1) if one != text.indent_char), 0)
+        if other:
+            yield Finding("E101", number, other, "the indentation mixes tabs and spaces")
+
+
+def _trailing(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        shown = line.rstrip("\n").rstrip("\r").rstrip("\f")
+        rest = shown.rstrip(" \t\v")
+        if shown == rest:
+            continue
+        start, end = len(rest) + 1, len(shown) + 1
+        code, what = (
+            ("W291", "trailing whitespace") if rest else ("W293", "whitespace on a blank line")
+        )
+        inside_string = _is_inside_string(text, number)
+        fix = () if inside_string else ((number, start, number, end, ""),)
+        yield Finding(code, number, start, what, number, end, fix, "remove the whitespace")
+
+
+def _is_inside_string(text: PythonText, line: int) -> bool:
+    return not text.tokens or line in multiline_rows(text)
+
+
+def _end(text: PythonText) -> Iterator[Finding]:
+    last = text.lines[-1]
+    number = len(text.lines)
+    if last == "\n":
+        yield Finding("W391", number, 1, "blank line at the end of the file")
+    elif not last.endswith("\n"):
+        at = len(last) + 1
+        fix = ((number, at, number, at, "\n"),)
+        yield Finding(
+            "W292",
+            number,
+            at,
+            "no newline at the end of the file",
+            number,
+            at,
+            fix,
+            "add a newline",
+        )
+
+
+def _too_long(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        if len(line) <= MAX_LENGTH:
+            continue
+        shown = line.rstrip()
+        length = len(shown)
+        if length <= MAX_LENGTH or (number == 1 and shown.startswith("#!")):
+            continue
+        if not _is_excused(text, number, shown):
+            said = f"the line has {length} characters, {MAX_LENGTH} are allowed"
+            yield Finding("E501", number, MAX_LENGTH + 1, said, number, length + 1)
+
+
+def _is_excused(text: PythonText, number: int, line: str) -> bool:
+    """Tell whether the line is one long word, such as a URL, in a comment or a string."""
+    words = line.split()
+    if length_before(line, words[-1]) >= MAX_LENGTH - 7:
+        return False
+    if len(words) == 2 and words[0] == "#":
+        return True
+    return len(words) == 1 and number in multiline_rows(text)
+
+
+def length_before(line: str, word: str) -> int:
+    """Return how much of the line stands before its last word."""
+    return len(line) - len(word)
+
+
+def multiline_rows(text: PythonText) -> set[int]:
+    """Return the rows that end within a string."""
+    rows: set[int] = set()
+    start = 0
+    for token in text.tokens:
+        if token.kind == FSTRING_START:
+            start = token.start[0]
+        elif token.kind == FSTRING_END:
+            rows.update(range(start, token.end[0]))
+        elif token.kind == STRING and token.start[0] != token.end[0]:
+            rows.update(range(token.start[0], token.end[0]))
+    return rows

@@ -1,0 +1,151 @@
+"""The verdict on one file: our own rules, and what ruff said, put together."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from scaffold.style import (
+    blank_lines,
+    continuation,
+    docstrings,
+    flakes,
+    imports,
+    noqa,
+    operators,
+    physical,
+    quotes,
+    shadowing,
+    statements,
+)
+from scaffold.style.finding import FLAKE8, PEP257, Finding
+from scaffold.style.ruff import Said
+from scaffold.style.text import PythonText, decode
+
+TAKEN = frozenset(
+    """
+    C400 C401 C402 C403 C404 C405 C406 C408 C409 C410 C411 C413 C414 C415 C416 C417 C418 C419
+    E111 E112 E113 E114 E115 E116 E117 E211 E221 E222 E223 E224 E251 E252 E261 E262 E265 E266
+    E271 E272 E273 E274 E275 E401 E502 W605
+    """.split()
+)
+"""Codes on which ruff's verdict is pycodestyle's and flake8-comprehensions'."""
+
+_OWN = (
+    physical,
+    blank_lines,
+    continuation,
+    statements,
+    quotes,
+    imports,
+    shadowing,
+    docstrings,
+)
+
+
+def check(name: str, data: bytes, said: Sequence[Said], linters: int) -> list[Finding]:
+    """Return the findings of one file.
+
+    Args:
+        name: The name of the file, without its directory.
+        data: Its bytes.
+        said: What ruff says about it.
+        linters: Which of the two linters look at the file.
+    """
+    decoded = decode(data)
+    text = PythonText(name, decoded.text)
+    broken = _broken(text, said, is_clean=decoded.is_clean)
+    if broken is not None:
+        return [broken._replace(linters=linters)]
+    findings = [*_from_ruff(text, said), *_own(text)]
+    findings = _with_fixes(findings, said)
+    kept = [
+        finding._replace(linters=finding.linters & linters)
+        for finding in findings
+        if finding.linters & linters
+    ]
+    return _once(noqa.apply(text, kept))
+
+
+def _own(text: PythonText) -> Iterator[Finding]:
+    if text.tree is None:
+        # Only a newer Python can parse the file: what needs the tree stays silent.
+        return
+    for module in _OWN:
+        yield from module.check(text)
+
+
+def _broken(text: PythonText, said: Sequence[Said], *, is_clean: bool) -> Finding | None:
+    """Return the one finding of a file that no Python of the target can read."""
+    both = FLAKE8 | PEP257
+    if not is_clean:
+        return Finding(
+            "E902", 1, 1, "the bytes are not text of the declared encoding", linters=both
+        )
+    errors = [one for one in said if not one.code]
+    if not errors:
+        return None
+    first = min(errors, key=lambda one: (one.line, one.column))
+    line, column = first.line, first.column
+    if text.tree is None:
+        line, column = _place_of_syntax_error(text) or (line, column)
+    message = f"not valid Python 3.12: {flakes.worded(first.message)}"
+    return Finding("E999", line, column, message, linters=both)
+
+
+def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
+    """Return where the running Python finds the error; it names the line that flake8 names."""
+    import ast
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            ast.parse(text.text)
+        except SyntaxError as error:
+            if error.lineno:
+                return error.lineno, max(error.offset or 1, 1)
+        except (ValueError, RecursionError, MemoryError):
+            pass
+    return None
+
+
+def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+    yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
+    rows = [one.line for one in said if one.code in {"E225", "E226", "E227", "E228", "E231"}]
+    rows += [text.line_of(found.start()) for found in re.finditer(r"[,;:]\\\n", text.text)]
+    done: set[int] = set()
+    for row in rows:
+        logical = text.logical_line_at(row)
+        if logical is not None and logical.row not in done:
+            done.add(logical.row)
+            yield from operators.check(logical)
+    for one in said:
+        if one.code in TAKEN:
+            yield flakes.plain(one)
+
+
+def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Finding]:
+    """Give our findings the safe fixes that ruff has for the same code at the same line."""
+    fixes = {(one.code, one.line): one for one in said if one.fix}
+    result = []
+    for finding in findings:
+        one = fixes.get((finding.code, finding.line))
+        if one is not None and not finding.fix:
+            result.append(finding._replace(fix=one.fix, fix_title=one.fix_title))
+        else:
+            result.append(finding)
+    return result
+
+
+def _once(findings: Iterable[Finding]) -> list[Finding]:
+    """Return one finding for each line and code, in reading order."""
+    found: dict[tuple[int, str], Finding] = {}
+    for finding in sorted(findings, key=lambda one: (one.line, one.column, one.code)):
+        key = (finding.line, finding.code)
+        if key in found:
+            linters = found[key].linters | finding.linters
+            found[key] = found[key]._replace(linters=linters)
+        else:
+            found[key] = finding
+    return list(found.values())

@@ -1,0 +1,217 @@
+"""E2, E4 and E7 codes where ruff's verdict is not pycodestyle's, judged on logical lines.
+
+A search over the raw text chooses the lines worth a look, so that a clean file costs little.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.style.finding import Finding
+from scaffold.style.logical import LogicalLine
+from scaffold.style.text import PythonText
+from scaffold.style.tokens import COMMENT, LAYOUT
+
+_BLOCK_KEYWORDS = frozenset(
+    "def async for if elif else try except finally with class while".split()
+)
+_BLOCK = (
+    r"\s*(def|async\s+def|for|async\s+for|if|elif|else|try|except|finally|with|async\s+with"
+    r"|class|while)\b"
+)
+_BEFORE_IMPORTS = ("try", "except", "else", "finally", "with", "if", "elif")
+_DUNDER = r"__([^\s]+)__(?::\s*[a-zA-Z.0-9_\[\]\"]+)? = "
+_SINGLETON = r"(\bNone|\bFalse|\bTrue)?\s*([=!]=)\s*(?(1)|(None|False|True))\b"
+_NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{ ]+\s+(in|is)\s"
+_TYPES = r"[=!]=\s+type(?:\s*\(\s*([^)]*[^ )])\s*\))|\btype(?:\s*\(\s*([^)]*[^ )])\s*\))\s+[=!]="
+_SPACE = r"[\[({][ \t]|[ \t][\]}),;:](?!=)"
+_AMBIGUOUS = ("l", "O", "I")
+
+Said = Iterator[tuple[int, str, str]]
+"""Offset in the logical line, code, message."""
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield what is wrong with statements."""
+    for pattern, judge in (
+        (_SPACE + r"|\n[,;:]", spaces),
+        (r"[=!]=", comparisons),
+        (r"\bnot\b", negations),
+        (r"[;]|=[\s\\]*lambda\b", compounds),
+        (r"^[ \t]*except\b[^\n]*:", bare_except),
+    ):
+        for logical in _candidates(text, pattern):
+            for offset, code, message in judge(logical.text):
+                row, column = logical.position(offset)
+                yield Finding(code, row, column + 1, message)
+    for logical in text.logical_lines:
+        if logical.first in _BLOCK_KEYWORDS and _last(logical) != ":":
+            for offset, code, message in compounds(logical.text):
+                row, column = logical.position(offset)
+                yield Finding(code, row, column + 1, message)
+    for logical in _candidates(text, r"\b[lOI]\b"):
+        yield from ambiguous_names(logical)
+    yield from late_imports(text)
+
+
+def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
+    """Yield the logical lines that a pattern occurs in."""
+    seen = 0
+    for found in re.finditer(pattern, text.text, re.MULTILINE):
+        line = text.line_of(found.end() - 1)
+        if line <= seen:
+            continue
+        logical = text.logical_line_at(line)
+        if logical is not None:
+            seen = logical.end_row
+            if not logical.is_comment:
+                yield logical
+
+
+def _last(logical: LogicalLine) -> str:
+    return next(
+        (t.text for t in reversed(logical.tokens) if t.kind not in LAYOUT and t.kind != COMMENT), ""
+    )
+
+
+def spaces(line: str) -> Said:
+    """E201, E202, E203: blanks inside brackets and before punctuation."""
+    for found in re.finditer(_SPACE, line):
+        character = found[0].strip()
+        at = found.start()
+        if found[0][-1].isspace():
+            yield at + 1, "E201", f"whitespace after '{character}'"
+        elif line[at - 1] != ",":
+            code = "E202" if character in "}])" else "E203"
+            yield at, code, f"whitespace before '{character}'"
+
+
+def comparisons(line: str) -> Said:
+    """E711, E712, E721: equality where identity is meant."""
+    for found in re.finditer(_SINGLETON, line):
+        value = found[1] or found[3]
+        wanted = "is" if found[2] == "==" else "is not"
+        code = "E711" if value == "None" else "E712"
+        yield found.start(2), code, f"comparison to {value} with '{found[2]}', not '{wanted}'"
+    types = re.search(_TYPES, line)
+    if types:
+        inside = types[1]
+        if not (inside and inside.isidentifier() and inside not in ("None", "True", "False")):
+            yield types.start(), "E721", "types compared with '==', not with 'is' or isinstance()"
+
+
+def negations(line: str) -> Said:
+    """E713, E714: ``not`` in front of a test instead of within it."""
+    found = re.search(_NEGATION, line)
+    if found:
+        code, wanted = ("E713", "not in") if found[2] == "in" else ("E714", "is not")
+        yield found.start(1), code, f"'not ... {found[2]} ...' instead of '{wanted}'"
+
+
+def bare_except(line: str) -> Said:
+    """E722: every exception is caught, even the one that ends the program."""
+    if re.match(r"except\s*:", line):
+        yield 0, "E722", "bare 'except:' catches SystemExit and KeyboardInterrupt, too"
+
+
+def compounds(line: str) -> Said:
+    """E701, E702, E703, E731: several statements on one line."""
+    last = len(line) - 1
+    depth = dict.fromkeys("([{", 0)
+    pairs = {")": "(", "]": "[", "}": "{"}
+    before = 0
+    found = line.find(":")
+    while -1 < found < last:
+        for one in line[before:found]:
+            if one in depth:
+                depth[one] += 1
+            elif one in pairs:
+                depth[pairs[one]] -= 1
+        if max(depth.values()) <= 0 and line[found + 1] != "=":
+            keyword = re.compile(r"\blambda\b").search(line, 0, found)
+            if keyword:
+                target = line[: keyword.start()].rstrip()
+                if target[-1:] == "=" and target[:-1].strip().isidentifier():
+                    yield 0, "E731", f"a lambda is assigned to '{target[:-1].strip()}'; use def"
+                break
+            if not re.match(r"(async\s+def|def)\b", line) and re.match(_BLOCK, line):
+                yield found, "E701", "a statement follows the colon on the same line"
+        before = found
+        found = line.find(":", found + 1)
+    found = line.find(";")
+    while found > -1:
+        if found < last:
+            yield found, "E702", "several statements on one line"
+        else:
+            yield found, "E703", "the statement ends with a semicolon"
+        found = line.find(";", found + 1)
+
+
+def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:
+    """E741, E742, E743: names that look like digits."""
+    tokens = logical.tokens
+    depth = 0
+    function: int | None = None
+    in_header = False
+    for at in range(1, len(tokens)):
+        before, token = tokens[at - 1], tokens[at]
+        if before.text in ("def", "lambda"):
+            function, in_header = depth, True
+        elif function is not None and token.text == ":" and depth == function:
+            in_header = False
+        if token.text in "([{":
+            depth += 1
+        elif token.text in ")]}":
+            depth -= 1
+        assigned = token.text == ":=" or (token.text == "=" and depth == 0)
+        if assigned and before.text in _AMBIGUOUS:
+            yield _ambiguous("E741", "variable", before.text, before.start)
+        if token.text not in _AMBIGUOUS:
+            continue
+        binds = before.text in ("as", "for", "global", "nonlocal")
+        is_parameter = (
+            in_header
+            and at < len(tokens) - 1
+            and tokens[at + 1].text in ":,=)"
+            and before.text in ("lambda", ",", "*", "**", "(")
+        )
+        if binds or is_parameter:
+            yield _ambiguous("E741", "variable", token.text, token.start)
+        if before.text == "class":
+            yield _ambiguous("E742", "class", token.text, token.start)
+        if before.text == "def":
+            yield _ambiguous("E743", "function", token.text, token.start)
+
+
+def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:
+    return Finding(code, at[0], at[1] + 1, f"the {kind} name '{name}' looks like a digit")
+
+
+def late_imports(text: PythonText) -> Iterator[Finding]:
+    """E402: imports at module level below other code."""
+    seen_code = seen_docstring = False
+    for logical in text.logical_lines:
+        if logical.is_comment or logical.indent:
+            continue
+        first = logical.first
+        if first in ("import", "from"):
+            if seen_code:
+                row, column = logical.position(0)
+                yield Finding("E402", row, column + 1, "import below other code of the module")
+        elif first.startswith("__") and re.match(_DUNDER, logical.text):
+            continue
+        elif first.startswith(_BEFORE_IMPORTS):
+            continue
+        elif _is_plain_string(first) and not seen_docstring:
+            seen_docstring = True
+        else:
+            seen_code = True
+
+
+def _is_plain_string(first: str) -> bool:
+    if first[:1] in "uUbB":
+        first = first[1:]
+    if first[:1] in "rR":
+        first = first[1:]
+    return first[:1] in ("'", '"')

@@ -1,0 +1,116 @@
+"""One Python file as the linters see it: lines, tokens, logical lines and syntax tree."""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+import warnings
+from bisect import bisect_right
+from functools import cached_property
+from typing import NamedTuple
+
+from scaffold.style.logical import LogicalLine, split
+from scaffold.style.tokens import Token, read
+
+BOM = "\ufeff"
+
+
+class Decoded(NamedTuple):
+    """The text of a file, universal newlines, without byte order mark."""
+
+    text: str
+    is_clean: bool
+    """Whether the bytes are text of the declared encoding; else they were read as Latin-1."""
+
+
+def decode(data: bytes) -> Decoded:
+    """Decode a file as Python would, and as Latin-1 where Python would refuse."""
+    if data.isascii() and b"coding" not in data[:400]:
+        return Decoded(universal_newlines(data.decode("ascii")), is_clean=True)
+    try:
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
+        return Decoded(universal_newlines(data.decode(encoding)).lstrip(BOM), is_clean=True)
+    except (SyntaxError, UnicodeError, LookupError):
+        return Decoded(universal_newlines(data.decode("latin-1")), is_clean=False)
+
+
+def universal_newlines(text: str) -> str:
+    r"""Return the text with every line ending as ``\n``."""
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+class PythonText:
+    """The views that the checks share; each is made when first asked for."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name = name
+        """The name of the file without its directory."""
+        self.text = text
+        *ended, rest = text.split("\n")
+        self.lines = [line + "\n" for line in ended]
+        r"""With their ``\n``; the last one may be without."""
+        if rest:
+            self.lines.append(rest)
+
+    @cached_property
+    def tree(self) -> ast.Module | None:
+        """The syntax tree; ``None`` when the running Python cannot parse the file."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                return ast.parse(self.text)
+            except (SyntaxError, ValueError, RecursionError, MemoryError):
+                return None
+
+    @cached_property
+    def tokens(self) -> list[Token]:
+        """The tokens as Python 3.12 cuts them; empty when the file cannot be cut."""
+        return read(self.text, self.lines)
+
+    @cached_property
+    def logical_lines(self) -> list[LogicalLine]:
+        """Statements and comment lines, in order."""
+        return split(self.tokens, self.lines)
+
+    @cached_property
+    def indent_char(self) -> str:
+        """The character that the first indented line starts with; empty without one."""
+        found = re.search(r"^[ \t]", self.text, re.MULTILINE)
+        return found[0] if found else ""
+
+    def logical_line_at(self, line: int) -> LogicalLine | None:
+        """Return the logical line that covers a line of the file."""
+        at = bisect_right(self._starts, line) - 1
+        if at < 0 or self.logical_lines[at].end_row < line:
+            return None
+        return self.logical_lines[at]
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """The offsets of the lines."""
+        starts = [0]
+        for line in self.lines:
+            starts.append(starts[-1] + len(line))
+        return starts
+
+    def line_of(self, offset: int) -> int:
+        """Return the line, from 1, of an offset."""
+        return bisect_right(self.line_starts, offset)
+
+    @cached_property
+    def token_rows(self) -> list[int]:
+        """The first rows of the tokens."""
+        return [token.start[0] for token in self.tokens]
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [logical.row for logical in self.logical_lines]
+
+    def column(self, line: int, byte_column: int) -> int:
+        """Turn a column of ``ast`` (bytes, from 0) into one in characters, from 1."""
+        row = self.lines[line - 1] if line <= len(self.lines) else ""
+        if row.isascii():
+            return byte_column + 1
+        return len(row.encode()[:byte_column].decode(errors="replace")) + 1

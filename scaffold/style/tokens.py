@@ -1,0 +1,55 @@
+"""Tokens as the tokenizer of Python 3.12 gives them, whatever Python is running."""
+
+from __future__ import annotations
+
+import sys
+import tokenize
+from typing import NamedTuple
+
+NAME = tokenize.NAME
+NUMBER = tokenize.NUMBER
+STRING = tokenize.STRING
+OP = tokenize.OP
+COMMENT = tokenize.COMMENT
+NL = tokenize.NL
+NEWLINE = tokenize.NEWLINE
+INDENT = tokenize.INDENT
+DEDENT = tokenize.DEDENT
+ENDMARKER = tokenize.ENDMARKER
+ERRORTOKEN = tokenize.ERRORTOKEN
+FSTRING_START: int = getattr(tokenize, "FSTRING_START", -1)
+FSTRING_MIDDLE: int = getattr(tokenize, "FSTRING_MIDDLE", -2)
+FSTRING_END: int = getattr(tokenize, "FSTRING_END", -3)
+
+NEWLINES = frozenset({NL, NEWLINE})
+LAYOUT = frozenset({NL, NEWLINE, INDENT, DEDENT})
+
+Position = tuple[int, int]
+"""Row from 1, column from 0."""
+
+
+class Token(NamedTuple):
+    """A token; ``end`` is exclusive."""
+
+    kind: int
+    text: str
+    start: Position
+    end: Position
+
+
+def read(text: str, lines: list[str]) -> list[Token]:
+    """Cut a file into tokens; an empty list when that is not possible."""
+    feed = iter([*lines, ""]).__next__
+    try:
+        cut = [Token(*token[:4]) for token in tokenize.generate_tokens(feed)]
+    except (tokenize.TokenError, SyntaxError, StopIteration):
+        return []
+    if sys.version_info < (3, 12) and any(_is_f_string(token) for token in cut):
+        from scaffold.style.fstrings import open_up
+
+        return open_up(cut)
+    return cut
+
+
+def _is_f_string(token: Token) -> bool:
+    return token.kind == STRING and token.text[:2].lower().strip("rRbBuU'\"").startswith("f")
