@@ -1,0 +1,247 @@
+r"""CMakeLists.txt as tokens: the same ones that CMake's own lexer makes.
+
+The grammar, in words: an unquoted argument ends at a blank, a parenthesis, ``#`` or ``"``; inside
+of one, ``$(X)`` and ``a"b c"`` are kept together (the legacy forms); ``\`` takes the next character
+along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` stands before it.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+BOM = "\ufeff"
+
+_COMMON = re.compile(
+    r"""(?P<space>[ \t\r]+)|(?P<newline>\n)|(?P<open>\()|(?P<close>\))"""
+    r"""|(?P<bracket>\#?\[=*\[)|(?P<comment>\#[^\0\n]*)|(?P<quoted>"[^"\\]*")"""
+    r"""|(?P<identifier>[A-Za-z_][A-Za-z0-9_]*(?=[ \t\r\n()\#]|\Z))"""
+    r"""|(?P<word>[^ \0\t\r\n()\#"\[=\\]+)"""
+)
+_RUN = re.compile(r'[^ \0\t\r\n()#"\[=\\]+')
+_QUOTED_RUN = re.compile(r'[^\0\r\n()#"\\]+')
+_MAKE_VARIABLE = re.compile(r"\$\([A-Za-z0-9_]*\)")
+_EQUALS = re.compile("=*")
+_SPECIAL = re.compile(r'["\\]')
+_CALL = re.compile(r"\n[ \t]*([A-Za-z_]\w*)[ \t]*\(")
+_ATTEMPTS = 16  # at guessing which quote is missing
+
+
+class Token(NamedTuple):
+    """A stretch of the file; the tokens joined are the file.
+
+    Kinds: ``space newline comment bracket_comment open close identifier unquoted quoted bracket``,
+    and ``bad`` for what CMake refuses.
+    """
+
+    kind: str
+    start: int
+    end: int
+
+
+class LexicalError(NamedTuple):
+    """What CMake refuses, from offset ``start`` to before ``end``."""
+
+    start: int
+    end: int
+    message: str
+
+
+def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
+    """Split a file into tokens; after an error it goes on where that makes sense."""
+    lexer = _Lexer(text)
+    lexer.run()
+    return lexer.tokens, lexer.errors
+
+
+class _Lexer:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.tokens: list[Token] = []
+        self.errors: list[LexicalError] = []
+        self.attempts = 0
+        self.blamed = -1
+
+    def run(self) -> None:
+        text, tokens, common = self.text, self.tokens, _COMMON.match
+        at, end = 0, len(text)
+        if text.startswith(BOM):
+            tokens.append(Token("space", 0, 1))
+            at = 1
+        while at < end:
+            match = common(text, at)
+            kind = match.lastgroup if match else None
+            if match is None or kind == "word" or kind is None:
+                at = self._unquoted(at, match.end() if match else at)
+            elif kind == "bracket":
+                at = self._bracket(at, match.end())
+            else:
+                stop = match.end()
+                tokens.append(Token(kind, at, stop))
+                at = stop
+
+    def _unquoted(self, start: int, end: int) -> int:
+        text = self.text
+        after = text[end : end + 1]
+        if end > start and after not in {"=", "[", "\\", '"', "("}:
+            self.tokens.append(Token("unquoted", start, end))
+            return end
+        if end == start and after == '"':
+            return self._quoted(start)
+        end = unquoted_end(text, start)
+        if end == start:
+            end = start + 1
+            self.tokens.append(Token("bad", start, end))
+            self.errors.append(LexicalError(start, end, _bad_character(text[start])))
+        else:
+            self.tokens.append(Token("unquoted", start, end))
+        return end
+
+    def _quoted(self, start: int) -> int:
+        """Read a string that holds a backslash, or that does not end."""
+        at = start + 1
+        while True:
+            match = _SPECIAL.search(self.text, at)
+            if match is None:
+                return self._unterminated(start)
+            if match[0] == '"':
+                self.tokens.append(Token("quoted", start, match.end()))
+                return match.end()
+            at = match.end() + 1
+
+    def _bracket(self, start: int, opened: int) -> int:
+        is_comment = self.text[start] == "#"
+        level = opened - start - 2 - is_comment
+        closing = "]" + "=" * level + "]"
+        end = self.text.find(closing, opened)
+        if end < 0:
+            what = "bracket comment" if is_comment else "bracket argument"
+            message = f'"{closing}" expected: this {what} is not closed'
+            self.errors.append(LexicalError(start, opened, message))
+            end = len(self.text)
+            self.tokens.append(Token("bad", start, end))
+            return end
+        end += len(closing)
+        self.tokens.append(Token("bracket_comment" if is_comment else "bracket", start, end))
+        return end
+
+    def _unterminated(self, start: int) -> int:
+        """Find the quote that is to blame, end its string on its line and go on from there.
+
+        The string without an end is the last one; but when an earlier one spans lines on which
+        commands begin, a quote is missing there.
+        """
+        text = self.text
+        self.attempts += 1
+        if self.attempts > _ATTEMPTS:
+            self.tokens.append(Token("bad", start, len(text)))
+            return len(text)
+        for number, token in enumerate(self.tokens):
+            if token.kind != "quoted" or token.start <= self.blamed:
+                continue
+            match = _CALL.search(text, token.start, token.end)
+            if match is not None and match[1].lower() in KNOWN_COMMANDS:
+                start = token.start
+                del self.tokens[number:]
+                break
+        self.blamed = start
+        line_end = text.find("\n", start)
+        line_end = len(text) if line_end < 0 else line_end
+        end = start + len(text[start:line_end].rstrip(" \t\r)")) or line_end
+        end = max(end, start + 1)
+        message = 'a second " expected: this string is not closed'
+        self.errors.append(LexicalError(start, start + 1, message))
+        self.tokens.append(Token("bad", start, end))
+        return end
+
+
+def unquoted_end(text: str, start: int) -> int:
+    """Return where the unquoted argument ends that begins at an offset; ``start`` if none does."""
+    at = start
+    if text.startswith("[", start):
+        equals = _EQUALS.match(text, start + 1)
+        at = equals.end() if equals else start + 1
+        if _legacy_end(text, at) == at:
+            return start + 1
+    while True:
+        step = _legacy_end(text, at)
+        if step == at and at < len(text) and text[at] in "=[":
+            step = at + 1
+        if step == at:
+            return at
+        at = step
+
+
+def _legacy_end(text: str, at: int) -> int:
+    """Return where one piece of an unquoted argument ends."""
+    run = _RUN.match(text, at)
+    if run is not None:
+        return _behind_make_variable(text, run.end())
+    if text.startswith("\\", at):
+        return _behind_escape(text, at)
+    return _legacy_quoted_end(text, at) if text.startswith('"', at) else at
+
+
+def _legacy_quoted_end(text: str, start: int) -> int:
+    """Return where quotes inside an unquoted argument end; ``start`` if they do not."""
+    at = start + 1
+    while at < len(text):
+        run = _QUOTED_RUN.match(text, at)
+        if run is not None:
+            behind = _behind_make_variable(text, run.end())
+        elif text[at] == '"':
+            return at + 1
+        else:
+            behind = _behind_escape(text, at) if text[at] == "\\" else at
+        if behind == at:
+            break
+        at = behind
+    return start
+
+
+def _behind_make_variable(text: str, at: int) -> int:
+    r"""Return the offset behind ``$(X)`` when ``(`` at the offset belongs to one.
+
+    The ``$`` is the last character of a run, so no ``\`` stands before it.
+    """
+    if not text.startswith("$(", at - 1):
+        return at
+    match = _MAKE_VARIABLE.match(text, at - 1)
+    return match.end() if match else at
+
+
+def _behind_escape(text: str, at: int) -> int:
+    r"""Return the offset behind ``\`` and its character; the offset itself at a line's end."""
+    following = text[at + 1 : at + 2]
+    if following in {"", "\n", "\0"} or text.startswith("\r\n", at + 1):
+        return at
+    return at + 2
+
+
+def _bad_character(char: str) -> str:
+    if char == "\\":
+        return r'"\" at the end of a line is only allowed inside a string'
+    return f"the character U+{ord(char):04X} is not allowed here"
+
+
+KNOWN_COMMANDS = frozenset(
+    """
+    add_compile_definitions add_compile_options add_custom_command add_custom_target
+    add_definitions add_dependencies add_executable add_library add_subdirectory add_test
+    ament_add_gmock ament_add_gtest ament_add_pytest_test ament_auto_add_executable
+    ament_auto_add_library ament_auto_find_build_dependencies ament_auto_package
+    ament_export_dependencies ament_export_include_directories ament_export_interfaces
+    ament_export_libraries ament_export_targets ament_package ament_python_install_package
+    ament_target_dependencies ament_lint_auto_find_test_dependencies block cmake_minimum_required
+    cmake_policy configure_file else elseif enable_testing endblock endforeach endfunction endif
+    endmacro endwhile execute_process file find_file find_library find_package find_path
+    find_program foreach function get_filename_component get_target_property if include
+    include_directories install link_directories link_libraries list macro math message option
+    pluginlib_export_plugin_description_file project rclcpp_components_register_node
+    rclcpp_components_register_nodes return rosidl_generate_interfaces set set_property
+    set_target_properties string target_compile_definitions target_compile_features
+    target_compile_options target_include_directories target_link_libraries target_sources unset
+    while
+    """.split()  # noqa: SIM905 - a hundred quoted names would hide them
+)
+"""Names that, at the start of a line and before ``(``, begin a command even after an error."""
