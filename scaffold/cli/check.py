@@ -9,8 +9,13 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from scaffold.check.rule import Rule
     from scaffold.check.selection import Selection
-    from scaffold.check.session import Result
+    from collections.abc import Sequence
+
+    from scaffold.check.fixer import Fixed
+    from scaffold.check.session import Result, Session
     from scaffold.config import Config
+    from scaffold.model.discovery import Target
+    from scaffold.plan import WritePlan
 
 FORMATS = ("text", "json")
 
@@ -67,6 +72,50 @@ def run(options: argparse.Namespace) -> int:
     if options.fix or options.diff:
         return _fix(options, session, targets)
     results = list(session.run(targets))
+    reporters.get(options.format)(results, sys.stdout)
+    return exit_code(results)
+
+
+def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
+    """Mend, or show what would be mended; report what remains."""
+    from scaffold.check import fixer
+    from scaffold.check.session import Result
+    from scaffold.errors import InputError
+
+    remaining: list[Result] = []
+    count = 0
+    for target in targets:
+        package = target.package
+        if package.root is None or target.only is not None:
+            raise InputError("--fix and --diff want whole packages, not single files")
+        fixed = fixer.fix(package, session.check, unsafe=options.unsafe_fixes)
+        count += fixed.count
+        plan = _plan(package.root, fixed)
+        if options.diff:
+            sys.stdout.write(plan.diff())
+        else:
+            plan.write(force=True)
+        found = session.check(fixed.package)
+        remaining.append(Result(package, len(fixed.package.files), found))
+    return _tell(options, remaining, count)
+
+
+def _plan(root: str, fixed: Fixed) -> WritePlan:
+    from scaffold.plan import WritePlan
+
+    return WritePlan.of(
+        root, fixed.changed, executable=fixed.executable, remove=fixed.removed
+    )
+
+
+def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int:
+    from scaffold import reporters
+    from scaffold.cli.main import CLEAN, FOUND
+
+    if options.diff:
+        sys.stderr.write(f"{count} fixes, nothing written\n")
+        return FOUND if count else CLEAN
+    sys.stderr.write(f"{count} fixes applied\n")
     reporters.get(options.format)(results, sys.stdout)
     return exit_code(results)
 

@@ -1,0 +1,59 @@
+"""CM003: ``ament_package()`` comes last."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+FATAL = (
+    "ament_export_definitions",
+    "ament_export_dependencies",
+    "ament_export_include_directories",
+    "ament_export_interfaces",
+    "ament_export_libraries",
+    "ament_export_library_names",
+    "ament_export_link_flags",
+    "ament_export_targets",
+    "ament_environment_hooks",
+    "ament_lint_auto_find_test_dependencies",
+    "ament_python_install_package",
+    "ament_python_install_module",
+    "install",
+)
+_LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+
+
+class AmentPackageNotLast(Rule):
+    """A call that belongs to the package stands behind ``ament_package()``.
+
+    **Why.** CMake stops at an export or a linter behind it; an ``install`` or a Python package
+    behind it is left out of what ``ament_package()`` has written.
+
+    **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
+
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; ``ament_cmake_export_*``.
+    """
+
+    code = "CM003"
+    name = "ament-package-not-last"
+    examples = (
+        Example(
+            "last", {"CMakeLists.txt": f"{_LISTS}install(DIRECTORY launch)\nament_package()\n"}
+        ),
+        Example(
+            "an install behind it",
+            {"CMakeLists.txt": f"{_LISTS}ament_package()\ninstall(DIRECTORY launch)\n"},
+            at=("CMakeLists.txt:4",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        calls = [call for call in package.cmake.find("ament_package") if not call.blocks]
+        if not calls:
+            return
+        line = calls[0].location.line
+        for command in package.cmake.find(*FATAL):
+            if command.index > calls[0].index:
+                message = f"{command.name}() stands behind ament_package() of line {line}"
+                yield self.report(command.name_location, message)

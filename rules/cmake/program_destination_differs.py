@@ -1,0 +1,77 @@
+"""CM010: programs are installed where ``ros2 run`` looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.cmake import Install
+
+_LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
+_RIGHT = "lib/${PROJECT_NAME}"
+
+
+class ProgramDestinationDiffers(Rule):
+    """``install(PROGRAMS ...)`` does not install to ``lib/${PROJECT_NAME}``.
+
+    **Why.** ``ros2 run`` looks in ``lib/<package>`` alone: ``No executable found``.
+
+    **Fix.** Write ``DESTINATION lib/${PROJECT_NAME}``.
+
+    **Source.** ``ros2pkg.api.get_executable_paths``; ROS 2 documentation, "ament_cmake user
+    documentation".
+    """
+
+    code = "CM010"
+    name = "program-destination-differs"
+    examples = (
+        Example(
+            "where ros2 run looks",
+            {"CMakeLists.txt": _LISTS.format(_RIGHT), "talker/node.py": "import rclpy\n"},
+        ),
+        Example(
+            "to bin, as for other programs",
+            {"CMakeLists.txt": _LISTS.format("bin"), "talker/node.py": "import rclpy\n"},
+            at=("CMakeLists.txt:2",),
+            fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
+        ),
+        Example(
+            "without the braces",
+            {"CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"), "talker/node.py": "import rclpy\n"},
+            at=("CMakeLists.txt:2",),
+            fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        wanted = f"lib/{cmake.project_name}"
+        for install in cmake.installs:
+            argument = install.destination_argument
+            if install.kind != "PROGRAMS" or install.destination is None or argument is None:
+                continue
+            given = install.destination.rstrip("/")
+            if given == wanted or not self._is_meant_for_run(package, install, given):
+                continue
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
+            fix = Fix(f"install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
+            message = f"installs to {given}; `ros2 run {cmake.project_name}` looks in {wanted}"
+            yield self.report(argument, message, fix)
+
+    def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
+        """Tell a node from a helper that is rightly elsewhere, such as an environment hook."""
+        if given.startswith(("share/", "include", "etc", "/")) or "python" in given:
+            return False
+        if given.startswith("lib/") and given != "lib/PROJECT_NAME":
+            return self._is_near(package, given)
+        return any(
+            item.path is not None and package.has(item.path) and self._is_node(package, item.path)
+            for item in install.items
+        )
+
+    def _is_near(self, package: Package, given: str) -> bool:
+        name = given.removeprefix("lib/")
+        return name.lower().replace("-", "_") == (package.cmake.project_name or "").lower()
+
+    def _is_node(self, package: Package, path: str) -> bool:
+        return path in package.python_files and "rclpy" in package.source(path).text

@@ -1,0 +1,49 @@
+"""CM001: the project is named like the package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
+
+
+class ProjectNameDiffers(Rule):
+    """``project()`` does not name the package of package.xml.
+
+    **Why.** ``ament_package()`` stops the build: the names must be the same.
+
+    **Fix.** Write the name of package.xml in ``project()``.
+
+    **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``.
+    """
+
+    code = "CM001"
+    name = "project-name-differs"
+    examples = (
+        Example("one name", {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"}),
+        Example(
+            "another name",
+            {"package.xml": _MANIFEST, "CMakeLists.txt": "project(listener)\n"},
+            at=("CMakeLists.txt:1",),
+            fixed={"CMakeLists.txt": "project(talker)\n"},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        name = package.manifest.name
+        written = package.cmake.project_name
+        at = package.cmake.project_name_location
+        if not written or not name or at is None or written == name:
+            return
+        if package.build_type == "cmake":
+            return
+        line = package.manifest.all("name")[0].location.line
+        message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"
+        argument = package.cmake.find("project")[0].arguments[0]
+        fix = None
+        if argument.value == written and not argument.quoted:
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, name)
+            fix = Fix(f"name the project {name}", (edit,))
+        yield self.report(at, message, fix)

@@ -1,0 +1,89 @@
+"""What the commands of ament_cmake in a CMakeLists.txt amount to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.cmake import CMakeLists, InstallItem
+    from scaffold.model.cmake_parser import Command
+    from scaffold.model.package import Package
+    from scaffold.model.source import Location
+
+PACKAGE_COMMANDS = ("ament_package", "ament_auto_package", "autoware_package")
+"""Commands that make ament's files: the index entry, the environment hooks."""
+HIDING_COMMANDS = ("autoware_package", "ament_auto_package")
+_KNOWN_PREFIXES = ("ament_", "rosidl_", "find_package", "install", "include", "set", "list")
+
+
+class Program(NamedTuple):
+    """A file of the package that is installed with ``install(PROGRAMS ...)``."""
+
+    path: str
+    name: str
+    """What it is called when it is installed."""
+    destination: str | None
+    location: Location
+    command: Command
+
+
+def uses_ament(package: Package) -> bool:
+    """Tell whether a CMakeLists.txt is meant to be of an ament_cmake package."""
+    cmake = package.cmake
+    return any(found.name.startswith("ament_cmake") for found in cmake.found_packages) or bool(
+        cmake.find(*PACKAGE_COMMANDS)
+    )
+
+
+def has_unknown_commands(package: Package) -> bool:
+    """Tell whether commands of another package may do anything, such as call ament_package."""
+    cmake = package.cmake
+    own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
+    if cmake.find("include", "add_subdirectory"):
+        return True
+    return any(
+        command.name.endswith("_package") and command.name not in _SAFE and command.name not in own
+        for command in cmake.commands
+    )
+
+
+_SAFE = frozenset({"find_package", "ament_package", "ament_python_install_package"})
+
+
+def _definitions(cmake: CMakeLists) -> list[Command]:
+    return [command for command in cmake.find("macro", "function") if command.arguments]
+
+
+def programs(package: Package) -> list[Program]:
+    """Return the files that are installed as programs, where it is known which."""
+    found: list[Program] = []
+    for install in package.cmake.installs:
+        if install.kind != "PROGRAMS":
+            continue
+        for item in install.items:
+            if item.path is None:
+                continue
+            name = install.rename or item.path.rpartition("/")[2]
+            found.append(
+                Program(item.path, name, install.destination, item.location, install.command)
+            )
+    return found
+
+
+def installs_directory(package: Package, directory: str) -> bool | None:
+    """Tell whether a directory, or one around it, is installed; ``None`` if nobody can say."""
+    unknown = False
+    for install in package.cmake.installs:
+        for item in install.items:
+            if item.path is None:
+                unknown = unknown or install.kind in {"DIRECTORY", "FILES"}
+            elif _covers(item, directory) and install.kind == "DIRECTORY":
+                return True
+            elif install.kind in {"FILES", "PROGRAMS"} and item.path.startswith(f"{directory}/"):
+                return True
+    return None if unknown or has_unknown_commands(package) else False
+
+
+def _covers(item: InstallItem, directory: str) -> bool:
+    path = item.path or ""
+    return path in {directory, "."} or directory.startswith(f"{path}/")
