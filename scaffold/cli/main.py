@@ -21,6 +21,7 @@ VERBS = {
     "new": "write a package",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
+    "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
 }
 """A verb is a module of this package with ``add_arguments`` and ``run``."""

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from scaffold.model.interfaces import Definitions
     from scaffold.model.package import Package
 
 
@@ -34,3 +35,10 @@ class Workspace:
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
         return self.by_name.get(name)
+
+    @cached_property
+    def interfaces(self) -> Definitions:
+        """The interfaces that these packages can use; their own come first."""
+        from scaffold.model.interfaces import Definitions
+
+        return Definitions.around(self)

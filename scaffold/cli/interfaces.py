@@ -1,0 +1,96 @@
+"""``ros2-scaffold interfaces [TYPE]``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.interfaces import Definitions, Interface
+
+FORMATS = ("text", "json")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.add_argument(
+        "types",
+        nargs="*",
+        metavar="TYPE",
+        help="show these: std_msgs/msg/String, std_msgs/String or String; "
+        "a package lists its interfaces (default: list all)",
+    )
+    parser.add_argument(
+        "--workspace",
+        default=".",
+        metavar="DIR",
+        help="packages whose own interfaces come first (default: the current directory)",
+    )
+    parser.add_argument("--format", choices=FORMATS, default="text")
+
+
+def run(options: argparse.Namespace) -> int:
+    """List interfaces, or show some; unknown and ambiguous types are the user's fault."""
+    definitions = _definitions(options.workspace)
+    listed: list[str] = []
+    shown: list[Interface] = []
+    for word in options.types:
+        names = [name for name in definitions.all_names() if name.startswith(f"{word}/")]
+        listed += names
+        if not names:
+            shown.append(definitions.resolve(word))
+    if not options.types:
+        listed = definitions.all_names()
+    if options.format == "json":
+        from json import dumps
+
+        data = [_as_data(interface) for interface in shown]
+        sys.stdout.write(dumps(data if shown else listed, indent=2) + "\n")
+        return 0
+    for name in listed:
+        sys.stdout.write(f"{name}\n")
+    sys.stdout.write("\n".join(_as_text(interface) for interface in shown))
+    return 0
+
+
+def _definitions(directory: str) -> Definitions:
+    from scaffold.errors import InputError
+    from scaffold.model import discovery
+    from scaffold.model.interfaces import Definitions
+    from scaffold.model.workspace import Workspace
+
+    if not os.path.isdir(directory):
+        raise InputError(f"{directory}: no such directory")
+    try:
+        targets = discovery.find([directory])
+    except InputError:  # a directory without packages is fine: there is the rest of the world
+        targets = []
+    return Definitions.around(Workspace(target.package for target in targets))
+
+
+def _as_text(interface: Interface) -> str:
+    from scaffold.model.interfaces import render
+
+    return f"# {interface.full_name}\n# from {interface.origin}\n{render(interface)}"
+
+
+def _as_data(interface: Interface) -> dict[str, object]:
+    return {
+        "type": interface.full_name,
+        "origin": interface.origin,
+        **{
+            section.name: {
+                "constants": [
+                    {"type": str(one.type), "name": one.name, "value": one.value}
+                    for one in section.constants
+                ],
+                "fields": [
+                    {"type": str(one.type), "name": one.name, "default": one.default}
+                    for one in section.fields
+                ],
+            }
+            for section in interface.sections
+        },
+    }

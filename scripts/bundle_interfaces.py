@@ -1,0 +1,96 @@
+"""Writes scaffold/data/jazzy_interfaces.txt: the common interfaces of ROS 2 Jazzy, in short.
+
+Usage:
+
+    python -m venv jazzy
+    jazzy/bin/pip install ros-jazzy-common-interfaces==5.3.6
+    python scripts/bundle_interfaces.py jazzy
+
+where the second python has this checkout installed. The argument is a prefix with
+``share/<package>/msg`` and so on: an environment with the wheels of ROS 2, or ``/opt/ros/jazzy``.
+All packages of ``PACKAGES`` must be there.
+
+Where the content comes from: the definitions of the repositories ros2/common_interfaces,
+ros2/rcl_interfaces (Apache-2.0) and ros2/unique_identifier_msgs (BSD), in the versions that the
+output names. Taken are facts that a program must know to talk to those packages: names,
+types, bounds, constants and defaults. Comments, which are their authors' texts, are not taken.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import xml.etree.ElementTree as ET
+
+from scaffold.model.interface_sources import BUNDLE, PrefixSource
+from scaffold.model.interfaces import KINDS, Definitions, render
+
+PACKAGES = (
+    "action_msgs",
+    "actionlib_msgs",
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "lifecycle_msgs",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rosgraph_msgs",
+    "sensor_msgs",
+    "service_msgs",
+    "shape_msgs",
+    "std_msgs",
+    "std_srvs",
+    "stereo_msgs",
+    "trajectory_msgs",
+    "type_description_interfaces",
+    "unique_identifier_msgs",
+    "visualization_msgs",
+)
+HEAD = (
+    "# Common interfaces of ROS 2 Jazzy: names, types, constants and defaults.\n"
+    "# Made by scripts/bundle_interfaces.py from installed packages; do not edit.\n"
+)
+
+
+def main() -> int:
+    """Write the bundle."""
+    if len(sys.argv) != 2:  # noqa: PLR2004  the program and one argument
+        sys.stderr.write("usage: bundle_interfaces.py PREFIX\n")
+        return 2
+    prefix = sys.argv[1]
+    definitions = Definitions([PrefixSource([prefix])])
+    text = HEAD + "".join(bundled(definitions, prefix, package) for package in PACKAGES)
+    os.makedirs(os.path.dirname(BUNDLE), exist_ok=True)
+    with open(BUNDLE, "w", encoding="utf-8") as file:
+        file.write(text.rstrip("\n") + "\n")
+    sys.stdout.write(f"{os.path.relpath(BUNDLE)}: {len(text.encode())} bytes\n")
+    return 0
+
+
+def bundled(definitions: Definitions, prefix: str, package: str) -> str:
+    """Return the part of one package.
+
+    Raises:
+        InputError: a definition cannot be read.
+    """
+    lines = [f"@ {package} {version(prefix, package)}\n"]
+    for kind in KINDS:
+        for name in definitions.names(package, kind) or ():
+            interface = definitions.resolve(f"{package}/{kind}/{name}")
+            lines.append(f"= {kind} {name}\n{render(interface)}")
+    if len(lines) == 1:
+        raise SystemExit(f"{prefix} has no interfaces of {package}")
+    return "".join(lines)
+
+
+def version(prefix: str, package: str) -> str:
+    """Return the version of an installed package."""
+    manifest = os.path.join(prefix, "share", package, "package.xml")
+    found = ET.parse(manifest).findtext("version")  # noqa: S314  an installed file
+    if not found:
+        raise SystemExit(f"{manifest} has no version")
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(main())
