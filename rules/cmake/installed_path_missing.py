@@ -1,0 +1,87 @@
+"""CM011: what is installed exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake import Install, InstallItem
+
+_INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
+
+
+class InstalledPathMissing(Rule):
+    """``install`` names a file or a directory that does not exist.
+
+    **Why.** The build stops: ``file INSTALL cannot find``. An empty directory is there only on
+    the machine of its author: git does not keep it.
+
+    **Fix.** Correct the name, or remove it.
+
+    **Source.** CMake documentation, ``install``.
+    """
+
+    code = "CM011"
+    name = "installed-path-missing"
+    examples = (
+        Example(
+            "there; a generated file and an optional one may come later",
+            {
+                "CMakeLists.txt": _INSTALL.format("DIRECTORY launch")
+                + _INSTALL.format("FILES ${CMAKE_CURRENT_BINARY_DIR}/made.yaml")
+                + "install(DIRECTORY maps OPTIONAL DESTINATION share/${PROJECT_NAME})\n",
+                "launch/talk.launch.py": "",
+            },
+        ),
+        Example(
+            "a directory and a file that are not there",
+            {
+                "CMakeLists.txt": _INSTALL.format("DIRECTORY include/")
+                + _INSTALL.format("PROGRAMS talker/nod.py"),
+                "talker/node.py": "",
+            },
+            at=("CMakeLists.txt:2", "CMakeLists.txt:4"),
+        ),
+        Example(
+            "an empty directory",
+            {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
+            at=("CMakeLists.txt:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            if install.kind not in {"PROGRAMS", "FILES", "DIRECTORY"} or install.command.has("OPTIONAL"):
+                continue
+            for item in install.items:
+                problem = self._problem(package, install, item)
+                if problem:
+                    yield self.report(item, problem)
+
+    def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
+        path = item.path
+        if not path or path.startswith(("/", "..")) or path == "." or set("$<*") & set(path):
+            return None
+        if self._is_made(package, path):
+            return None
+        if install.kind == "DIRECTORY":
+            if not package.has_directory(path):
+                return f"installs the directory {path}/, which does not exist: the build stops"
+            if not any(name.startswith(f"{path}/") for name in package.files):
+                return f"the directory {path}/ is empty: git does not keep it, then the build stops"
+            return None
+        if package.has(path):
+            return None
+        near = get_close_matches(path, package.files, n=1, cutoff=0.8)
+        hint = f"; {near[0]} is near" if near else ""
+        return f"installs {path}, which does not exist: the build stops{hint}"
+
+    def _is_made(self, package: Package, path: str) -> bool:
+        """Tell whether the build itself makes the file, in the source directory."""
+        name = path.rpartition("/")[2]
+        makers = package.cmake.find(
+            "configure_file", "file", "add_custom_command", "add_custom_target", "execute_process",
+            "externalproject_add", "fetchcontent_declare", "generate_parameter_library",
+        )
+        return any(name in argument.value for maker in makers for argument in maker.arguments)

@@ -1,0 +1,58 @@
+"""CM014: installed scripts are executable in the source tree, too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Rule
+from scaffold.model.cmake_facts import programs
+
+_LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
+_NODE = "#!/usr/bin/env python3\n"
+
+
+class ProgramNotExecutable(Rule):
+    """An installed script has no executable bit.
+
+    **Why.** ``colcon build --symlink-install`` links to the file as it is: ``No executable
+    found``, or ``Permission denied``.
+
+    **Fix.** ``chmod +x``.
+
+    **Source.** ``ros2pkg.api.get_executable_paths`` asks for the bit; pyrobosim issue 182.
+    """
+
+    code = "CM014"
+    name = "program-not-executable"
+    examples = (
+        Example(
+            "executable",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "not executable",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
+            at=("talker/node.py:1",),
+            fixed={"talker/node.py": _NODE},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        wanted = f"lib/{cmake.project_name}"
+        told: set[str] = set()
+        for program in programs(package):
+            path = program.path
+            if path in told or program.destination != wanted or not package.has(path):
+                continue
+            told.add(path)
+            if package.is_executable(path) or not path.endswith(".py"):
+                continue
+            line = program.location.line
+            message = (
+                f"CMakeLists.txt, line {line} installs it as a program, but it has no executable "
+                "bit: `colcon build --symlink-install` makes an executable that does not start"
+            )
+            fix = Fix(f"make {path} executable", (MakeExecutable(path),))
+            yield self.report(package.start_of(path), message, fix)

@@ -1,0 +1,96 @@
+"""CM012: every node is installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_facts import has_unknown_commands, programs
+from scaffold.model.python_module import PythonModule
+
+_NODE = (
+    "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
+    "if __name__ == '__main__':\n    main()\n"
+)
+_LISTS = (
+    "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+    "install(\n  PROGRAMS\n    talker/node.py\n{}  DESTINATION lib/${{PROJECT_NAME}}\n)\n"
+    "ament_package()\n"
+)
+
+
+class ProgramNotInstalled(Rule):
+    """A node, written to be started, is not among the installed programs.
+
+    **Why.** ``ros2 run`` answers ``No executable found``.
+
+    **Fix.** List the file in ``install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})``.
+
+    **Source.** ``ros2run/command/run.py``; ROS 2 documentation, "ament_cmake user documentation".
+    """
+
+    code = "CM012"
+    name = "program-not-installed"
+    examples = (
+        Example(
+            "both listed, and a module that nobody starts",
+            {
+                "CMakeLists.txt": _LISTS.format("    talker/other.py\n"),
+                "talker/node.py": _NODE,
+                "talker/other.py": _NODE,
+                "talker/text.py": "",
+            },
+        ),
+        Example(
+            "one is missing",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                "talker/node.py": _NODE,
+                "talker/other.py": _NODE,
+            },
+            at=("CMakeLists.txt:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if not cmake.find("ament_package") or has_unknown_commands(package):
+            return
+        installs = [one for one in cmake.installs if one.kind in {"PROGRAMS", "FILES", "DIRECTORY"}]
+        if any(item.path is None for one in installs for item in one.items):
+            return
+        known = {program.path for program in programs(package)}
+        at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
+        for module in package.modules():
+            if module.path in known or not self._is_started(module):
+                continue
+            if self._is_named(package, module.path):
+                continue
+            place = at.name_location if at else cmake.find("ament_package")[0].name_location
+            message = f"{module.path} is a node with a main, but not installed: `ros2 run` misses it"
+            yield self.report(place, message)
+
+    def _is_started(self, module: PythonModule) -> bool:
+        """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
+        return (
+            module.is_script
+            and module.has_main_guard
+            and "rclpy" in module.imports_by_root
+            and not module.in_tests
+            and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
+        )
+
+    def _is_named(self, package: Package, path: str) -> bool:
+        """Tell whether the file, or a directory around it, is installed in some other way."""
+        directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
+        for install in package.cmake.installs:
+            for item in install.items:
+                if item.path == path or (
+                    install.kind == "DIRECTORY"
+                    and item.path in directories
+                    and (install.destination or "").startswith("lib")
+                ):
+                    return True
+        name = path.rpartition("/")[2].removesuffix(".py")
+        others = [command for command in package.cmake.commands if command.name != "install"]
+        return any(name in one.value for command in others for one in command.arguments)
