@@ -294,7 +294,7 @@ class NodeFacts:
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
         self.module = module
         self._modules = modules
-        self.evaluator = NodeEvaluator(module, self._default_of, self._related_classes)
+        self.evaluator = NodeEvaluator(module, self._default_of, self.related_classes)
         self._indexing_parameters = False
 
     @classmethod
@@ -389,8 +389,8 @@ class NodeFacts:
                     return None
         return None
 
-    def _related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
-        """Return a class with the bases and descendants it has in the file."""
+    def related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
+        """Return a class with the bases and direct descendants it has in the file."""
         related = [node]
         bases = self._local_bases
         pending = [node]
@@ -494,6 +494,8 @@ class NodeFacts:
     def _creating_method(self, call: ast.Call) -> str | None:
         func = call.func
         if isinstance(func, ast.Attribute) and func.attr in _SIGNATURES and func.attr[0].islower():
+            if not NODE_CLASSES.isdisjoint(self.module.qualified_names(func.value)):
+                return None  # Node.create_publisher(self, ...): an override passes on its own
             is_known = self.uses_rclpy or self.owner_of(func.value) is not None
             return func.attr if is_known else None
         for name in self.module.qualified_names(call.func):
@@ -651,7 +653,7 @@ class NodeFacts:
         return Callback(node, None, None, at, is_called=False, is_bound=False)
 
     def _method_of(self, class_: ast.ClassDef, name: str) -> FunctionNode | None:
-        for member in self._related_classes(class_):
+        for member in self.related_classes(class_):
             for binding in self.module.index.bindings(member).get(name, ()):
                 if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
                     return binding.node
@@ -668,15 +670,17 @@ class NodeFacts:
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
         """Return the calls in the body of a function, those of functions inside left out."""
-        return [call for call in self.module.walk(ast.Call) if self._function_of(call) is function]
+        return [call for call in self.module.walk(ast.Call) if self.function_of(call) is function]
 
-    def _function_of(self, node: ast.AST) -> ast.AST | None:
+    def function_of(self, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+        """Return the function whose body a node stands in."""
         child = node
         for parent in self.module.parents(node):
             if isinstance(parent, ast.Lambda):
                 return parent
-            is_function = isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef)
-            if is_function and isinstance(child, ast.stmt):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef) and isinstance(
+                child, ast.stmt
+            ):
                 return parent
             child = parent
         return None

@@ -22,6 +22,8 @@ class Unknown(Enum):
     def __repr__(self) -> str:
         return "UNKNOWN"
 
+    __str__ = __repr__
+
 
 UNKNOWN: Final = Unknown.UNKNOWN
 """Not known without running the code. Compare with ``is``; it is false."""

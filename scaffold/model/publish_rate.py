@@ -1,0 +1,251 @@
+"""How often a publisher publishes, where the code leaves no doubt."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.model.node_entities import Callback, Entity, Publisher, Timer
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.scopes import FunctionNode
+from scaffold.model.values import UNKNOWN, Unknown
+
+_HARMLESS = frozenset(
+    {"topic", "topic_name", "get_subscription_count", "msg_type", "qos_profile", "handle"}
+    | {"is_ready", "is_canceled", "time_since_last_call", "time_until_next_call"}
+    | {"timer_period_ns", "clock", "callback_group"}
+)
+"""What can be asked of a publisher or timer without any effect."""
+
+_MAX_CALLS = 8
+
+
+class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
+    """Something else may happen as well."""
+
+
+def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] | None:
+    """Return the calls that publish; ``None`` when others get hold of the publisher."""
+    try:
+        return list(_uses(facts, publisher, "publish"))
+    except _Doubt:
+        return None
+
+
+def publish_rate(facts: NodeFacts, publisher: Publisher) -> float | Unknown:
+    """Return the rate in Hz at which a timer makes a publisher publish.
+
+    Known if exactly one timer's callback publishes exactly once, directly or through other
+    functions of the file, under no condition, and nothing stops or changes the timer.
+    """
+    if publisher.is_conditional or publisher.is_lifecycle:
+        return UNKNOWN
+    try:
+        timers = [
+            timer
+            for call in _uses(facts, publisher, "publish")
+            for timer in _timers_behind(facts, call, 0)
+        ]
+        if len(timers) != 1:
+            return UNKNOWN
+        return _rate(facts, timers[0])
+    except _Doubt:
+        return UNKNOWN
+
+
+def _rate(facts: NodeFacts, timer: Timer) -> float | Unknown:
+    autostart = timer.argument("autostart")
+    if timer.is_conditional or timer.period is UNKNOWN or timer.period <= 0:
+        return UNKNOWN
+    if timer.has_unknown_arguments or (autostart and autostart.value is not True):
+        return UNKNOWN
+    if not _runs_once(facts, timer.function):
+        return UNKNOWN
+    if timer.attribute or timer.variable:
+        for _ in _uses(facts, timer, ""):
+            return UNKNOWN
+    return 1 / timer.period
+
+
+def _runs_once(facts: NodeFacts, function: FunctionNode | None) -> bool:
+    """Tell whether a function is run once per node: constructor, its helper, or main."""
+    for _ in range(_MAX_CALLS):
+        if function is None or function.name == "__init__":
+            return True
+        is_method = isinstance(facts.module.parent(function), ast.ClassDef)
+        references = list(_references(facts, function))
+        if not is_method:
+            return len(references) <= 1
+        if len(references) != 1 or not _is_certain_call(facts, references[0]):
+            return False
+        function = facts.module.enclosing_function(references[0])
+    return False
+
+
+# -- who uses what
+
+
+def _uses(facts: NodeFacts, entity: Entity, method: str) -> Iterator[ast.Call]:
+    """Yield the calls of a method of something stored; doubt when it goes elsewhere."""
+    module = facts.module
+    for node in _stored_references(facts, entity):
+        parent = module.parent(node)
+        above = module.parent(parent) if parent else None
+        if isinstance(parent, ast.Attribute):
+            is_called = isinstance(above, ast.Call) and above.func is parent
+            if is_called and parent.attr == method and isinstance(above, ast.Call):
+                yield above
+            elif parent.attr not in _HARMLESS:
+                raise _Doubt
+        elif not isinstance(parent, ast.If | ast.Compare | ast.BoolOp | ast.Expr):
+            raise _Doubt
+
+
+def _stored_references(facts: NodeFacts, entity: Entity) -> Iterator[ast.expr]:
+    """Yield where the attribute and the variable that something is stored in are read."""
+    if not entity.attribute and not entity.variable:
+        raise _Doubt
+    if entity.attribute:
+        yield from _attribute_references(facts, entity, entity.attribute)
+    if entity.variable:
+        for node in facts.module.walk(ast.Name):
+            if node.id != entity.variable or not isinstance(node.ctx, ast.Load):
+                continue
+            found = facts.module.index.lookup(node.id, node)
+            bindings = found[1] if found else ()
+            if any(binding.value is entity.call for binding in bindings):
+                if len(bindings) > 1:
+                    raise _Doubt
+                yield node
+
+
+def _attribute_references(
+    facts: NodeFacts, entity: Entity, attribute: str
+) -> Iterator[ast.Attribute]:
+    function = entity.function
+    class_ = facts.module.enclosing_class(function) if function else None
+    if class_ is None:
+        raise _Doubt
+    family = facts.related_classes(class_)
+    for store in facts.evaluator.stores(attribute):
+        other = store.class_ is None or store.class_ in family
+        if other and store.value is not entity.call:
+            raise _Doubt
+    for node in facts.module.walk(ast.Attribute):
+        if node.attr == attribute and isinstance(node.ctx, ast.Load):
+            holder = facts.evaluator.self_class(node.value)
+            if holder is None or holder in family:
+                yield node
+
+
+def _timers_behind(facts: NodeFacts, call: ast.AST, depth: int) -> Iterator[Timer]:
+    """Yield a timer for every way to come to a call; doubt for any other way."""
+    module = facts.module
+    function = facts.function_of(call)
+    if depth > _MAX_CALLS or function is None or not _is_certain(facts, call, function):
+        raise _Doubt
+    references = list(_references(facts, function))
+    if not references:
+        if not isinstance(function, ast.Lambda) and function.name == "__init__":
+            return
+        raise _Doubt
+    for reference in references:
+        timer = _timer_with(facts, reference)
+        if timer is not None:
+            yield timer
+            continue
+        parent = module.parent(reference)
+        if not isinstance(parent, ast.Call) or parent.func is not reference:
+            raise _Doubt
+        yield from _timers_behind(facts, parent, depth + 1)
+
+
+def _timer_with(facts: NodeFacts, reference: ast.expr) -> Timer | None:
+    for timer in facts.timers:
+        callback = timer.callback
+        if callback and not callback.is_called and _innermost(callback) is reference:
+            return timer
+    return None
+
+
+def _innermost(callback: Callback) -> ast.expr:
+    """Return the function inside ``partial(partial(function, ...), ...)``."""
+    node = callback.node
+    while isinstance(node, ast.Call) and node.args:
+        node = node.args[0]
+    return node
+
+
+def _references(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
+    """Yield where a function is mentioned; doubt when another one has the same name."""
+    if isinstance(function, ast.Lambda):
+        yield function
+    elif isinstance(facts.module.parent(function), ast.ClassDef):
+        yield from _method_references(facts, function)
+    else:
+        yield from _function_references(facts, function)
+
+
+def _method_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+    index, class_ = facts.module.index, facts.module.enclosing_class(function)
+    family = facts.related_classes(class_) if class_ else ()
+    name = function.name
+    same = [found for member in family for found in index.bindings(member).get(name, ())]
+    if len(same) != 1:
+        raise _Doubt
+    for node in facts.module.walk(ast.Attribute):
+        if node.attr == function.name:
+            holder = facts.evaluator.self_class(node.value)
+            if holder is None or holder in family:
+                yield node
+
+
+def _function_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+    for name in facts.module.walk(ast.Name):
+        if name.id == function.name and isinstance(name.ctx, ast.Load):
+            found = facts.module.index.lookup(name.id, name)
+            bindings = found[1] if found else ()
+            if any(binding.node is function for binding in bindings):
+                if len(bindings) > 1:
+                    raise _Doubt
+                yield name
+
+
+def _is_certain_call(facts: NodeFacts, reference: ast.expr) -> bool:
+    parent = facts.module.parent(reference)
+    function = facts.function_of(reference)
+    return (
+        isinstance(parent, ast.Call)
+        and parent.func is reference
+        and function is not None
+        and _is_certain(facts, parent, function)
+    )
+
+
+def _is_certain(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether a node is run exactly once whenever its function is."""
+    child = node
+    for parent in facts.module.parents(node):
+        if parent is function:
+            break
+        match parent:
+            case ast.If() | ast.For() | ast.While() | ast.AsyncFor() | ast.IfExp():
+                return False
+            case ast.ExceptHandler() | ast.match_case() | ast.comprehension() | ast.Assert():
+                return False
+            case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+                return False
+            case ast.BoolOp(values=[first, *_]) if child is not first:
+                return False
+            case ast.Try(body=[first, *_], handlers=[_, *_]) if child is not first:
+                return False
+        child = parent
+    return not any(
+        facts.function_of(leaving) is function and _is_before(leaving, node)
+        for kind in (ast.Return, ast.Raise, ast.Yield)
+        for leaving in facts.module.walk(kind)
+    )
+
+
+def _is_before(first: ast.AST, second: ast.AST) -> bool:
+    return getattr(first, "lineno", 0) < getattr(second, "lineno", 0)
