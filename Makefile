@@ -70,7 +70,7 @@ $(VENV)/test.stamp: $(VENV)/made.stamp pyproject.toml
 	@touch $@ $(VENV)/demo.stamp
 
 $(VENV)/made.stamp:
-	@for python in $(PYTHON) $(PYTHONS); do \
+	@for python in $(or $(PYTHON),$(PYTHONS)); do \
 	  $$python -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 10))' \
 	    2> /dev/null || continue; \
 	  $$python -m venv --clear $(VENV) && touch $@ && exit 0; \

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 import nox
 
 PYTHONS = ["3.10", "3.11", "3.12", "3.13"]
@@ -10,6 +13,11 @@ nox.needs_version = ">=2025.2"
 nox.options.default_venv_backend = "venv"
 nox.options.download_python = "never"
 nox.options.error_on_missing_interpreters = False
+
+# pyenv puts one version on PATH; all that it has installed are wanted here.
+pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"))
+installed = sorted(str(path) for path in pyenv.glob("versions/3.*/bin"))
+os.environ["PATH"] = os.pathsep.join([os.environ.get("PATH", os.defpath), *installed])
 
 
 @nox.session(python=PYTHONS)

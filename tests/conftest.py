@@ -6,6 +6,11 @@ import os
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import settings
+
+# How long an example takes says something about the machine, not about the code.
+settings.register_profile("repository", deadline=None, print_blob=True)
+settings.load_profile("repository")
 
 
 @pytest.fixture(scope="session", autouse=True)
