@@ -210,8 +210,8 @@ class Scan:
             if not line.command:
                 continue
             if line.name_end != line.open:
-                at = (line.name_end, line.open)
-                found.append(self._at("whitespace/extra", line, *at, line.command))
+                start, end = line.name_end, line.open
+                found.append(self._at("whitespace/extra", line, start, end, line.command))
             if closing is None:
                 found.append(self._name(line, "syntax"))
                 continue
@@ -219,9 +219,8 @@ class Scan:
             behind = line.code[line.open + 1 :]
             opened, closed = len(behind) - len(behind.lstrip()), len(before) - len(before.rstrip())
             if closed not in {opened, line.name_start}:
-                end = closing.start + len(before) + 1
-                at = line.start + line.open
-                found.append(Finding("whitespace/mismatch", self.source, at, end, line.command))
+                start, end = line.start + line.open, closing.start + len(before) + 1
+                found.append(Finding("whitespace/mismatch", self.source, start, end, line.command))
         return iter(found)
 
     def _find_module(self) -> Iterator[Finding]:
