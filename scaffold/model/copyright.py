@@ -255,7 +255,8 @@ def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str
         at = next(starts, at)
         for expected, word in enumerate(section):
             if words[at : at + 1] != [word]:
-                return same, section[expected:], words[at:]
+                following = [w for part in sections[number + 1 :] for w in ("<holder>", *part)]
+                return same, section[expected:] + following, words[at:]
             same += 1
             at += 1
     return same, [], words[at:]
