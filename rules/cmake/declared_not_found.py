@@ -1,0 +1,68 @@
+"""CM021: what is declared for the build is found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.cmake_facts import has_unknown_commands
+from scaffold.model.known import ROS_PACKAGES
+
+KINDS = ("build_depend", "buildtool_depend")
+_NOT_FOUND_BY_NAME = ("ament_cmake_", "rosidl_", "ament_index", "ament_lint", "eigen")
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n  <build_depend>std_msgs</build_depend>\n</package>\n'
+_LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+
+
+class DeclaredNotFound(Rule):
+    """A ``<build_depend>`` is never found in CMakeLists.txt.
+
+    **Why.** Either the build does not need it, or a ``find_package`` is missing and it works by
+    chance because another package brings it along.
+
+    **Fix.** Call ``find_package``, or declare ``<exec_depend>`` for what only runs.
+
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; catkin_lint,
+    "unconfigured build_depend".
+    """
+
+    code = "CM021"
+    name = "declared-not-found"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "found",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS.format("find_package(std_msgs REQUIRED)\n"),
+            },
+        ),
+        Example(
+            "not found",
+            {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
+            at=("package.xml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if package.build_type != "ament_cmake" or cmake.finds_automatically:
+            return
+        if has_unknown_commands(package) or any("${" in one for one in self._finds(package)):
+            return
+        for dependency in package.manifest.dependencies:
+            name = dependency.name
+            if dependency.kind not in KINDS or dependency.condition or cmake.finds(name):
+                continue
+            if name not in ROS_PACKAGES or name.startswith(_NOT_FOUND_BY_NAME):
+                continue
+            if not any(name in argument for argument in self._arguments(package)):
+                message = f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not find it"
+                yield self.report(dependency, message)
+
+    def _finds(self, package: Package) -> list[str]:
+        return [value for call in package.cmake.find("find_package") for value in call.values[:1]]
+
+    def _arguments(self, package: Package) -> Iterator[str]:
+        for command in package.cmake.commands:
+            yield from command.values

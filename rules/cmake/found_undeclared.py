@@ -1,0 +1,69 @@
+"""CM020: what CMake finds is declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.model.known import ROS_PACKAGES, provided_by
+
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
+_LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
+
+
+class FoundUndeclared(Rule):
+    """``find_package`` looks for a ROS package that the manifest does not declare.
+
+    **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the
+    two packages in the wrong order.
+
+    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only.
+
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149.
+    """
+
+    code = "CM020"
+    name = "found-undeclared"
+    examples = (
+        Example(
+            "declared, and a library whose key may have another name",
+            {
+                "package.xml": _MANIFEST.format("  <depend>std_msgs</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("std_msgs") + "find_package(Eigen3 REQUIRED)\n",
+            },
+        ),
+        Example(
+            "not declared",
+            {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
+            at=("package.xml:3",),
+            fixed={"package.xml": _MANIFEST.format("").replace(
+                "  <depend>rclcpp</depend>\n",
+                "  <build_depend>std_msgs</build_depend>\n  <depend>rclcpp</depend>\n",
+            )},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        declared = manifest.declared_names
+        along = provided_by(declared)
+        told: set[str] = set()
+        for found in package.cmake.found_packages:
+            name = found.name
+            if name in told or name in declared or name in along or name == package.name:
+                continue
+            if name not in ROS_PACKAGES and package.workspace.get(name) is None:
+                continue
+            if not found.required:
+                continue
+            told.add(name)
+            tag = "test_depend" if found.in_testing else "build_depend"
+            if name.startswith(("ament_cmake", "rosidl_default_generators")) and not found.in_testing:
+                tag = "buildtool_depend"
+            last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
+            message = (
+                f"CMakeLists.txt, line {found.location.line} finds {name!r}, which no dependency "
+                f"here names; add <{tag}>{name}</{tag}>"
+            )
+            fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
+            yield self.report(last.name_location, message, fix)

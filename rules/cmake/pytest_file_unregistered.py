@@ -1,0 +1,65 @@
+"""CM026: every test file is registered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
+
+_REGISTER = "ament_add_pytest_test({0} test/{0}.py)\n"
+_LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+_TEST = "def test_talk():\n    pass\n"
+
+
+class PytestFileUnregistered(Rule):
+    """No command of CMakeLists.txt names a test file.
+
+    **Why.** An ament_cmake package runs only the tests that it registers: ``colcon test`` passes
+    and this one never runs.
+
+    **Fix.** Add ``ament_add_pytest_test`` for the file.
+
+    **Source.** ROS 2 documentation, "ament_cmake_python user documentation", "Testing".
+    """
+
+    code = "CM026"
+    name = "pytest-file-unregistered"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "registered",
+            {
+                "CMakeLists.txt": _LISTS.format(_REGISTER.format("test_talk")),
+                "test/test_talk.py": _TEST,
+            },
+        ),
+        Example(
+            "forgotten",
+            {"CMakeLists.txt": _LISTS.format(""), "test/test_talk.py": _TEST},
+            at=("CMakeLists.txt:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        calls = cmake.find("ament_package")
+        if not calls or cmake.find("add_subdirectory", "include", "foreach", "function", "macro"):
+            return
+        arguments = [value for command in cmake.commands for value in command.values]
+        for path in package.glob("test/test_*.py") + package.glob("tests/test_*.py"):
+            directory, _, name = path.rpartition("/")
+            if any(name in value or value.rstrip("/").endswith(directory) for value in arguments):
+                continue
+            stem = name.removesuffix(".py")
+            if any(stem in value for value in arguments) or not self._has_tests(package, path):
+                continue
+            message = f"{path} is not registered with ament_add_pytest_test(): it never runs"
+            yield self.report(calls[-1].name_location, message)
+
+    def _has_tests(self, package: Package, path: str) -> bool:
+        try:
+            module = package.module(path)
+        except ViewError:
+            return False
+        names = [*module.functions, *module.classes]
+        return any(name.startswith(("test_", "Test")) for name in names)
