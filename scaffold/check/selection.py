@@ -25,12 +25,6 @@ class Selection(NamedTuple):
         chosen = _longest(self.select, code) if self.select else 0
         return chosen is not None and chosen > (_longest(self.ignore, code) or -1)
 
-    def wants_area(self, prefix: str) -> bool:
-        """Tell whether any code that starts with ``prefix`` can be reported."""
-        if not self.select:
-            return not prefix.startswith(self.ignore) if self.ignore else True
-        return any(one.startswith(prefix) or prefix.startswith(one) for one in self.select)
-
     def wants_at(self, code: str, path: str) -> bool:
         """Tell whether a code is reported in a file."""
         return not any(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.check import runner, suppression
 from scaffold.check.diagnostic import Diagnostic, Severity
@@ -12,6 +12,9 @@ from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.model.discovery import Target
 from scaffold.model.package import Package
+
+if TYPE_CHECKING:
+    from scaffold.style import StyleCheck
 
 
 PARALLEL_FROM = 8
@@ -53,6 +56,7 @@ class Session:
 
     def __init__(self, rules: Sequence[type[Rule]], selection: Selection) -> None:
         self.selection = selection
+        self._areas = {rule.code[:2] for rule in [*rules, *INTERNAL_RULES]}
         self._rules = [rule() for rule in rules if selection.wants(rule.code)]
         self._ran = {rule.code for rule in self._rules}
 
@@ -67,13 +71,11 @@ class Session:
 
     def run_batch(self, targets: Sequence[Target]) -> list[Result]:
         """Check packages in this process, with one start of the style backend for all."""
-        from scaffold.style import StyleCheck  # noqa: PLC0415  only where used
-
-        style = StyleCheck([target.package for target in targets])
+        style = self._start_style([target.package for target in targets])
         results: list[Result] = []
         for target in targets:
             found = self._check_rules(target.package)
-            found += style.diagnostics(target.package)
+            found += style.diagnostics(target.package) if style else []
             result = Result(target.package, len(target.package.files), self._report(target, found))
             results.append(result)
             target.package.forget()
@@ -83,6 +85,14 @@ class Session:
         """Check one package, for instance one in memory."""
         (result,) = self.run_batch([Target(package)])
         return result.diagnostics
+
+    def _start_style(self, packages: Sequence[Package]) -> StyleCheck | None:
+        chosen = self.selection.select
+        if chosen and all(prefix[:2] in self._areas for prefix in chosen):
+            return None
+        from scaffold.style import StyleCheck  # noqa: PLC0415  only where used
+
+        return StyleCheck(packages)
 
     def _check_rules(self, package: Package) -> list[Diagnostic]:
         said = runner.check(package, self._rules)
