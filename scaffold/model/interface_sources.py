@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from scaffold.errors import ViewError
+from scaffold.model.cmake_interfaces import generations
 from scaffold.model.interface_syntax import SECTIONS
 from scaffold.model.source import Source
 
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.workspace import Workspace
 
-GENERATE = "rosidl_generate_interfaces"
 BUNDLE = os.path.join(
     os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data", "jazzy_interfaces.txt"
 )
@@ -98,10 +98,13 @@ class _WorkspacePackage:
         if any(package.has_directory(f"{package.name}/{kind}") for kind in SECTIONS):
             return False
         try:
-            generated = [call for call in package.cmake.commands if call.name == GENERATE]
-        except (ViewError, ImportError):
+            calls = generations(package)
+        except ViewError:
             return False
-        return bool(generated)
+        return bool(calls) and all(
+            call.is_complete and all(package.has(file.path) for file in call.files)
+            for call in calls
+        )
 
     def text(self, kind: str, name: str) -> Text | None:
         """Return a definition, unless it is IDL or there are several."""

@@ -1,0 +1,75 @@
+"""MS006: values fit the fields they are given to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.message_values import Misfits
+
+_CODE = (
+    "from sensor_msgs.msg import Imu, Temperature\nfrom std_msgs.msg import Bool, String, UInt8\n"
+    "\n\nclass Talker:\n"
+    "    def __init__(self):\n"
+    "        self.count = 0\n\n"
+    "    def talk(self):\n"
+    "        reading = Temperature()\n"
+    "        reading.temperature = {}\n"
+    "        imu = Imu()\n"
+    "        imu.orientation_covariance = {}\n"
+    "        level = UInt8()\n"
+    "        level.data = {}\n"
+    "        self.count += 1\n"
+    "        return Bool(data={}), String(data={})\n"
+)
+_RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{self.count}'")
+
+
+class FieldValueUnfit(Rule):
+    """A field of a message is given a value that its type cannot hold.
+
+    **Why.** Python messages of ROS 2 Jazzy are not checked: the node runs, and subscribers get
+    ``False`` for ``1``, ``5e-324`` for the int ``1`` in a float field, ``44`` for 300 in a uint8.
+    Other values end in an error that does not name the field.
+
+    **Fix.** Convert the value, or keep it in its range: ``float(x)``, ``bool(x)``,
+    ``min(x, 255)``. With ``ROS_PYTHON_CHECK_FIELDS=1`` rclpy finds such values when it runs.
+
+    **Source.** https://github.com/ros2/rosidl_python/pull/194; ``rosidl_generator_py``,
+    ``resource/_msg_support.c.em``.
+    """
+
+    code = "MS006"
+    name = "field-value-unfit"
+    examples = (
+        Example("values of their types", {"talker.py": _CODE.format(*_RIGHT)}),
+        Example(
+            "text for a float, 8 of 9 elements, a counter in 8 bits, an int for a bool, a number",
+            {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
+            at=("talker.py:11", "talker.py:13", "talker.py:15", "talker.py:17", "talker.py:17"),
+        ),
+        Example(
+            "an int for a float, another message, a single number for an array, out of range",
+            {
+                "talker.py": "from geometry_msgs.msg import Pose, Twist, Vector3\n"
+                "from std_msgs.msg import Int8, Float32MultiArray\n\n"
+                "twist = Twist()\n"
+                "twist.linear.x = 1\n"
+                "pose = Pose(position=Vector3())\n"
+                "numbers = Float32MultiArray(data=0.5)\n"
+                "small = Int8(data=-129)\n"
+            },
+            at=("talker.py:5", "talker.py:6", "talker.py:7", "talker.py:8"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            misfits = Misfits(types)
+            for item in types.assigned:
+                said = misfits.misfit(item)
+                if said:
+                    field = f"{item.owner.name} {item.field.name}"
+                    message = f"{field} is {item.field.type}, but {said}"
+                    yield self.report(types.module.location(item.value), message)

@@ -1,0 +1,104 @@
+"""MS001: an interface that is imported exists."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Location, Package, Rule
+from scaffold.model.interfaces import KINDS, Definitions, nearest_word
+from scaffold.model.message_types import MessageTypes
+
+_MISSPELT = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
+_MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "actions": "action"}
+
+
+class InterfaceUnknown(Rule):
+    """Python code imports a message, service or action that its package does not have.
+
+    **Why.** The node dies at once: ``ImportError: cannot import name 'Str' from 'std_msgs.msg'``.
+
+    **Fix.** Write the name as the package has it; ``ros2-scaffold interfaces std_msgs`` lists
+    them. Packages whose definitions are neither in the workspace nor installed nor common are
+    not judged.
+
+    **Source.** ``rosidl_generator_py``, which writes the ``__init__.py`` of ``std_msgs.msg``.
+    """
+
+    code = "MS001"
+    name = "interface-unknown"
+    examples = (
+        Example(
+            "they exist, or nobody can know",
+            {
+                "talker.py": "from std_msgs.msg import String\n"
+                "from std_srvs.srv import SetBool, SetBool_Request\n"
+                "from unheard_msgs.msg import Thing\n"
+                "try:\n    from std_msgs.msg import Newer\nexcept ImportError:\n    Newer = None\n",
+            },
+        ),
+        Example(
+            "misspelt, of another package, of another kind",
+            {
+                "talker.py": "import std_msgs.msg\n"
+                "from std_msgs.msg import Str\n"
+                "from std_msgs.msg import Twist\n"
+                "from std_msgs.srv import Empty\n"
+                "from std_msgs.msgs import Bool\n\n"
+                "message = std_msgs.msg.Sting()\n",
+            },
+            at=("talker.py:2", "talker.py:3", "talker.py:4", "talker.py:5", "talker.py:7"),
+        ),
+        Example(
+            "of a package of the workspace",
+            {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
+            at=("talker.py:1",),
+            neighbours={
+                "my_msgs": {
+                    "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
+                    "CMakeLists.txt": "project(my_msgs)\n"
+                    "rosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n",
+                    "msg/Beat.msg": "int32 count\n",
+                }
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            for at, owner, kind, name in _used(types):
+                message = _flaw(types.definitions, owner, kind, name)
+                if message:
+                    yield self.report(at, message)
+
+
+def _used(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
+    """Yield the interfaces that a file names: place, package, kind and name."""
+    module = types.module
+    for import_ in module.imports:
+        owner, _, kind = import_.module.partition(".")
+        if import_.level or import_.guarded or not kind or "." in kind:
+            continue
+        for name in import_.names:
+            yield name.location, owner, kind, name.name
+    for node in module.walk(ast.Attribute):
+        parts = (module.qualified_name(node) or "").split(".")
+        match parts:
+            case [owner, kind, name] if kind in KINDS and not types.is_tolerated(node):
+                yield module.location(node), owner, kind, name
+
+
+def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:
+    meant = _MISSPELT.get(kind.lower(), kind)
+    known = definitions.names(owner, meant)
+    if known is None or name.startswith("_") or name == "*":
+        return None
+    if meant != kind:
+        return f"{owner} has no module {kind!r}; its interfaces are in {owner}.{meant}"
+    if kind not in KINDS or name in known or any(name.startswith(f"{one}_") for one in known):
+        return None
+    hint = nearest_word(name, known)
+    elsewhere = [found for found in definitions.matches(name) if found.endswith(f"/{name}")]
+    if elsewhere and (not hint or not known):
+        hint = f"; did you mean {' or '.join(elsewhere[:3])}?"
+    return f"{owner} has no {owner}/{kind}/{name}{hint}"

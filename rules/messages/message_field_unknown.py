@@ -1,0 +1,110 @@
+"""MS002: a field of a message that is read or set exists."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.interfaces import nearest_word
+from scaffold.model.message_types import PARTS, MessageClass, MessageTypes
+
+_CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.create_subscription(String, 'chatter', self.on_chatter, 10)\n\n"
+    "    def on_chatter(self, msg):\n"
+    "        self.get_logger().info(msg.{})\n"
+)
+
+
+class MessageFieldUnknown(Rule):
+    """Code reads or sets something that the message does not have.
+
+    **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback the first
+    message ends the node.
+
+    **Fix.** Write the field as its definition has it: ``ros2-scaffold interfaces String`` shows
+    it. Only what is surely a message is judged: what a constructor makes, and the parameters
+    that rclpy passes to callbacks.
+
+    **Source.** ``rosidl_generator_py``: the classes have ``__slots__``.
+    """
+
+    code = "MS002"
+    name = "message-field-unknown"
+    examples = (
+        Example("the field of the definition", {"listener.py": _NODE.format("data")}),
+        Example(
+            "read in a callback", {"listener.py": _NODE.format("text")}, at=("listener.py:11",)
+        ),
+        Example(
+            "set, nested, of a response, a constant; what is reassigned is not judged",
+            {
+                "talker.py": "from geometry_msgs.msg import Twist\n"
+                "from diagnostic_msgs.msg import DiagnosticStatus\n"
+                "from std_srvs.srv import SetBool\n\n\n"
+                "def make(other):\n"
+                "    twist = Twist()\n"
+                "    twist.linear.y = 1.0\n"
+                "    twist.linear.yaw = 1.0\n"
+                "    twist.speed = 1.0\n"
+                "    answer = SetBool.Response()\n"
+                "    answer.succes = DiagnosticStatus.OKAY\n"
+                "    mixed = Twist()\n"
+                "    mixed = other\n"
+                "    mixed.anything = 1\n",
+            },
+            at=("talker.py:9", "talker.py:10", "talker.py:12", "talker.py:12"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            for node in types.module.walk(ast.Attribute):
+                said = _flaw(types, node)
+                if said and not types.is_tolerated(node):
+                    start, end = types.module.span(node)
+                    at = types.module.source.location(max(start, end - len(node.attr)), end)
+                    yield self.report(at, said)
+
+
+def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
+    owner = types.type_of(node.value)
+    if owner is not None:
+        return None if owner.allows(node.attr) else _message(owner, node.attr)
+    if not isinstance(node.value, ast.Name | ast.Attribute):
+        return None
+    class_ = types.class_of(node.value)
+    if class_ is not None:
+        known = class_.allows(node.attr) or node.attr in _CLASS_PARTS
+        return None if known or hasattr(type, node.attr) else _message(class_, node.attr)
+    return _unknown_part(types, node)
+
+
+def _message(owner: MessageClass, name: str) -> str:
+    has = [field.name for field in owner.section.fields]
+    if name.isupper():
+        has = [constant.name for constant in owner.section.constants]
+    hint = nearest_word(name, has)
+    if not hint and has:
+        more = " ..." if len(has) > 5 else ""  # noqa: PLR2004  what fits a line
+        hint = f"; it has {', '.join(has[:5])}{more}"
+    kind = "constant" if name.isupper() else "field"
+    return f"{owner.name} has no {kind} {name!r}{hint} (definition: {owner.origin})"
+
+
+def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
+    """Say what is wrong with ``SetBool.Requests``."""
+    dotted = (types.module.qualified_name(node.value) or "").split(".")
+    if len(dotted) != 3 or not PARTS.get(dotted[1]):  # noqa: PLR2004  package, kind and name
+        return None
+    full_name = "/".join(dotted)
+    if types.definitions.find(full_name) is None or node.attr in _CLASS_PARTS:
+        return None
+    if hasattr(type, node.attr) or node.attr.startswith("_"):
+        return None
+    return f"{full_name} has no {node.attr!r}{nearest_word(node.attr, [*PARTS[dotted[1]]])}"

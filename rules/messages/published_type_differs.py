@@ -1,0 +1,104 @@
+"""MS004: what is published or sent has the type of the publisher or client."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.node_entities import Client, Endpoint, Publisher
+
+_SENDS = {"publish": Publisher, "call_async": Client, "call": Client}
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import Bool, String\n"
+    "from std_srvs.srv import Trigger\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
+    "        self.client = self.create_client(Trigger, 'report')\n\n"
+    "    def talk(self):\n"
+    "        self.pub.publish({})\n"
+    "        self.client.call_async({})\n"
+)
+
+
+class PublishedTypeDiffers(Rule):
+    """A publisher publishes, or a client sends, a message of another type than its own.
+
+    **Why.** ``TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class ...>`` as
+    soon as the line is reached.
+
+    **Fix.** Publish it with the publisher of its type, or change the type of the publisher.
+
+    **Source.** ``rclpy/publisher.py``, ``Publisher.publish``; ``rclpy/client.py``.
+    """
+
+    code = "MS004"
+    name = "published-type-differs"
+    examples = (
+        Example(
+            "their own types, serialized messages, what is not known",
+            {
+                "talker.py": _NODE.format("String(data='hello')", "Trigger.Request()")
+                + "        self.pub.publish(b'raw')\n        self.pub.publish(self.other)\n"
+            },
+        ),
+        Example(
+            "another message, the response of a service",
+            {"talker.py": _NODE.format("Bool(data=True)", "Trigger.Response()")},
+            at=("talker.py:13", "talker.py:14"),
+        ),
+        Example(
+            "the text alone, the class",
+            {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
+            at=("talker.py:13", "talker.py:14"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            calls = {endpoint.call: endpoint for endpoint in types.facts.endpoints}
+            for call in types.module.walk(ast.Call):
+                endpoint = _sender(types, call, calls)
+                if endpoint is None or endpoint.interface is None or types.is_tolerated(call):
+                    continue
+                wanted = endpoint.interface
+                if isinstance(endpoint, Client):
+                    wanted += ".Request"
+                given = _given(types, call.args[0])
+                if given and given != wanted and types.definitions.find(endpoint.interface):
+                    kind = "client" if isinstance(endpoint, Client) else "publisher"
+                    message = (
+                        f"sends {given}, but the {kind} made in line {endpoint.location.line} "
+                        f"takes {wanted}: TypeError"
+                    )
+                    yield self.report(types.module.location(call.args[0]), message)
+
+
+def _sender(
+    types: MessageTypes, call: ast.Call, calls: dict[ast.Call, Endpoint]
+) -> Endpoint | None:
+    func = call.func
+    if not isinstance(func, ast.Attribute) or func.attr not in _SENDS or len(call.args) != 1:
+        return None
+    made = types.facts.evaluator.single_value(func.value)
+    endpoint = calls.get(made) if isinstance(made, ast.Call) else None
+    return endpoint if isinstance(endpoint, _SENDS[func.attr]) else None
+
+
+def _given(types: MessageTypes, node: ast.expr) -> str | None:
+    """Return what is sent, as far as that is sure."""
+    found = types.type_of(node)
+    if found is not None:
+        return found.name
+    value = types.facts.evaluator.evaluate(node)
+    if isinstance(node, ast.JoinedStr) or isinstance(value, str):
+        return "a str"
+    if isinstance(value, int | float):
+        return "a number"
+    if isinstance(node, ast.Name | ast.Attribute):
+        class_ = types.class_of(node)
+        return f"the class {class_.name}" if class_ else None
+    return None

@@ -1,0 +1,76 @@
+"""MS005: times of rclpy are converted for messages."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.message_values import rclpy_time
+
+_CODE = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
+    "class Talker(Node):\n"
+    "    def talk(self, other):\n"
+    "        reading = Temperature()\n"
+    "        reading.header.stamp = self.get_clock().now(){}\n"
+    "        other.header.stamp = self.get_clock().now(){}\n"
+)
+
+
+class TimeNotConverted(Rule):
+    """A Time or Duration of rclpy is assigned to a field of a message.
+
+    **Why.** ``AttributeError: 'Time' object has no attribute 'sec'`` when the message is
+    published; on some builds the node aborts without saying why.
+
+    **Fix.** Append ``.to_msg()``.
+
+    **Source.** ``rclpy/time.py``, ``Time.to_msg``; ROS 2 documentation, "Writing a tf2
+    broadcaster (Python)".
+    """
+
+    code = "MS005"
+    name = "time-not-converted"
+    examples = (
+        Example("converted", {"talker.py": _CODE.format(".to_msg()", ".to_msg()")}),
+        Example(
+            "the clock's own time; a stamp of a header is a message whatever it belongs to",
+            {"talker.py": _CODE.format("", "")},
+            at=("talker.py:8", "talker.py:9"),
+            fixed={"talker.py": _CODE.format(".to_msg()", ".to_msg()")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            for value, field in _times(types):
+                kind = rclpy_time(types, value)
+                if kind is None:
+                    continue
+                _, end = types.module.span(value)
+                fix = None
+                if isinstance(value, ast.Call | ast.Name | ast.Attribute):
+                    edit = Edit(types.module.path, end, end, ".to_msg()")
+                    fix = Fix("convert it with .to_msg()", (edit,))
+                given = kind.rpartition("/")[2]
+                message = (
+                    f"{field} is a {kind}, but this is rclpy's own {given}: "
+                    "AttributeError when it is published; append .to_msg()"
+                )
+                yield self.report(types.module.location(value), message, fix)
+
+
+def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the values given to fields that are times, and the fields' names."""
+    known: set[ast.expr] = set()
+    for item in types.assigned:
+        known.add(item.value)
+        if item.field.type.package == "builtin_interfaces":
+            yield item.value, item.field.name
+    for store in types.facts.evaluator.stores("stamp"):
+        holder = store.node.value
+        in_header = isinstance(holder, ast.Attribute) and holder.attr == "header"
+        if in_header and store.value is not None and store.value not in known:
+            yield store.value, "header.stamp"
