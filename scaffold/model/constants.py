@@ -148,8 +148,16 @@ class Evaluator:
 
     def elements(self, node: ast.expr) -> Elements:
         """Return the items of a list or tuple, each with the place where it is written."""
+        if self._depth == 0:
+            self._steps = 0
+        self._depth += 1
         items: list[Element] = []
-        complete = all(self._collect(node, items, 0))
+        try:
+            complete = all([*self._collect(node, items, 0)])
+        finally:
+            self._depth -= 1
+        if self._depth == 0:
+            self._is_cut = False
         return Elements(tuple(items), complete)
 
     def trace(self, node: ast.expr | None) -> tuple[object, frozenset[str]]:
@@ -169,6 +177,11 @@ class Evaluator:
         """Say that the value being evaluated is not the last word, so it is not remembered."""
         self._is_cut = True
 
+    def argument(self, node: ast.arg) -> object:
+        """Return the value of a function's parameter in the function."""
+        del node
+        return UNKNOWN
+
     def attribute(self, node: ast.Attribute) -> object:
         """Return the value of an attribute that is none of the known constants."""
         del node
@@ -183,7 +196,9 @@ class Evaluator:
 
     def _collect(self, node: ast.expr, items: list[Element], depth: int) -> Iterator[bool]:
         """Append the items of a list; yield false for every part that is not known."""
-        if depth > MAX_DEPTH:
+        self._steps += 1
+        if depth > MAX_DEPTH or self._steps > MAX_STEPS:
+            self._is_cut = True
             yield False
             return
         match node:
@@ -213,9 +228,8 @@ class Evaluator:
         if any(binding.kind not in {"assignment", "augmented"} for binding in assigned):
             return None
         values = [binding.value for binding in assigned if binding.kind == "assignment"]
-        if len(values) != 1 or not isinstance(values[0], ast.List | ast.BinOp | ast.ListComp):
-            return None
-        return values[0]
+        literal = values[0] if len(values) == 1 else None
+        return literal if literal is not None and _looks_like_list(literal) else None
 
     def _collect_named(self, node: ast.Name, items: list[Element], depth: int) -> Iterator[bool]:
         literal = self._list_literal(node)
@@ -310,6 +324,8 @@ class Evaluator:
         if any(binding.kind == "import" for binding in bindings):
             return self._imported(node)
         assigned = [binding for binding in bindings if binding.kind != "annotation"]
+        if len(assigned) == 1 and isinstance(assigned[0].node, ast.arg):
+            return self.argument(assigned[0].node)
         if not assigned or any(binding.kind != "assignment" for binding in assigned):
             return UNKNOWN
         values = [self.evaluate(binding.value) for binding in assigned]
@@ -505,3 +521,12 @@ class Evaluator:
                 return holder.get(*args[:2])
             case _:
                 return UNKNOWN
+
+
+def _looks_like_list(node: ast.expr) -> bool:
+    """Tell whether an expression is a list literal, or one with something added."""
+    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        if _looks_like_list(node.right):
+            return True
+        node = node.left
+    return isinstance(node, ast.List | ast.ListComp)

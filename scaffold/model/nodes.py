@@ -25,7 +25,7 @@ from scaffold.model.node_entities import (
     Subscription,
     Timer,
 )
-from scaffold.model.node_values import NOTE, NodeEvaluator
+from scaffold.model.node_values import NOTE, NodeEvaluator, given_argument
 from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.source import Location
@@ -281,11 +281,28 @@ class NodeClass(NodeOwner):
     @cached_property
     def node_name(self) -> str | Unknown:
         """The name given to rclpy's Node, by this class or by all that make objects of it."""
-        if self.base is not None and self.constructor is None:
-            return self.base.node_name
+        if self.constructor is None:
+            return self.base.node_name if self.base else UNKNOWN
+        node, facts = self._name_given(None, self.facts)
+        return facts.evaluator.text(node)
+
+    def _name_given(
+        self, call: ast.Call | None, caller: NodeFacts
+    ) -> tuple[ast.expr | None, NodeFacts]:
+        """Return the expression that names the node when ``call`` reaches the constructor."""
+        constructor = self.constructor
+        if constructor is None:
+            if self.base is not None:
+                return self.base._name_given(call, caller)
+            return (call.args[0] if call and call.args else None), caller
+        node, facts = self.node_name_node, self.facts
+        inner = self.constructor_call
         if self.base is not None:
-            return UNKNOWN
-        return self.facts.evaluator.text(self.node_name_node)
+            node, facts = self.base._name_given(inner, self.facts) if inner else (None, facts)
+        parameter = facts.parameter_of(node) if facts is self.facts else None
+        if call is None or parameter is None:
+            return node, facts
+        return given_argument(constructor, call, parameter, is_method=True), caller
 
 
 class NodeFacts:
@@ -427,6 +444,14 @@ class NodeFacts:
                 if item.constructor_call is call:
                     return item
             return self._base_class(call.func, self.module.qualified_names(call.func))
+        return None
+
+    def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
+        """Return the function parameter that an expression is the name of."""
+        if isinstance(node, ast.Name):
+            found = self.module.index.lookup(node.id, node)
+            if found and len(found[1]) == 1 and isinstance(found[1][0].node, ast.arg):
+                return found[1][0].node
         return None
 
     # -- what is created

@@ -377,6 +377,8 @@ class SetupPy:
             at = self.module.location(item.node)
             if isinstance(item.value, str):
                 yield self._entry_point(group, item.value, at, item.node)
+            elif isinstance(item.node, ast.Tuple | ast.List):
+                yield from self._group(group, item.node)  # setuptools flattens lists in lists
             else:
                 yield None
         if not elements.complete:
