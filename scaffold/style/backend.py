@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -19,8 +20,16 @@ from scaffold.style.selection import select
 if TYPE_CHECKING:
     from scaffold.style.ruff import Said
 
-VERSION = "1"
-"""Changes whenever the own rules say something else about a file; part of the cache's keys."""
+
+def _identity() -> str:
+    """Return what the findings about a file depend on beside its content."""
+    with os.scandir(os.path.dirname(__file__)) as entries:
+        own = sorted(
+            f"{entry.name}:{entry.stat().st_size}:{entry.stat().st_mtime_ns}"
+            for entry in entries
+            if entry.name.endswith(".py")
+        )
+    return f"{sys.version_info[:3]}{own}{ruff.identity()}"
 
 
 class _File:
@@ -40,7 +49,7 @@ class StyleCheck:
 
     def __init__(self, packages: Sequence[Package]) -> None:
         self._scratch = ""
-        self._cache = Cache.of_user(f"{VERSION}:{ruff.identity()}")
+        self._cache = Cache.of_user(_identity)
         self._files = {id(package): self._read(package) for package in packages}
         self._keep = list(packages)
         wanted = [one for files in self._files.values() for one in files if one.findings is None]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import marshal
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from scaffold.style.finding import Finding
 
@@ -26,14 +26,14 @@ class Cache:
         self._salt = depends_on.encode("utf-8", "surrogateescape")
 
     @classmethod
-    def of_user(cls, depends_on: str) -> Cache | None:
+    def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
         """Return the user's cache, unless it is switched off or there is no home for it."""
         if os.environ.get(SWITCH):
             return None
         home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
         if not os.path.isabs(home):
             return None
-        return cls(os.path.join(home, "ros2-scaffold", "style"), depends_on)
+        return cls(os.path.join(home, "ros2-scaffold", "style"), depends_on())
 
     def key(self, name: str, linters: int, data: bytes) -> str:
         """Return the key of a file: of its bytes and of what else rules look at."""

@@ -89,11 +89,11 @@ class _Walk:
             is_new = row > self.row
             if is_new:
                 self.row = row
-                is_new = not after_rows and token.kind not in NEWLINES
+                is_new = not after_rows and token.type not in NEWLINES
             if is_new:
                 yield from self._line_start(token)
             self._note_columns(token)
-            if token.kind == OP:
+            if token.type == OP:
                 self._note_brackets(token)
             after_rows = token.start[0] != token.end[0]
             if after_rows:
@@ -108,7 +108,7 @@ class _Walk:
         self.last_start = token.start
         line = self.logical.lines[token.start[0] - 1]
         self.relative[self.row] = expand_indent(line) - self.level
-        closes = token.kind == OP and token.text in "]})"
+        closes = token.type == OP and token.string in "]})"
         hang, hanging = self._hang(bracket)
         chance = self.chances.get(column)
         self.visual = not closes and hang > 0 and chance
@@ -124,7 +124,7 @@ class _Walk:
             bracket.hang = hang
         elif self.visual is True:
             bracket.indent = column
-        elif self.visual is str or (self.visual and self.visual == token.text):
+        elif self.visual is str or (self.visual and self.visual == token.string):
             pass
         elif hang <= 0:
             yield token.start, "E122"
@@ -152,23 +152,23 @@ class _Walk:
         bracket = self.stack[-1]
         at_start = not self.row and len(self.stack) == 1
         column = token.start[1]
-        if self.opened[self.row] and token.kind not in (NL, COMMENT) and not bracket.indent:
+        if self.opened[self.row] and token.type not in (NL, COMMENT) and not bracket.indent:
             bracket.indent = column
             self.chances[column] = True
-        elif token.kind in (STRING, COMMENT, FSTRING_START):
+        elif token.type in (STRING, COMMENT, FSTRING_START):
             self.chances[column] = str
-        elif at_start and token.text in ("assert", "raise", "with"):
+        elif at_start and token.string in ("assert", "raise", "with"):
             self.chances[token.end[1] + 1] = True
-        elif at_start and not self.chances and token.text == "if":
+        elif at_start and not self.chances and token.string == "if":
             self.chances[token.end[1] + 1] = True
-        elif token.text == ":" and self._rest(token).isspace():
+        elif token.string == ":" and self._rest(token).isspace():
             bracket.rows.append(self.row)
 
     def _rest(self, token: Token) -> str:
         return self.logical.lines[token.end[0] - 1][token.end[1] :]
 
     def _note_brackets(self, token: Token) -> None:
-        if token.text in "([{":
+        if token.string in "([{":
             depth = len(self.stack)
             if len(self.spare) == depth:
                 self.spare.append([])
@@ -176,9 +176,9 @@ class _Walk:
             rows.append(self.row)
             self.stack.append(_Bracket(0, rows))
             self.opened[self.row] += 1
-        elif token.text in ")]}" and len(self.stack) > 1:
+        elif token.string in ")]}" and len(self.stack) > 1:
             self._close()
-        self.chances.setdefault(token.start[1], token.text)
+        self.chances.setdefault(token.start[1], token.string)
 
     def _close(self) -> None:
         limit = self.stack.pop().indent or self.last_start[1]

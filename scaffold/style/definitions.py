@@ -117,15 +117,15 @@ class Definition:
         at = 0
         if not isinstance(self.node, ast.Module):
             at = bisect_left(self._text.token_rows, self.node.lineno)
-            while at < len(tokens) and tokens[at].kind != NEWLINE:
+            while at < len(tokens) and tokens[at].type != NEWLINE:
                 at += 1
             if at == len(tokens) or tokens[at].start[0] >= self.literal.line:
                 return
-            if tokens[at - 1].kind == COMMENT:
+            if tokens[at - 1].type == COMMENT:
                 at -= 1
-        while at < len(tokens) and tokens[at].kind in (COMMENT, NL, NEWLINE):
-            if tokens[at].kind == COMMENT:
-                yield tokens[at].text
+        while at < len(tokens) and tokens[at].type in (COMMENT, NL, NEWLINE):
+            if tokens[at].type == COMMENT:
+                yield tokens[at].string
             at += 1
 
 
@@ -143,12 +143,23 @@ def definitions(text: PythonText) -> Iterator[Definition]:
             if isinstance(node, _Definition):
                 is_class = isinstance(node, ast.ClassDef)
                 literal = _docstring(text, node.body)
-                if literal:
+                if literal and not _is_misread(text, node):
                     kind = CLASS if is_class else METHOD if in_class else FUNCTION
                     yield Definition(text, kind, node, literal)
                 pending.append((node.body, is_class))
             else:
                 pending.extend((inner, in_class) for inner in _blocks(node))
+
+
+def _is_misread(text: PythonText, node: _Definition) -> bool:
+    """Tell whether pydocstyle takes a colon in type parameters for the end of the header.
+
+    It does not know ``def f[T](x: T)`` and goes on from the first colon.
+    """
+    if not getattr(node, "type_params", None):
+        return False
+    header = "".join(text.lines[node.lineno - 1 : node.body[0].lineno - 1])
+    return header.count(":") > 1
 
 
 def _blocks(node: ast.stmt) -> Iterator[Sequence[ast.stmt]]:

@@ -11,15 +11,21 @@ from scaffold.style.text import PythonText
 
 
 def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
-    """Yield what pyflakes would say, given what ruff says."""
+    """Yield what pyflakes would say, given what ruff says; F811 is judged elsewhere."""
     has_star_use = any(one.code == "F405" for one in said)
     for one in said:
-        line, column = one.line, one.column
+        finding = plain(one)
         if one.code == "F401":
-            line, column = _statement(text, line, column)
-        yield plain(one)._replace(line=line, column=column)
+            finding = _at_statement(text, finding)
+        elif one.code in ("F405", "F822"):
+            finding = _at_exports(text, finding)
+            if one.code == "F822" and text.name == "__init__.py":
+                continue
+        if one.code != "F811":
+            yield finding
         if one.code == "F403" and not has_star_use:
-            yield Finding("F401", line, column, "nothing of the star import is used")
+            unused = "nothing of the star import is used"
+            yield Finding("F401", finding.line, finding.column, unused)
 
 
 def plain(said: Said) -> Finding:
@@ -42,13 +48,36 @@ def worded(message: str) -> str:
     return message[:1].lower() + message[1:] if message[1:2].islower() else message
 
 
-def _statement(text: PythonText, line: int, column: int) -> tuple[int, int]:
-    """Return the start of the import statement that covers a line."""
-    if text.tree is None:
-        return line, column
-    for node in ast.walk(text.tree):
-        if isinstance(node, (ast.Import, ast.ImportFrom)):
-            end = node.end_lineno or node.lineno
-            if node.lineno <= line <= end:
-                return node.lineno, text.column(node.lineno, node.col_offset)
-    return line, column
+def _at_statement(text: PythonText, finding: Finding) -> Finding:
+    """Move a finding to the start of its import statement."""
+    for node in text.nodes:
+        if isinstance(node, (ast.Import, ast.ImportFrom)) and _covers(node, finding.line):
+            return _moved(text, finding, node)
+    return finding
+
+
+def _at_exports(text: PythonText, finding: Finding) -> Finding:
+    """Move a finding within ``__all__`` to the last statement that sets it."""
+    exports = [node for node in (text.tree.body if text.tree else ()) if _sets_exports(node)]
+    if any(_covers(node, finding.line) for node in exports):
+        return _moved(text, finding, exports[-1])
+    return finding
+
+
+def _sets_exports(node: ast.stmt) -> bool:
+    if isinstance(node, ast.Assign):
+        targets = node.targets
+    elif isinstance(node, (ast.AugAssign, ast.AnnAssign)):
+        targets = [node.target]
+    else:
+        return False
+    return any(isinstance(one, ast.Name) and one.id == "__all__" for one in targets)
+
+
+def _covers(node: ast.stmt, line: int) -> bool:
+    return node.lineno <= line <= (node.end_lineno or node.lineno)
+
+
+def _moved(text: PythonText, finding: Finding, node: ast.stmt) -> Finding:
+    column = text.column(node.lineno, node.col_offset)
+    return finding._replace(line=node.lineno, column=column, end_line=0, end_column=0)

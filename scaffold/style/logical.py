@@ -9,6 +9,7 @@ from scaffold.style.tokens import (
     COMMENT,
     FSTRING_MIDDLE,
     LAYOUT,
+    SILENT,
     NEWLINE,
     NEWLINES,
     NL,
@@ -22,24 +23,26 @@ from scaffold.style.tokens import (
 class LogicalLine:
     """The tokens of a statement, or of a comment that stands alone."""
 
-    def __init__(self, tokens: list[Token], lines: list[str], blank_before: int) -> None:
+    def __init__(
+        self, tokens: list[Token], first: Token, lines: list[str], blank_before: int
+    ) -> None:
         self.tokens = tokens
         self.lines = lines
         self.blank_lines = blank_before
         """Blank lines since the logical line (or comment) before."""
-        self._first = next((token for token in tokens if token.kind not in LAYOUT), tokens[0])
+        self._first = first
         self.row = self._first.start[0]
         self.end_row = tokens[-1].start[0]
 
     @cached_property
     def first(self) -> str:
         """The text of the first token; empty for a comment."""
-        return "" if self.is_comment else self._first.text
+        return "" if self.is_comment else self._first.string
 
     @cached_property
     def is_comment(self) -> bool:
         """Whether there is nothing but a comment."""
-        return all(token.kind in LAYOUT or token.kind == COMMENT for token in self.tokens)
+        return self._first.type == COMMENT and all(one.type in SILENT for one in self.tokens)
 
     @cached_property
     def indent(self) -> int:
@@ -72,10 +75,10 @@ class LogicalLine:
         length = 0
         before: Token | None = None
         for token in self.tokens:
-            if token.kind in LAYOUT or token.kind == COMMENT:
+            if token.type in SILENT:
                 continue
             text = _visible(token)
-            if before is not None:
+            if before is not None and before.end != token.start:
                 text = self._gap(before, token, text) + text
             parts.append(text)
             length += len(text)
@@ -97,32 +100,33 @@ class LogicalLine:
 def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
     """Cut a file into logical lines."""
     found: list[LogicalLine] = []
-    current: list[Token] = []
-    depth = blank = 0
-    for token in tokens:
-        current.append(token)
-        if token.kind == OP:
-            if token.text in "([{":
+    depth = blank = start = 0
+    first: Token | None = None
+    for at, token in enumerate(tokens):
+        kind = token.type
+        if kind == OP:
+            if token.string in "([{":
                 depth += 1
-            elif token.text in ")]}":
+            elif token.string in ")]}":
                 depth -= 1
-        elif depth == 0 and token.kind in NEWLINES:
-            if token.kind == NL and len(current) == 1:
+            first = first or token
+        elif kind not in LAYOUT:
+            first = first or token
+        elif depth == 0 and kind in NEWLINES:
+            if first is not None:
+                found.append(LogicalLine(tokens[start : at + 1], first, lines, blank))
+                blank, first, start = 0, None, at + 1
+            elif kind == NL and at == start:
                 blank += 1
-                current = []
-                continue
-            if any(one.kind not in LAYOUT for one in current):
-                found.append(LogicalLine(current, lines, blank))
-                blank = 0
-                current = []
-    if any(one.kind not in LAYOUT and one.text for one in current):
-        found.append(LogicalLine(current, lines, blank))
+                start = at + 1
+    if first is not None and first.string:
+        found.append(LogicalLine(tokens[start:], first, lines, blank))
     return found
 
 
 def ends_statement(logical: LogicalLine) -> bool:
     """Tell whether a logical line ends with a statement's end, not with a comment's."""
-    return logical.tokens[-1].kind == NEWLINE
+    return logical.tokens[-1].type == NEWLINE
 
 
 def expand_indent(line: str) -> int:
@@ -142,11 +146,11 @@ def expand_indent(line: str) -> int:
 
 
 def _visible(token: Token) -> str:
-    if token.kind == STRING:
-        return mute(token.text)
-    if token.kind == FSTRING_MIDDLE:
-        return "x" * len(token.text)
-    return token.text
+    if token.type == STRING:
+        return mute(token.string)
+    if token.type == FSTRING_MIDDLE:
+        return "x" * len(token.string)
+    return token.string
 
 
 def mute(text: str) -> str:

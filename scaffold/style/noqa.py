@@ -55,7 +55,7 @@ class _Silenced:
         self._quotes = {
             token.start[0]
             for token in text.tokens
-            if token.kind == COMMENT and token.text.endswith("noqa")
+            if token.type == COMMENT and token.string.endswith("noqa")
         }
 
     def covers(self, finding: Finding) -> bool:
@@ -83,11 +83,11 @@ def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
     found: dict[int, tuple[int, int]] = {}
     first = last = 0
     for token in text.tokens:
-        if token.kind in (ENDMARKER, DEDENT):
+        if token.type in (ENDMARKER, DEDENT):
             continue
         first = min(first, token.start[0]) if first else token.start[0]
         last = max(last, token.end[0])
-        if token.kind in NEWLINES:
+        if token.type in NEWLINES:
             for row in range(first, last + 1):
                 found[row] = (first, last)
             first = last = 0

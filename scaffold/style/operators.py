@@ -1,24 +1,24 @@
-"""E225, E227, E228, E231: blanks around operators and behind punctuation.
+"""E221 to E228, E231, E271 to E274: blanks around operators and keywords, behind punctuation.
 
 ruff finds the lines, this decides which code they get: a blank on one side only is E225 for
-pycodestyle whatever the operator.
+pycodestyle whatever the operator, and blanks before a line break do not count.
 """
 
 from __future__ import annotations
 
 import keyword
+import re
 from collections.abc import Iterator
 
 from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine
 from scaffold.style.tokens import (
-    COMMENT,
     ERRORTOKEN,
     FSTRING_END,
     FSTRING_START,
-    LAYOUT,
     NAME,
     OP,
+    SILENT,
     Position,
     Token,
 )
@@ -32,7 +32,11 @@ _NEEDED = frozenset(
     "**= *= /= //= += -= != < > %= ^= &= |= == <= >= <<= >>= = and in is or -> :=".split()
 )
 
-CODES = frozenset({"E225", "E227", "E228", "E231"})
+CODES = frozenset("E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274".split())
+"""Codes of ruff that make a line worth a look."""
+
+_OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
+_KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
 
 _ONE_SIDED = "whitespace is missing on a side of an operator"
 
@@ -41,6 +45,20 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
     """Yield the places of a logical line where blanks are missing."""
     for (row, column), code, message in _Scan(logical).faults():
         yield Finding(code, row, column + 1, message)
+    for pattern, codes, what in (
+        (_OPERATOR, ("E221", "E222", "E223", "E224"), "operator"),
+        (_KEYWORD, ("E272", "E271", "E274", "E273"), "keyword"),
+    ):
+        for found in re.finditer(pattern, logical.text):
+            for group, side in ((1, "before"), (2, "after")):
+                if "\t" in found[group]:
+                    code, blanks = codes[group + 1], "a tab"
+                elif len(found[group]) > 1:
+                    code, blanks = codes[group - 1], "several spaces"
+                else:
+                    continue
+                row, column = logical.position(found.start(group))
+                yield Finding(code, row, column + 1, f"{blanks} {side} the {what}")
 
 
 class _Scan:
@@ -57,28 +75,28 @@ class _Scan:
     def faults(self) -> Iterator[tuple[Position, str, str]]:
         for token in self.logical.tokens:
             self._track(token)
-            if token.kind in LAYOUT or token.kind in (COMMENT, ERRORTOKEN):
+            if token.type in SILENT or token.type == ERRORTOKEN:
                 continue
-            if token.kind == OP and token.text in (",", ";", ":") and self._is_tight(token):
-                yield token.start, "E231", f"whitespace is missing after '{token.text}'"
+            if token.type == OP and token.string in (",", ";", ":") and self._is_tight(token):
+                yield token.start, "E231", f"whitespace is missing after '{token.string}'"
             if self.wanted:
                 yield from self._behind(token)
-            elif token.kind in (OP, NAME) and self.before is not None:
+            elif token.type in (OP, NAME) and self.before is not None:
                 yield from self._in_front(token, self.before)
             self.before = token
 
     def _track(self, token: Token) -> None:
-        text, braces = token.text, self.braces
-        if token.kind == OP and text in ("[", "(", "{"):
+        text, braces = token.string, self.braces
+        if token.type == OP and text in ("[", "(", "{"):
             braces.append(text)
-        elif token.kind == FSTRING_START:
+        elif token.type == FSTRING_START:
             braces.append("f")
-        elif token.kind == NAME and text == "lambda":
+        elif token.type == NAME and text == "lambda":
             braces.append("l")
         elif braces and (
-            (token.kind == OP and text in ("]", ")", "}"))
-            or token.kind == FSTRING_END
-            or (braces[-1] == "l" and token.kind == OP and text == ":")
+            (token.type == OP and text in ("]", ")", "}"))
+            or token.type == FSTRING_END
+            or (braces[-1] == "l" and token.type == OP and text == ":")
         ):
             braces.pop()
 
@@ -88,9 +106,9 @@ class _Scan:
         following = self.logical.lines[row - 1][column : column + 1]
         if following in (" ", "\t", "\xa0") or following in "\r\n":
             return False
-        if token.text == ":":
+        if token.string == ":":
             return self.braces[-1:] != ["["] and self.braces[-2:] != ["f", "{"]
-        return not (token.text == "," and following in ")]")
+        return not (token.string == "," and following in ")]")
 
     def _behind(self, token: Token) -> Iterator[tuple[Position, str, str]]:
         """Judge the token behind an operator."""
@@ -102,29 +120,29 @@ class _Scan:
                 yield wanted[0], "E225", _ONE_SIDED
             self.wanted = False
             return
-        if (before.text == "/" and token.text in (",", ")", ":")) or (
-            before.text == ")" and token.text == ":"
+        if (before.string == "/" and token.string in (",", ")", ":")) or (
+            before.string == ")" and token.string == ":"
         ):
             # The end of positional-only parameters; the state stays as it is.
             return
         if isinstance(wanted, bool) or wanted[1]:
             yield before.end, "E225", _ONE_SIDED
-        elif before.text == "%":
+        elif before.string == "%":
             yield wanted[0], "E228", "whitespace is missing around '%'"
-        elif before.text not in _ARITHMETIC:
-            yield wanted[0], "E227", f"whitespace is missing around '{before.text}'"
+        elif before.string not in _ARITHMETIC:
+            yield wanted[0], "E227", f"whitespace is missing around '{before.string}'"
         self.wanted = False
 
     def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:
         """Judge an operator and what stands in front of it."""
         wanted: bool | None = False
-        if token.text == "=" and self._is_keyword_argument():
+        if token.string == "=" and self._is_keyword_argument():
             pass
-        elif token.text in _NEEDED:
+        elif token.string in _NEEDED:
             wanted = True
-        elif token.text in _UNARY:
+        elif token.string in _UNARY:
             wanted = None if _is_operand(before) else False
-        elif token.text in _OPTIONAL:
+        elif token.string in _OPTIONAL:
             wanted = None
         if wanted is None:
             self.wanted = (before.end, token.start != before.end)
@@ -139,6 +157,6 @@ class _Scan:
 
 def _is_operand(token: Token) -> bool:
     """Tell whether an operator behind the token has it as its left side."""
-    if token.kind == OP:
-        return token.text in "}])"
-    return token.text not in _KEYWORDS and token.text not in _SOFT_KEYWORDS
+    if token.type == OP:
+        return token.string in "}])"
+    return token.string not in _KEYWORDS and token.string not in _SOFT_KEYWORDS

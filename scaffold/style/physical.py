@@ -107,10 +107,10 @@ def multiline_rows(text: PythonText) -> set[int]:
     rows: set[int] = set()
     start = 0
     for token in text.tokens:
-        if token.kind == FSTRING_START:
+        if token.type == FSTRING_START:
             start = token.start[0]
-        elif token.kind == FSTRING_END:
+        elif token.type == FSTRING_END:
             rows.update(range(start, token.end[0]))
-        elif token.kind == STRING and token.start[0] != token.end[0]:
+        elif token.type == STRING and token.start[0] != token.end[0]:
             rows.update(range(token.start[0], token.end[0]))
     return rows

@@ -39,7 +39,7 @@ def check(text: PythonText) -> Iterator[Finding]:
     for literal, start, end, token in _literals(text.tokens):
         code = _judge(literal, is_docstring=token in docstrings)
         if code:
-            fix = _fix(code, literal, start, end, is_plain=token.kind == STRING)
+            fix = _fix(code, literal, start, end, is_plain=token.type == STRING)
             row, column = start
             yield Finding(
                 code, row, column + 1, _MESSAGES[code], end[0], end[1] + 1, fix, "change the quotes"
@@ -57,19 +57,19 @@ def _literals(tokens: list[Token]) -> Iterator[tuple[str, Position, Position, To
     parts: list[str] = []
     start = (0, 0)
     for token in tokens:
-        if token.kind == FSTRING_START:
+        if token.type == FSTRING_START:
             if not depth:
                 start = token.start
             depth += 1
         if depth:
-            parts.append(token.text)
-            if token.kind == FSTRING_END:
+            parts.append(token.string)
+            if token.type == FSTRING_END:
                 depth -= 1
                 if not depth:
                     yield "".join(parts), start, token.end, token
                     parts = []
-        elif token.kind == STRING:
-            yield token.text, token.start, token.end, token
+        elif token.type == STRING:
+            yield token.string, token.start, token.end, token
 
 
 def _judge(literal: str, *, is_docstring: bool) -> str:
@@ -108,21 +108,21 @@ def _docstrings(tokens: list[Token]) -> set[Token]:
     keyword = False
     depth = 0
     for token in tokens:
-        if token.kind in _TRANSPARENT:
+        if token.type in _TRANSPARENT:
             continue
-        if token.kind == STRING:
+        if token.type == STRING:
             if awaited:
                 found.add(token)
             awaited = False
-        elif token.kind == NAME and token.text in ("class", "def"):
+        elif token.type == NAME and token.string in ("class", "def"):
             keyword, awaited, depth = True, False, 0
-        elif token.kind == OP and token.text == ":":
+        elif token.type == OP and token.string == ":":
             if depth == 0 and keyword:
                 keyword, awaited = False, True
-        elif token.kind == OP and token.text in "([{":
+        elif token.type == OP and token.string in "([{":
             depth += 1
             awaited = False
-        elif token.kind == OP and token.text in ")]}":
+        elif token.type == OP and token.string in ")]}":
             depth -= 1
             awaited = False
         else:

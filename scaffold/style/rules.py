@@ -15,6 +15,7 @@ from scaffold.style import (
     operators,
     physical,
     quotes,
+    redefinitions,
     shadowing,
     statements,
 )
@@ -25,8 +26,7 @@ from scaffold.style.text import PythonText, decode
 TAKEN = frozenset(
     """
     C400 C401 C402 C403 C404 C405 C406 C408 C409 C410 C411 C413 C414 C415 C416 C417 C418 C419
-    E111 E112 E113 E114 E115 E116 E117 E211 E221 E222 E223 E224 E251 E252 E261 E262 E265 E266
-    E271 E272 E273 E274 E275 E401 E502 W605
+    E111 E112 E113 E114 E115 E116 E117 E211 E251 E252 E261 E262 E265 E266 E275 E401 E502 W605
     """.split()
 )
 """Codes on which ruff's verdict is pycodestyle's and flake8-comprehensions'."""
@@ -37,6 +37,7 @@ _OWN = (
     continuation,
     statements,
     quotes,
+    redefinitions,
     imports,
     shadowing,
     docstrings,
@@ -112,7 +113,7 @@ def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
 
 def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
-    rows = [one.line for one in said if one.code in {"E225", "E226", "E227", "E228", "E231"}]
+    rows = [one.line for one in said if one.code in operators.CODES]
     rows += [text.line_of(found.start()) for found in re.finditer(r"[,;:]\\\n", text.text)]
     done: set[int] = set()
     for row in rows:

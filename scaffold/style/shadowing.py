@@ -35,21 +35,33 @@ BUILTINS = frozenset(
 
 _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
+_BINDING = (
+    ast.Assign,
+    ast.AnnAssign,
+    ast.NamedExpr,
+    ast.For,
+    ast.AsyncFor,
+    ast.With,
+    ast.AsyncWith,
+    *_Comprehension,
+    ast.ExceptHandler,
+    ast.Import,
+    ast.ImportFrom,
+    *_Function,
+    ast.ClassDef,
+)
 Named = Iterator[tuple[str, int, int]]
 """A name with its line, and its column from 0 in bytes."""
 
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the names that hide a builtin."""
-    if text.tree is None:
-        return
     in_class = {
-        id(node)
-        for owner in ast.walk(text.tree)
-        if isinstance(owner, ast.ClassDef)
-        for node in owner.body
+        id(child) for node in text.nodes if isinstance(node, ast.ClassDef) for child in node.body
     }
-    for node in ast.walk(text.tree):
+    for node in text.nodes:
+        if not isinstance(node, _BINDING):
+            continue
         code = "A003" if id(node) in in_class else "A001"
         for name, line, column in _bound(node):
             if name in BUILTINS:

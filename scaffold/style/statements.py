@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
-from scaffold.style.tokens import COMMENT, LAYOUT
+from scaffold.style.tokens import SILENT
 
 _BLOCK_KEYWORDS = frozenset(
     "def async for if elif else try except finally with class while".split()
@@ -70,9 +70,7 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
 
 
 def _last(logical: LogicalLine) -> str:
-    return next(
-        (t.text for t in reversed(logical.tokens) if t.kind not in LAYOUT and t.kind != COMMENT), ""
-    )
+    return next((t.string for t in reversed(logical.tokens) if t.type not in SILENT), "")
 
 
 def spaces(line: str) -> Said:
@@ -156,32 +154,32 @@ def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:
     in_header = False
     for at in range(1, len(tokens)):
         before, token = tokens[at - 1], tokens[at]
-        if before.text in ("def", "lambda"):
+        if before.string in ("def", "lambda"):
             function, in_header = depth, True
-        elif function is not None and token.text == ":" and depth == function:
+        elif function is not None and token.string == ":" and depth == function:
             in_header = False
-        if token.text in "([{":
+        if token.string in "([{":
             depth += 1
-        elif token.text in ")]}":
+        elif token.string in ")]}":
             depth -= 1
-        assigned = token.text == ":=" or (token.text == "=" and depth == 0)
-        if assigned and before.text in _AMBIGUOUS:
-            yield _ambiguous("E741", "variable", before.text, before.start)
-        if token.text not in _AMBIGUOUS:
+        assigned = token.string == ":=" or (token.string == "=" and depth == 0)
+        if assigned and before.string in _AMBIGUOUS:
+            yield _ambiguous("E741", "variable", before.string, before.start)
+        if token.string not in _AMBIGUOUS:
             continue
-        binds = before.text in ("as", "for", "global", "nonlocal")
+        binds = before.string in ("as", "for", "global", "nonlocal")
         is_parameter = (
             in_header
             and at < len(tokens) - 1
-            and tokens[at + 1].text in ":,=)"
-            and before.text in ("lambda", ",", "*", "**", "(")
+            and tokens[at + 1].string in ":,=)"
+            and before.string in ("lambda", ",", "*", "**", "(")
         )
         if binds or is_parameter:
-            yield _ambiguous("E741", "variable", token.text, token.start)
-        if before.text == "class":
-            yield _ambiguous("E742", "class", token.text, token.start)
-        if before.text == "def":
-            yield _ambiguous("E743", "function", token.text, token.start)
+            yield _ambiguous("E741", "variable", token.string, token.start)
+        if before.string == "class":
+            yield _ambiguous("E742", "class", token.string, token.start)
+        if before.string == "def":
+            yield _ambiguous("E743", "function", token.string, token.start)
 
 
 def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:

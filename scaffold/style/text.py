@@ -65,9 +65,21 @@ class PythonText:
                 return None
 
     @cached_property
+    def nodes(self) -> list[ast.AST]:
+        """All nodes of the syntax tree but contexts and operators, parents first."""
+        found: list[ast.AST] = [self.tree] if self.tree else []
+        for node in found:
+            for value in node.__dict__.values():
+                if isinstance(value, list):
+                    found.extend(one for one in value if isinstance(one, ast.AST))
+                elif isinstance(value, ast.AST) and value._fields:
+                    found.append(value)
+        return found
+
+    @cached_property
     def tokens(self) -> list[Token]:
         """The tokens as Python 3.12 cuts them; empty when the file cannot be cut."""
-        return read(self.text, self.lines)
+        return read(self.lines)
 
     @cached_property
     def logical_lines(self) -> list[LogicalLine]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import tokenize
-from typing import NamedTuple
+from tokenize import TokenInfo as Token
 
 NAME = tokenize.NAME
 NUMBER = tokenize.NUMBER
@@ -23,33 +23,21 @@ FSTRING_END: int = getattr(tokenize, "FSTRING_END", -3)
 
 NEWLINES = frozenset({NL, NEWLINE})
 LAYOUT = frozenset({NL, NEWLINE, INDENT, DEDENT})
+SILENT = LAYOUT | {COMMENT}
 
 Position = tuple[int, int]
 """Row from 1, column from 0."""
 
 
-class Token(NamedTuple):
-    """A token; ``end`` is exclusive."""
-
-    kind: int
-    text: str
-    start: Position
-    end: Position
-
-
-def read(text: str, lines: list[str]) -> list[Token]:
+def read(lines: list[str]) -> list[Token]:
     """Cut a file into tokens; an empty list when that is not possible."""
     feed = iter([*lines, ""]).__next__
     try:
-        cut = [Token(*token[:4]) for token in tokenize.generate_tokens(feed)]
+        cut = list(tokenize.generate_tokens(feed))
     except (tokenize.TokenError, SyntaxError, StopIteration):
         return []
-    if sys.version_info < (3, 12) and any(_is_f_string(token) for token in cut):
+    if sys.version_info < (3, 12):
         from scaffold.style.fstrings import open_up
 
         return open_up(cut)
     return cut
-
-
-def _is_f_string(token: Token) -> bool:
-    return token.kind == STRING and token.text[:2].lower().strip("rRbBuU'\"").startswith("f")
