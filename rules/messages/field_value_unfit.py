@@ -70,6 +70,6 @@ class FieldValueUnfit(Rule):
             for item in types.assigned:
                 said = misfits.misfit(item)
                 if said:
-                    field = f"{item.owner.name} {item.field.name}"
+                    field = f"{item.field.name!r} of {item.owner.name}"
                     message = f"{field} is {item.field.type}, but {said}"
                     yield self.report(types.module.location(item.value), message)

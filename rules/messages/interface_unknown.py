@@ -79,8 +79,8 @@ def _used(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
         owner, _, kind = import_.module.partition(".")
         if import_.level or import_.guarded or not kind or "." in kind:
             continue
-        for name in import_.names:
-            yield name.location, owner, kind, name.name
+        for imported in import_.names:
+            yield imported.location, owner, kind, imported.name
     for node in module.walk(ast.Attribute):
         parts = (module.qualified_name(node) or "").split(".")
         match parts:
@@ -101,4 +101,4 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
     elsewhere = [found for found in definitions.matches(name) if found.endswith(f"/{name}")]
     if elsewhere and (not hint or not known):
         hint = f"; did you mean {' or '.join(elsewhere[:3])}?"
-    return f"{owner} has no {owner}/{kind}/{name}{hint}"
+    return f"{owner}.{kind} has no {name!r}{hint}"

@@ -86,15 +86,12 @@ def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
 
 
 def _message(owner: MessageClass, name: str) -> str:
-    has = [field.name for field in owner.section.fields]
-    if name.isupper():
-        has = [constant.name for constant in owner.section.constants]
-    hint = nearest_word(name, has)
-    if not hint and has:
-        more = " ..." if len(has) > 5 else ""  # noqa: PLR2004  what fits a line
-        hint = f"; it has {', '.join(has[:5])}{more}"
-    kind = "constant" if name.isupper() else "field"
-    return f"{owner.name} has no {kind} {name!r}{hint} (definition: {owner.origin})"
+    fields = [field.name for field in owner.section.fields]
+    hint = nearest_word(name, [*fields, *(one.name for one in owner.section.constants)])
+    if not hint and fields:
+        more = " ..." if len(fields) > 5 else ""  # noqa: PLR2004  what fits a line
+        hint = f"; it has {', '.join(fields[:5])}{more}"
+    return f"{owner.name} has no field or constant {name!r}{hint} (definition: {owner.origin})"
 
 
 def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
