@@ -1,0 +1,57 @@
+"""PX067: the name of the package is one that every tool takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.manifest_structure import structure
+from scaffold.model.manifest_values import NAME, fits
+
+
+class NameMalformed(Rule):
+    """The name of the package has characters that a name may not have.
+
+    **Why.** ``ament_xmllint`` fails under ``colcon test``. Names with a capital or a dash cannot
+    be released, and interfaces of such a package cannot be generated.
+
+    **Fix.** Use lower-case letters, digits and single underscores between them, a letter first.
+    No automatic fix: the name stands in other files, too.
+
+    **Source.** REP-144; REP-149, ``<name>``; the schemas.
+    """
+
+    code = "PX067"
+    name = "name-malformed"
+    examples = (
+        Example("well-formed", {"package.xml": "<package><name>talker_2</name></package>\n"}),
+        Example(
+            "a capital and a dash",
+            {"package.xml": "<package>\n  <name>Talker-two</name>\n</package>\n"},
+            at=("package.xml:2",),
+        ),
+        Example(
+            "two underscores",
+            {"package.xml": "<package>\n  <name>talker__two</name>\n</package>\n"},
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element, name in structure(package).values("name"):
+            if not fits(NAME, name):
+                yield self.report(element.text_location, f"the name {name!r} {_reason(name)}")
+
+
+def _reason(name: str) -> str:
+    if not name:
+        return "is empty"
+    wrong = sorted({c for c in name if not (c.isascii() and (c.isalnum() or c == "_"))})
+    if wrong:
+        shown = " ".join("a blank" if c == " " else c for c in wrong)
+        return f"has {shown} in it: only a to z, 0 to 9 and _ are allowed"
+    if name != name.lower():
+        return f"has capitals in it: write {name.lower()!r}"
+    if not name[0].isalpha():
+        return "does not begin with a letter"
+    return "has an underscore at its end or two in a row"

@@ -1,0 +1,36 @@
+"""PX075: a url in package.xml is one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.manifest_structure import structure
+from scaffold.model.manifest_values import is_uri
+
+
+class UrlMalformed(Rule):
+    """The text of a ``<url>`` is not a URL.
+
+    **Why.** ``ament_xmllint`` fails under ``colcon test``, and the link leads nowhere.
+
+    **Fix.** Correct the URL: a port is a number, ``%`` begins two hexadecimal digits.
+
+    **Source.** REP-149, ``<url>``; the schemas, type ``anyURI``.
+    """
+
+    code = "PX075"
+    name = "url-malformed"
+    examples = (
+        Example("a URL", {"package.xml": "<package><url>http://a.org:80/b#c</url></package>\n"}),
+        Example(
+            "no port",
+            {"package.xml": "<package>\n  <url>http://a.org:port/b</url>\n</package>\n"},
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element, url in structure(package).values("url"):
+            if not is_uri(url):
+                yield self.report(element.text_location, f"{url!r} is not a URL")
