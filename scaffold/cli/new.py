@@ -1,0 +1,162 @@
+"""``ros2-scaffold new PACKAGE``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.check.diagnostic import Diagnostic
+    from scaffold.config import Config
+    from scaffold.generate.draft import Draft
+    from scaffold.generate.questions import Given
+    from scaffold.generate.template import Template
+    from scaffold.plan import WritePlan
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb and those of the templates' questions."""
+    from scaffold import config, content
+    from scaffold.generate import questions, template
+
+    roots = content.roots("templates", config.load().content)
+    questions.add_flags(parser, questions.unique(_in_order(template.load(roots))))
+    parser.add_argument(
+        "--destination-directory",
+        metavar="DIR",
+        default=".",
+        help="where the directory of the package is made (default: the current directory)",
+    )
+    parser.add_argument("--answers", metavar="FILE", help="a YAML file with answers; flags win")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be written, and write nothing"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite files of an existing package that differ"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write a package; return the exit code."""
+    from scaffold import config, content
+    from scaffold.check import registry
+    from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.generate import draft, place, template
+    from scaffold.generate.defaults import User
+
+    settings = config.load()
+    roots = content.roots("templates", settings.content)
+    templates = template.load(roots)
+    given = _given(options, templates, settings)
+    made = draft.draft(roots, templates, given, User(options.destination_directory))
+    place.check(options.destination_directory, made.name)
+    plan = _plan(options, made)
+    defects = draft.defects(made, registry.load(content.roots("rules")))
+    if defects:
+        _report_defects(defects)
+        return DEFECT
+    if not options.dry_run:
+        plan.write(force=options.force)
+    for remark in made.remarks:
+        sys.stderr.write(f"note: {remark}\n")
+    print(_summary(options, made, plan))
+    return CLEAN
+
+
+def _in_order(templates: dict[str, Template]) -> list[Template]:
+    """Return the base first: its questions are the general ones."""
+    from scaffold.generate.template import BASE
+
+    return [templates[BASE], *(one for name, one in templates.items() if name != BASE)]
+
+
+def _given(
+    options: argparse.Namespace, templates: dict[str, Template], settings: Config
+) -> dict[str, Given]:
+    from scaffold.generate import defaults, questions
+
+    asked = questions.unique(_in_order(templates))
+    configured = questions.from_table(defaults.configured(settings), asked)
+    answered = questions.from_file(options.answers, asked) if options.answers else {}
+    return {**configured, **answered, **questions.from_flags(options, asked)}
+
+
+def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
+    """Compare with what is there; an existing package is left alone without ``--force``."""
+    from scaffold.errors import ConflictError
+    from scaffold.plan import WritePlan
+
+    directory = os.path.join(options.destination_directory, made.name)
+    if os.path.islink(directory):
+        raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
+    if os.path.lexists(directory) and not options.force:
+        hint = "--force overwrites the files that differ"
+        raise ConflictError(f"{directory} exists already; {hint}")
+    return WritePlan.of(directory, made.rendered.files, executable=made.rendered.executable)
+
+
+def _report_defects(defects: list[Diagnostic]) -> None:
+    for defect in defects:
+        at = defect.location
+        sys.stderr.write(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}\n")
+    sys.stderr.write(
+        "ros2-scaffold: defect: the templates make a package that the checker rejects; "
+        "nothing was written, please report it\n"
+    )
+
+
+def _summary(options: argparse.Namespace, made: Draft, plan: WritePlan) -> str:
+    """Return the tree with notes, the differences of files that exist, the next commands."""
+    lines = [*_tree(made, plan)]
+    if not plan.is_new:
+        differences = plan.diff()
+        lines += ["", differences.rstrip("\n")] if options.dry_run and differences else []
+    if options.dry_run:
+        return "\n".join([*lines, "", "Nothing was written (--dry-run)."])
+    return "\n".join([*lines, "", *_next_commands(options, made)])
+
+
+def _tree(made: Draft, plan: WritePlan) -> list[str]:
+    from scaffold.plan import State
+
+    words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}
+    rows: list[tuple[str, str]] = [(f"{made.name}/", "")]
+    parents: list[str] = []
+    for file in sorted(plan.files, key=lambda file: _reading_order(file.path)):
+        *above, name = file.path.split("/")
+        for depth, parent in enumerate(above):
+            if above[: depth + 1] != parents[: depth + 1]:
+                rows.append(("    " * (depth + 1) + parent + "/", ""))
+        parents = above
+        notes = [made.rendered.notes.get(file.path, ""), words.get(file.state, "")]
+        note = ", ".join(note for note in notes if note)
+        rows.append(("    " * (len(above) + 1) + name, note))
+    width = max(len(name) for name, _ in rows)
+    return [f"{name:{width}}  {note}".rstrip() for name, note in rows]
+
+
+def _reading_order(path: str) -> tuple[tuple[bool, str], ...]:
+    """Sort files of a directory before the directories in it."""
+    *above, name = path.split("/")
+    return (*((True, parent) for parent in above), (False, name))
+
+
+def _next_commands(options: argparse.Namespace, made: Draft) -> list[str]:
+    from shlex import quote
+
+    from scaffold.generate import place
+
+    directory = os.path.join(options.destination_directory, made.name)
+    top = place.workspace(options.destination_directory) or options.destination_directory
+    build = f"colcon build --packages-select {made.name}"
+    if os.path.realpath(top) != os.path.realpath("."):
+        build = f"cd {quote(top)} && {build}"
+    return [
+        "Next:",
+        f"    ros2-scaffold check {quote(os.path.normpath(directory))}",
+        f"    {build}",
+        "    source install/setup.bash",
+        *(f"    ros2 run {made.name} {executable}" for executable in made.executables),
+    ]

@@ -1,0 +1,1 @@
+"""The generator: templates and their questions, answers, context, rendered files."""

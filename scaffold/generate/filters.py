@@ -1,0 +1,102 @@
+"""What templates use to write text into files of a language."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable, Iterator
+
+MAX_COLUMNS = 99
+"""The longest line that ament_flake8 accepts."""
+
+
+def literal(text: str, column: int = 0, indent: int = 0) -> str:
+    """Return a Python string literal with the quotes that ament_flake8 wants.
+
+    Args:
+        text: The value.
+        column: Where the literal starts on its line, from 0. One that would not fit is written as
+            several, below each other.
+        indent: The indentation of those lines; in parentheses when it differs from ``column``.
+    """
+    whole = _quoted(text)
+    if column + len(whole) + len(",") <= MAX_COLUMNS:
+        return whole
+    parts = list(_split(text, MAX_COLUMNS - indent))
+    margin = " " * indent
+    if column == indent:
+        return f"\n{margin}".join(parts)
+    lines = "".join(f"\n{margin}{part}" for part in parts)
+    return f"({lines}\n{margin[4:]})"
+
+
+def _quoted(text: str) -> str:
+    quote = '"' if "'" in text and '"' not in text else "'"
+    written = "".join(
+        character if character.isprintable() else _escape(character)
+        for character in text.replace("\\", "\\\\").replace(quote, f"\\{quote}")
+    )
+    return f"{quote}{written}{quote}"
+
+
+def _escape(character: str) -> str:
+    return character.encode("unicode_escape").decode()
+
+
+def _split(text: str, width: int) -> Iterator[str]:
+    """Yield literals, one below the other, that break the text after blanks where it has any."""
+    start = 0
+    while start < len(text):
+        end = start + 1
+        last_blank = None
+        while end <= len(text) and len(_quoted(text[start:end])) < width:
+            if text[end - 1] == " ":
+                last_blank = end
+            end += 1
+        end -= 1
+        if end < len(text) and last_blank is not None:
+            end = last_blank
+        yield _quoted(text[start:end])
+        start = end
+
+
+def xml(text: object) -> str:
+    """Return text for XML, as content or as the value of an attribute."""
+    escaped = str(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return escaped.replace('"', "&quot;")
+
+
+def markdown(text: str) -> str:
+    """Return text that Markdown shows as it is."""
+    escaped = re.sub(r"([\\`*<\[\]|])", r"\\\1", text)
+    escaped = re.sub(r"(?<!\w)_|_(?!\w)", r"\\_", escaped)
+    escaped = re.sub(r"&(?=#?\w+;)", r"\\&", escaped)
+    escaped = re.sub(r"^(\d+)([.)])(?=\s|$)", r"\1\\\2", escaped)
+    return re.sub(r"^([-+#>=~])", r"\\\1", escaped)
+
+
+def comment(text: str, mark: str = "#") -> str:
+    """Return a text as comment lines."""
+    return "\n".join(f"{mark} {line}".rstrip() for line in text.rstrip("\n").split("\n"))
+
+
+def import_block(lines: Iterable[str]) -> str:
+    """Return import statements in the order of ament_flake8: by module, not by kind.
+
+    Args:
+        lines: Statements, with or without a comment behind; repeated ones count once.
+    """
+    groups: tuple[list[str], list[str]] = ([], [])
+    for line in dict.fromkeys(lines):
+        root = _module(line).partition(".")[0]
+        groups[root not in sys.stdlib_module_names].append(line)
+    blocks = ["\n".join(sorted(group, key=_import_key)) for group in groups if group]
+    return "\n\n".join(blocks)
+
+
+def _module(line: str) -> str:
+    return line.split()[1]
+
+
+def _import_key(line: str) -> tuple[str, str]:
+    return _module(line).lower(), line

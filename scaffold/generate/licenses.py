@@ -1,0 +1,26 @@
+"""Licences: directories ``_licenses/<SPDX id>/`` with a header for sources and the full text."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+DIRECTORY = "_licenses"
+HEADER = "header.jinja"
+TEXT = "LICENSE.jinja"
+NOTE = "note.jinja"
+"""Something the user should know before choosing it; most licences have none."""
+
+
+def names(roots: Sequence[str]) -> tuple[str, ...]:
+    """Return the identifiers of the licences in content directories."""
+    found: set[str] = set()
+    for root in roots:
+        directory = os.path.join(root, DIRECTORY)
+        if os.path.isdir(directory):
+            found.update(
+                name
+                for name in os.listdir(directory)
+                if os.path.isfile(os.path.join(directory, name, TEXT))
+            )
+    return tuple(sorted(found))

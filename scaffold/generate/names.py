@@ -1,0 +1,161 @@
+"""The names a user may give: packages, nodes, topics; and the names made of them."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterable
+from keyword import iskeyword
+
+from scaffold.errors import InputError
+
+MAX_LENGTH = 48
+"""Characters of a package or a node: a CMake line with two of them has its limit at 140."""
+MAX_TOPIC = 64
+"""Characters of a topic in full: it stands on one line with its type."""
+
+_NAME = r"[a-z][a-z0-9]*(_[a-z0-9]+)*"
+_CMAKE_TARGETS = frozenset(
+    {"all", "clean", "depend", "edit_cache", "help", "install", "list_install_components"}
+    | {"package", "package_source", "preinstall", "rebuild_cache", "test", "uninstall"}
+)
+_DIRECTORIES = frozenset(
+    {"action", "build", "config", "doc", "docs", "include", "launch", "log", "msg", "resource"}
+    | {"scripts", "share", "src", "srv", "tests", "urdf", "worlds"}
+)
+_PYTHON_PACKAGES = frozenset(
+    {"catkin_pkg", "colcon_core", "em", "flake8", "lark", "lxml", "matplotlib", "numpy", "pip"}
+    | {"pkg_resources", "pydocstyle", "pytest", "requests", "scipy", "setuptools", "wheel", "yaml"}
+)
+_TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
+_RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
+
+
+def package_name(text: str) -> str:
+    """Return the name of a new package.
+
+    Raises:
+        InputError: REP-144, Python or CMake forbids it, or a package has it already.
+    """
+    _check_form(text, "package name", at_least=2)
+    reason = _why_taken(text)
+    if reason:
+        raise InputError(f"the package name {text!r} {reason}; choose another one")
+    return text
+
+
+def _why_taken(name: str) -> str:
+    from scaffold.model.known import ROS_PACKAGES
+
+    prefix = _installed(name)
+    reasons = (
+        (iskeyword(name), "is a keyword of Python"),
+        (name in _CMAKE_TARGETS, "is the name of a CMake target"),
+        (name in _DIRECTORIES, "is the name of a directory in workspaces and packages"),
+        (name in sys.stdlib_module_names, "is a module of the Python standard library"),
+        (name in ROS_PACKAGES or name == "ros", "is an existing ROS package"),
+        (name in _PYTHON_PACKAGES, "is an existing Python package"),
+        (prefix is not None, f"is a package installed in {prefix}"),
+    )
+    return next((reason for applies, reason in reasons if applies), "")
+
+
+def _installed(name: str) -> str | None:
+    """Return the prefix of the sourced ROS environment that has a package."""
+    for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        marker = os.path.join(prefix, "share", "ament_index", "resource_index", "packages", name)
+        if prefix and os.path.exists(marker):
+            return prefix
+    return None
+
+
+def node_name(text: str) -> str:
+    """Return the name of a new node: also of its module and its executable.
+
+    Raises:
+        InputError: ROS or Python forbids it, or the module would hide another one.
+    """
+    _check_form(text, "node name")
+    if iskeyword(text):
+        raise InputError(f"the node name {text!r} is a keyword of Python; choose another one")
+    if text in sys.stdlib_module_names or text in _PYTHON_PACKAGES or text == "rclpy":
+        raise InputError(f"the node name {text!r} would hide the Python module {text}")
+    if text in _TEST_MODULES or text.startswith("test_") or text.endswith("_test"):
+        raise InputError(f"the node name {text!r} is the name of a test file for pytest")
+    return text
+
+
+def _check_form(text: str, what: str, *, at_least: int = 1) -> None:
+    if re.fullmatch(_NAME, text) and at_least <= len(text) <= MAX_LENGTH:
+        return
+    if not at_least <= len(text) <= MAX_LENGTH:
+        raise InputError(
+            f"the {what} {_shortened(text)!r} has {len(text)} characters; "
+            f"it must have {at_least} to {MAX_LENGTH}"
+        )
+    better = _repaired(text)
+    hint = f", such as {better}" if re.fullmatch(_NAME, better) and len(better) > 1 else ""
+    raise InputError(
+        f"the {what} {text!r} must be lower-case words of letters and digits joined by single "
+        f"underscores, starting with a letter{hint}"
+    )
+
+
+def _repaired(text: str) -> str:
+    """Return the name that somebody probably meant."""
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", text)
+    return re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_").lstrip("0123456789_")
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= MAX_LENGTH else text[: MAX_LENGTH - 3] + "..."
+
+
+def topic(text: str) -> str:
+    """Return the name of a topic: relative, absolute (``/x``) or private (``~/x``).
+
+    Raises:
+        InputError: ROS forbids it.
+    """
+    plain = text.removeprefix("~/") if text.startswith("~") else text.removeprefix("/")
+    if len(text) > MAX_TOPIC:
+        raise InputError(
+            f"the topic {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
+        )
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", plain):
+        raise InputError(
+            f"the topic {text!r} must be words of letters, digits and underscores joined by '/', "
+            "none starting with a digit, such as battery/voltage"
+        )
+    if "__" in text:
+        raise InputError(f"the topic {text!r} has two underscores in a row, which ROS reserves")
+    if resolve(text, "node") in _RESERVED_TOPICS:
+        raise InputError(f"the topic {text!r} is one that ROS itself uses")
+    return text
+
+
+def resolve(name: str, node: str) -> str:
+    """Return the absolute name of a topic in a node that runs without a namespace."""
+    if name.startswith("~/"):
+        return f"/{node}/{name[2:]}"
+    return name if name.startswith("/") else f"/{name}"
+
+
+def class_name(node: str, taken: Iterable[str] = ()) -> str:
+    """Return the name of a node's class, different from the classes it uses."""
+    name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
+    return f"{name}Node" if name in {"Node", *taken} else name
+
+
+def dependency(text: str) -> str:
+    """Return the name of a package or a rosdep key.
+
+    Raises:
+        InputError: it cannot be one.
+    """
+    if re.fullmatch(r"[A-Za-z][A-Za-z0-9_.+-]*", text) and len(text) <= MAX_LENGTH:
+        return text
+    raise InputError(
+        f"the dependency {_shortened(text)!r} is not the name of a package or a rosdep key"
+    )

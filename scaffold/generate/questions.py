@@ -1,0 +1,190 @@
+"""From flags, an answers file and the user's configuration to answers.
+
+The flags are the questions of all templates. Of the sources of an answer the first that has one
+wins: flag, answers file, configuration, the default of the template, the user (git, login).
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any, NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.generate.template import Question, Template, read_yaml
+from scaffold.generate.values import TYPES
+
+
+class Given(NamedTuple):
+    """What the user wrote for one question, and where."""
+
+    value: Any
+    origin: str
+    """For messages: ``--rate``, or a file and a key."""
+
+
+def unique(templates: Iterable[Template]) -> list[Question]:
+    """Return the questions of templates, each name once, in their order."""
+    found: dict[str, Question] = {}
+    for template in templates:
+        for question in template.questions:
+            found.setdefault(question.name, question)
+    return list(found.values())
+
+
+def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) -> None:
+    """Define a flag, or a positional argument, for each question.
+
+    The words are judged later, with one line for an error instead of argparse's usage text.
+    """
+    for question in questions:
+        options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
+        if question.type == "dependencies":
+            options |= {"nargs": "+", "action": "extend"}
+        if question.is_positional:
+            parser.add_argument(question.name, **options)
+            continue
+        action = parser.add_argument(flag(question.name), **options)
+        if question.choices:
+            action.completer = _completer(question.choices)  # type: ignore[attr-defined]  # argcomplete
+
+
+def flag(name: str) -> str:
+    """Return how a question is written on the command line."""
+    return "--" + name.replace("_", "-")
+
+
+def _help(question: Question) -> str:
+    """Return the help, with the choices where the flag itself does not show them."""
+    details: list[str] = []
+    if question.choices and question.metavar:
+        details.append(", ".join(question.choices))
+    if question.default not in (None, []) and "{" not in str(question.default):
+        details.append(f"default: {question.default}")
+    text = f"{question.help} ({'; '.join(details)})" if details else question.help
+    return text.replace("%", "%%")
+
+
+def _metavar(question: Question) -> str:
+    if question.choices and not question.metavar:
+        return "{" + ",".join(question.choices) + "}"
+    return question.metavar or question.name.rpartition("_")[2].upper()
+
+
+def _completer(choices: Sequence[str]) -> Callable[..., Sequence[str]]:
+    return lambda **_: choices
+
+
+def from_flags(options: argparse.Namespace, questions: Iterable[Question]) -> dict[str, Given]:
+    """Return the answers on the command line."""
+    return {
+        question.name: Given(
+            getattr(options, question.name),
+            question.name.upper() if question.is_positional else flag(question.name),
+        )
+        for question in questions
+        if getattr(options, question.name, None) is not None
+    }
+
+
+def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
+    """Return the answers in a YAML file.
+
+    Raises:
+        InputError: it cannot be read, is not a mapping, or answers what nobody asks.
+    """
+    import yaml
+
+    try:
+        entries = read_yaml(path)
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not YAML: {' '.join(str(error).split())}") from error
+    if not isinstance(entries, dict):
+        raise InputError(f"{path}: must map questions to answers, such as 'rate: 2.0'")
+    return from_table({str(key): Given(value, path) for key, value in entries.items()}, questions)
+
+
+def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> dict[str, Given]:
+    """Return entries of a file by the names of questions, written with ``_`` or ``-``.
+
+    Raises:
+        InputError: a key is no question.
+    """
+    known = {question.name for question in questions}
+    found: dict[str, Given] = {}
+    for key, given in entries.items():
+        name = key.replace("-", "_")
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(sorted(known))}"
+            raise InputError(f"{given.origin}: {key!r} is no question of the templates; {hint}")
+        if given.value is not None:
+            found[name] = Given(given.value, f"{given.origin}: {key}")
+    return found
+
+
+def resolve(
+    questions: Sequence[Question],
+    given: Mapping[str, Given],
+    *,
+    render: Callable[[str, Mapping[str, Any]], str],
+    fallback: Callable[[str], Given | None],
+) -> dict[str, Any]:
+    """Return an answer for every question.
+
+    Defaults without Jinja come first, so that the others may use them.
+
+    Args:
+        questions: Of the chosen templates.
+        given: What the user said, the winning source of each.
+        render: Renders a Jinja text over answers.
+        fallback: Finds an answer for a question without a default, by its name.
+
+    Raises:
+        InputError: an answer is missing or not acceptable; the message says whose it is.
+    """
+    answers: dict[str, Any] = {}
+    later: list[Question] = []
+    for question in questions:
+        found = given.get(question.name)
+        if found is None and question.default is None:
+            found = fallback(question.name)
+        elif found is None and isinstance(question.default, str) and "{" in question.default:
+            later.append(question)
+            continue
+        elif found is None:
+            found = Given(question.default, "default")
+        if found is None:
+            raise InputError(f"{flag(question.name)} is needed: {question.help}")
+        answers[question.name] = parse(question, found)
+    for question in later:
+        text = render(question.default, answers)
+        answers[question.name] = parse(question, Given(text, "default"))
+    return answers
+
+
+def parse(question: Question, given: Given) -> Any:  # noqa: ANN401  as its type says
+    """Return the value of an answer.
+
+    Raises:
+        InputError: it is not acceptable.
+    """
+    if question.choices:
+        word = str(given.value)
+        if word not in question.choices:
+            raise InputError(f"{given.origin}: {_no_choice(word, question.choices)}")
+        return word
+    try:
+        return TYPES[question.type](given.value)
+    except InputError as error:
+        raise InputError(f"{given.origin}: {error}") from error
+
+
+def _no_choice(word: str, choices: Sequence[str]) -> str:
+    by_lower = {choice.lower(): choice for choice in choices}
+    near = [by_lower[one] for one in get_close_matches(word.lower(), by_lower, n=3, cutoff=0.5)]
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    return f"{word!r} is not one of {', '.join(choices)}{hint}"

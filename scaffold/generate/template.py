@@ -1,0 +1,224 @@
+"""Templates: directories with a ``template.yaml`` and ``*.jinja`` files.
+
+A package is made of layers: the one for every package, one for its build type, one for the kind
+of its node. The name of a directory is the name of the template; a later content directory
+replaces a template of the same name.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from enum import Enum
+from typing import Any, NamedTuple
+
+from scaffold.errors import ContentError
+from scaffold.generate import licenses
+
+MANIFEST = "template.yaml"
+ENDING = ".jinja"
+BASE = "package"
+"""The template that every package is made of."""
+DEPEND_KINDS = ("buildtool", "exec", "test")
+"""The kinds of dependencies that a template may declare."""
+
+
+class Role(Enum):
+    """What a template is for."""
+
+    PACKAGE = "package"
+    """Files that every package has."""
+    BUILD_TYPE = "build_type"
+    """Files of a build system; its name is the build type in package.xml."""
+    NODE = "node"
+    """A node and its test; rendered once for each node."""
+
+
+class Question(NamedTuple):
+    """Something that a template wants to know."""
+
+    name: str
+    type: str
+    """One of `scaffold.generate.values.TYPES`."""
+    help: str
+    default: Any
+    """A value, or a Jinja text over the other answers; ``None`` when there is none."""
+    choices: tuple[str, ...]
+    is_positional: bool
+    metavar: str | None
+
+
+class Template(NamedTuple):
+    """A template as its manifest describes it."""
+
+    name: str
+    directory: str
+    role: Role
+    summary: str
+    questions: tuple[Question, ...]
+    executable_name: str
+    """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
+    depends: Mapping[str, Sequence[str]]
+    """Dependencies by kind (``buildtool``, ``exec``, ``test``), Jinja texts."""
+    include: Mapping[str, str]
+    """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
+    executable: Sequence[str]
+    """Path patterns of files with executable bits."""
+    notes: Mapping[str, str]
+    """What a file is for, by path pattern."""
+    examples: Mapping[str, Mapping[str, Any]]
+    """Answers by title: tests, and documentation."""
+
+
+_KEYS = {
+    "summary": str,
+    "role": str,
+    "questions": dict,
+    "executable_name": str,
+    "depends": dict,
+    "include": dict,
+    "executable": list,
+    "notes": dict,
+    "examples": dict,
+}
+_QUESTION_KEYS = frozenset({"type", "help", "default", "choices", "positional", "metavar"})
+
+
+def load(roots: Sequence[str]) -> dict[str, Template]:
+    """Return the templates of the content directories by name.
+
+    Raises:
+        ContentError: a manifest cannot be used, or two templates ask different questions under
+            one name.
+    """
+    directories: dict[str, str] = {}
+    for root in roots:
+        for name in sorted(os.listdir(root)):
+            if os.path.isfile(os.path.join(root, name, MANIFEST)):
+                directories[name] = os.path.join(root, name)
+    found = {name: _load_one(name, directories[name]) for name in sorted(directories)}
+    if found[BASE].role is not Role.PACKAGE if BASE in found else True:
+        raise ContentError(f"no template {BASE!r} with role: package in {', '.join(roots)}")
+    _refuse_ambiguous_questions(found)
+    known = licenses.names(roots)
+    return {name: _with_choices(template, found, known) for name, template in found.items()}
+
+
+def read_yaml(path: str) -> Any:  # noqa: ANN401  whatever the file holds
+    """Return the content of a YAML file; raises OSError and yaml.YAMLError."""
+    import yaml
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    with open(path, encoding="utf-8") as file:
+        return yaml.load(file, loader)  # noqa: S506  a safe loader, the fast one where it exists
+
+
+def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
+    """Return the names of the templates of a role."""
+    return tuple(name for name, template in templates.items() if template.role is role)
+
+
+def _load_one(name: str, directory: str) -> Template:
+    path = os.path.join(directory, MANIFEST)
+    manifest = _manifest(path)
+    try:
+        role = Role(manifest["role"])
+    except ValueError:
+        roles = ", ".join(one.value for one in Role)
+        raise ContentError(f"{path}: role must be one of {roles}") from None
+    for kind, depends in manifest.get("depends", {}).items():
+        if kind not in DEPEND_KINDS or not isinstance(depends, list):
+            kinds = ", ".join(DEPEND_KINDS)
+            raise ContentError(f"{path}: depends must map {kinds} to lists of names")
+    asked = manifest.get("questions", {}).items()
+    return Template(
+        name=name,
+        directory=directory,
+        role=role,
+        summary=manifest["summary"],
+        questions=tuple(_question(path, key, value) for key, value in asked),
+        executable_name=manifest.get("executable_name", "{{ node.name }}"),
+        depends=manifest.get("depends", {}),
+        include=manifest.get("include", {}),
+        executable=manifest.get("executable", []),
+        notes=manifest.get("notes", {}),
+        examples=manifest.get("examples", {}),
+    )
+
+
+def _manifest(path: str) -> dict[str, Any]:
+    """Return a manifest whose keys and the types of whose values are right."""
+    import yaml
+
+    try:
+        manifest = read_yaml(path)
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ContentError(f"{path}: {' '.join(str(error).split())}") from error
+    if not isinstance(manifest, dict):
+        raise ContentError(f"{path}: must be a mapping with the keys {', '.join(_KEYS)}")
+    for key, value in manifest.items():
+        if key not in _KEYS:
+            raise ContentError(f"{path}: unknown key {key!r}; the keys are {', '.join(_KEYS)}")
+        if not isinstance(value, _KEYS[key]):
+            raise ContentError(f"{path}: {key} must be a {_KEYS[key].__name__}")
+    for key in ("summary", "role"):
+        if key not in manifest:
+            raise ContentError(f"{path}: the key {key!r} is missing")
+    return manifest
+
+
+def _question(path: str, name: str, entry: object) -> Question:
+    from scaffold.generate.values import TYPES
+
+    if not name.isidentifier() or not isinstance(entry, dict) or "help" not in entry:
+        raise ContentError(f"{path}: the question {name!r} must be a mapping with the key 'help'")
+    unknown = sorted(set(entry) - _QUESTION_KEYS)
+    if unknown:
+        keys = ", ".join(sorted(_QUESTION_KEYS))
+        raise ContentError(f"{path}: {name} has an unknown key {unknown[0]!r}; the keys are {keys}")
+    kind = entry.get("type", "text")
+    if kind not in TYPES:
+        raise ContentError(f"{path}: {name} has the unknown type {kind!r}; {', '.join(TYPES)}")
+    choices = entry.get("choices", [])
+    return Question(
+        name=name,
+        type=kind,
+        help=entry["help"],
+        default=entry.get("default"),
+        choices=(f"role:{choices}",) if isinstance(choices, str) else tuple(map(str, choices)),
+        is_positional=bool(entry.get("positional", False)),
+        metavar=entry.get("metavar"),
+    )
+
+
+def _with_choices(
+    template: Template, templates: Mapping[str, Template], known_licenses: tuple[str, ...]
+) -> Template:
+    """Replace ``choices: <role>`` by the templates of that role; a licence is one that is known."""
+    questions = []
+    for question in template.questions:
+        choices = question.choices
+        if choices and choices[0].startswith("role:"):
+            try:
+                choices = of_role(templates, Role(choices[0].removeprefix("role:")))
+            except ValueError:
+                path = os.path.join(template.directory, MANIFEST)
+                message = f"{path}: {question.name} must have a list of choices, or a role"
+                raise ContentError(message) from None
+        if question.type == "license":
+            choices = known_licenses
+        questions.append(question._replace(choices=choices))
+    return template._replace(questions=tuple(questions))
+
+
+def _refuse_ambiguous_questions(templates: Mapping[str, Template]) -> None:
+    """Two kinds of nodes may share a flag, but it means one type and looks the same."""
+    seen: dict[str, tuple[Question, str]] = {}
+    for template in templates.values():
+        for question in template.questions:
+            first, where = seen.setdefault(question.name, (question, template.directory))
+            if (first.type, first.is_positional) != (question.type, question.is_positional):
+                raise ContentError(
+                    f"{os.path.join(template.directory, MANIFEST)}: {question.name} has the type "
+                    f"{question.type}, but {first.type} in {os.path.join(where, MANIFEST)}"
+                )

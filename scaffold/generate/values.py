@@ -1,0 +1,146 @@
+"""The types of answers: from what the user wrote to a value, or one clear line."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Mapping
+
+from scaffold.errors import InputError
+from scaffold.generate import names
+from scaffold.generate.payload import Payload, payload
+from scaffold.generate.qos import Qos, qos
+from scaffold.model.placeholders import is_placeholder, is_placeholder_address
+
+MAX_RATE = 10_000.0
+"""Hertz; no Python node publishes faster."""
+MIN_RATE = 0.001
+MAX_PERSON = 60
+"""Characters of a name or a mail address: it stands on one line with its key."""
+
+_ADDRESS = r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}"
+"""What catkin_pkg accepts; colcon passes over a package whose maintainer has another one."""
+
+
+def text(given: object) -> str:
+    """Return a text on one line; line breaks and runs of blanks become one blank.
+
+    Raises:
+        InputError: nothing is left, or it holds what XML cannot.
+    """
+    folded = " ".join(_string(given).split())
+    if not folded:
+        raise InputError("must not be empty")
+    for character in folded:
+        if unicodedata.category(character) in {"Cc", "Cs"} or character in "\ufffe\uffff":
+            raise InputError(f"holds the character U+{ord(character):04X}, which XML forbids")
+    if is_placeholder(folded):
+        raise InputError(f"{_short(folded)!r} is a placeholder; say it, or leave it out")
+    return folded
+
+
+def person(given: object) -> str:
+    """Return the name of a person or an organisation.
+
+    Raises:
+        InputError: it cannot stand in a comment, in XML and in Python.
+    """
+    name = text(given)
+    if len(name) > MAX_PERSON:
+        raise InputError(f"{_short(name)!r} has more than {MAX_PERSON} characters")
+    if set(name) & set('"\\'):
+        raise InputError(f"{name!r} holds a double quote or a backslash")
+    return name
+
+
+def address(given: object) -> str:
+    """Return a mail address that colcon and bloom accept.
+
+    Raises:
+        InputError: they would not.
+    """
+    found = text(given)
+    if len(found) > MAX_PERSON:
+        raise InputError(f"{_short(found)!r} has more than {MAX_PERSON} characters")
+    if not re.fullmatch(_ADDRESS, found, re.ASCII):
+        raise InputError(f"{found!r} is not a mail address such as ada@example.com")
+    if is_placeholder_address(found):
+        raise InputError(f"{found!r} is a placeholder that reaches nobody")
+    return found
+
+
+def rate(given: object) -> float:
+    """Return a rate in hertz.
+
+    Raises:
+        InputError: it is not a number, or not one that a timer can keep.
+    """
+    try:
+        number = float(_string(given))
+    except ValueError:
+        raise InputError(f"{given!r} is not a number of messages per second") from None
+    if not MIN_RATE <= number <= MAX_RATE:
+        raise InputError(f"{given} Hz is not between {MIN_RATE:g} and {MAX_RATE:g} Hz")
+    return number
+
+
+def flag(given: object) -> bool:
+    """Return yes or no.
+
+    Raises:
+        InputError: it is neither.
+    """
+    word = str(given).lower()
+    if word in {"true", "yes", "on", "1"}:
+        return True
+    if word in {"false", "no", "off", "0"}:
+        return False
+    raise InputError(f"{given!r} is neither yes nor no")
+
+
+def dependencies(given: object) -> tuple[str, ...]:
+    """Return names of packages, each once, in alphabetical order.
+
+    Raises:
+        InputError: one cannot be a name.
+    """
+    given = given if isinstance(given, list | tuple) else [given]
+    words = [word for item in given for word in _string(item).replace(",", " ").split()]
+    return tuple(sorted({names.dependency(word) for word in words}))
+
+
+def message(given: object) -> Payload:
+    """Return how to fill messages of a type."""
+    return payload(_string(given))
+
+
+def quality(given: object) -> Qos:
+    """Return a quality of service."""
+    return qos(_string(given))
+
+
+TYPES: Mapping[str, Callable[[object], object]] = {
+    "text": text,
+    "person": person,
+    "address": address,
+    "license": text,
+    "package": lambda given: names.package_name(_string(given)),
+    "node": lambda given: names.node_name(_string(given)),
+    "topic": lambda given: names.topic(_string(given)),
+    "message": message,
+    "qos": quality,
+    "rate": rate,
+    "flag": flag,
+    "dependencies": dependencies,
+}
+"""The types that a question of a template may have."""
+
+
+def _string(given: object) -> str:
+    if isinstance(given, bool) or not isinstance(given, str | int | float):
+        raise InputError(f"{given!r} is not a text")
+    return str(given)
+
+
+def _short(value: str) -> str:
+    return value if len(value) <= MAX_PERSON else value[: MAX_PERSON - 3] + "..."
