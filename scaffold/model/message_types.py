@@ -12,10 +12,10 @@ from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FieldType
 from scaffold.model.interfaces import KINDS, Definitions, Interface
 from scaffold.model.node_entities import ActionServer, Endpoint, Service, Subscription
-from scaffold.model.node_values import Store
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.package import Package
 from scaffold.model.scopes import Binding
+from scaffold.model.self_values import Store
 
 PARTS = {
     "msg": {},
