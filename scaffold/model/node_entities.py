@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from scaffold.model.values import UNKNOWN, Unknown
 
 if TYPE_CHECKING:
-    from scaffold.model.nodes import NodeOwner
+    from scaffold.model.node_owners import NodeOwner
     from scaffold.model.scopes import FunctionNode
     from scaffold.model.source import Location
 

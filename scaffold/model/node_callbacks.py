@@ -1,0 +1,100 @@
+"""Which functions are callbacks, and what they call in turn."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.node_entities import Callback
+from scaffold.model.node_owners import NodeClass
+
+if TYPE_CHECKING:
+    from scaffold.model.nodes import NodeFacts
+    from scaffold.model.scopes import FunctionNode
+
+
+def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
+    """Return what an expression stands for as a callback."""
+    at = facts.module.location(node)
+    if isinstance(node, ast.Call):
+        if facts.module.qualified_name(node.func) == "functools.partial" and node.args:
+            inner = resolve(facts, node.args[0])
+            return inner._replace(node=node, location=at, is_partial=True)
+        inner = resolve(facts, node.func)
+        is_called = inner.function is not None and not _returns_function(inner.function)
+        return inner._replace(node=node, location=at, is_called=is_called, function=None)
+    if isinstance(node, ast.Lambda):
+        return Callback(node, None, node, at, is_called=False, is_bound=False)
+    if isinstance(node, ast.Attribute):
+        owner = facts.owner_of(node.value)
+        method = owner.method(node.attr) if isinstance(owner, NodeClass) else None
+        if method is None:
+            class_ = facts.evaluator.self_class(node.value)
+            method = _method_of(facts, class_, node.attr) if class_ else None
+        is_bound = method is not None and not _is_static_method(method)
+        return Callback(node, node.attr, method, at, is_called=False, is_bound=is_bound)
+    if isinstance(node, ast.Name):
+        found = facts.module.index.lookup(node.id, node)
+        nodes = [binding.node for binding in found[1]] if found else []
+        function = nodes[0] if len(nodes) == 1 else None
+        if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+            function = None
+        return Callback(node, node.id, function, at, is_called=False, is_bound=False)
+    return Callback(node, None, None, at, is_called=False, is_bound=False)
+
+
+def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNode | None:
+    for member in facts.related_classes(class_):
+        for binding in facts.module.index.bindings(member).get(name, ()):
+            if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
+                return binding.node
+    return None
+
+
+def calls_in(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
+    """Return the calls in the body of a function, those of functions inside left out."""
+    return [call for call in facts.module.walk(ast.Call) if function_of(facts, call) is function]
+
+
+def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+    """Return the function whose body a node stands in."""
+    child = node
+    for parent in facts.module.parents(node):
+        if isinstance(parent, ast.Lambda):
+            return parent
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef) and isinstance(
+            child, ast.stmt
+        ):
+            return parent
+        child = parent
+    return None
+
+
+def reached(
+    facts: NodeFacts, function: FunctionNode | ast.Lambda
+) -> Sequence[FunctionNode | ast.Lambda]:
+    """Return a function and what it calls in the same file: methods of self, functions."""
+    found: list[FunctionNode | ast.Lambda] = [function]
+    for current in found:
+        for call in calls_in(facts, current):
+            called = resolve(facts, call.func).function
+            if called is not None and called not in found:
+                found.append(called)
+    return found
+
+
+def _is_static_method(function: FunctionNode) -> bool:
+    return any(
+        isinstance(decorator, ast.Name) and decorator.id == "staticmethod"
+        for decorator in function.decorator_list
+    )
+
+
+def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether calling a function may give another function: it returns something."""
+    if isinstance(function, ast.Lambda):
+        return True
+    return any(
+        isinstance(node, ast.Return) and node.value is not None for node in ast.walk(function)
+    )

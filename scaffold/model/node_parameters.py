@@ -1,0 +1,90 @@
+"""Which parameters a file declares, and their defaults."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.values import UNKNOWN, Unknown
+
+if TYPE_CHECKING:
+    from scaffold.model.node_owners import NodeOwner
+    from scaffold.model.nodes import NodeFacts
+
+SIGNATURES = {
+    "declare_parameter": ("name", "value", "descriptor", "ignore_override"),
+    "declare_parameters": ("namespace", "parameters", "ignore_override"),
+}
+
+
+class Declarations:
+    """The parameters that a file declares."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+        self._is_indexing = False
+
+    def declarations_in(
+        self, call: ast.Call, method: str
+    ) -> Iterator[tuple[str | Unknown, ast.expr | None, ast.expr | None]]:
+        """Yield prefix, name and default of the parameters that a call declares."""
+        given = dict(zip(SIGNATURES[method], call.args, strict=False))
+        given.update({word.arg: word.value for word in call.keywords if word.arg})
+        if method == "declare_parameter":
+            yield "", given.get("name"), given.get("value")
+            return
+        prefix = self._facts.evaluator.text(given["namespace"]) if "namespace" in given else ""
+        listed = given.get("parameters")
+        for item in self._facts.evaluator.elements(listed).items if listed else ():
+            if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
+                name, *rest = item.node.elts
+                yield prefix, name, rest[0] if rest else None
+            else:
+                yield UNKNOWN, None, None
+
+    def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
+        """Return a parameter's name with the namespace in front."""
+        text = self._facts.evaluator.text(name)
+        if text is UNKNOWN or prefix is UNKNOWN:
+            return UNKNOWN
+        return f"{prefix}.{text}" if prefix else text
+
+    def default_of(self, receiver: ast.expr, name: str) -> object:
+        """Return the default that all declarations of a parameter agree on."""
+        owner = self._facts.owner_of(receiver)
+        nodes = [
+            value
+            for declarer, declared, value in self._declarations
+            if declared == name and (declarer is owner or owner is None or declarer is None)
+        ]
+        if not nodes and isinstance(owner, NodeClass) and owner.base is not None:
+            base = owner.base
+            return UNKNOWN if base.facts is self._facts else base.facts.default_in(base, name)
+        values = [self._facts.evaluator.evaluate(node) for node in nodes]
+        return values[0] if values and all(value == values[0] for value in values) else UNKNOWN
+
+    @property
+    def _declarations(self) -> Sequence[tuple[NodeOwner | None, str, ast.expr | None]]:
+        """Owner, name and default of the declared parameters whose names are plain to see."""
+        if self._is_indexing:
+            self._facts.evaluator.cut()
+            return ()
+        return self._index
+
+    @cached_property
+    def _index(self) -> Sequence[tuple[NodeOwner | None, str, ast.expr | None]]:
+        self._is_indexing = True
+        found: list[tuple[NodeOwner | None, str, ast.expr | None]] = []
+        for call in self._facts.module.walk(ast.Call):
+            func = call.func
+            if isinstance(func, ast.Attribute) and func.attr in SIGNATURES:
+                owner = self._facts.owner_of(func.value)
+                for prefix, name, value in self.declarations_in(call, func.attr):
+                    text = self.full_name(prefix, name)
+                    if isinstance(text, str):
+                        found.append((owner, text, value))
+        self._is_indexing = False
+        return found

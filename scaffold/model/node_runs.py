@@ -1,0 +1,127 @@
+"""How rclpy is started, run and ended."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.node_entities import RclpyCall
+
+if TYPE_CHECKING:
+    from scaffold.model.nodes import NodeFacts
+
+_RUNS = frozenset({"init", "spin", "spin_once", "spin_until_future_complete"})
+_RUNS |= {"shutdown", "try_shutdown"}
+_EXECUTORS = frozenset(
+    f"rclpy.executors.{kind}Executor" for kind in ("SingleThreaded", "MultiThreaded")
+) | {"rclpy.experimental.EventsExecutor"}
+
+
+def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
+    """Yield the calls that start, run or end rclpy, in the order of the text."""
+    for call in facts.module.walk(ast.Call):
+        name = _run_name(facts, call)
+        if name is not None:
+            yield _rclpy_call(facts, call, name)
+
+
+def _run_name(facts: NodeFacts, call: ast.Call) -> str | None:
+    for name in facts.module.qualified_names(call.func):
+        root, _, function = name.rpartition(".")
+        if function in _RUNS and root in {"rclpy", "rclpy.utilities"}:
+            return function
+    func = call.func
+    if isinstance(func, ast.Attribute) and func.attr in _RUNS and _is_executor(facts, func.value):
+        return f"executor.{func.attr}"
+    return None
+
+
+def _is_executor(facts: NodeFacts, node: ast.expr) -> bool:
+    value = facts.evaluator.single_value(node)
+    if value is node and isinstance(node, ast.Name):
+        value = _entered(facts, node) or node
+    if not isinstance(value, ast.Call):
+        return False
+    return not _EXECUTORS.isdisjoint(facts.module.qualified_names(value.func))
+
+
+def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
+    """Return what ``with ... as name`` is entered with."""
+    found = facts.module.index.lookup(node.id, node)
+    for binding in found[1] if found else ():
+        parent = facts.module.parent(binding.node)
+        if isinstance(parent, ast.withitem):
+            return parent.context_expr
+    return None
+
+
+def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str) -> RclpyCall:
+    handlers: set[str] = set()
+    in_finally = in_handler = asks_ok = in_with = False
+    child: ast.AST = call
+    for parent in facts.module.parents(call):
+        match parent:
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
+                break
+            case ast.Try() if child in parent.body:
+                handlers.update(_caught(facts, parent))
+            case ast.Try() if child in parent.finalbody:
+                in_finally = True
+            case ast.ExceptHandler():
+                in_handler = True
+            case ast.If(test=test):
+                asks_ok = asks_ok or _asks_ok(facts, test)
+            case ast.With(items=items):
+                in_with = in_with or any(_enters_init(facts, item) for item in items)
+                handlers.update(*(_suppressed(facts, item) for item in items))
+        child = parent
+    return RclpyCall(
+        name,
+        call,
+        facts.module.location(call),
+        facts.module.enclosing_function(call),
+        frozenset(handlers),
+        in_finally,
+        in_handler,
+        asks_ok,
+        in_with,
+    )
+
+
+def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:
+    for handler in node.handlers:
+        if handler.type is None:
+            yield "BaseException"
+        else:
+            yield from _exceptions(facts, handler.type)
+
+
+def _exceptions(facts: NodeFacts, node: ast.expr) -> Iterator[str]:
+    node = facts.evaluator.single_value(node)
+    if isinstance(node, ast.Tuple):
+        for item in node.elts:
+            yield from _exceptions(facts, item)
+    else:
+        yield from facts.module.qualified_names(node)
+
+
+def _suppressed(facts: NodeFacts, item: ast.withitem) -> Iterator[str]:
+    call = item.context_expr
+    if not isinstance(call, ast.Call):
+        return
+    if facts.module.qualified_name(call.func) == "contextlib.suppress":
+        for arg in call.args:
+            yield from _exceptions(facts, arg)
+
+
+def _enters_init(facts: NodeFacts, item: ast.withitem) -> bool:
+    call = item.context_expr
+    return isinstance(call, ast.Call) and facts.module.qualified_name(call.func) == "rclpy.init"
+
+
+def _asks_ok(facts: NodeFacts, test: ast.expr) -> bool:
+    return any(
+        isinstance(node, ast.Call) and facts.module.qualified_name(node.func) == "rclpy.ok"
+        for node in ast.walk(test)
+    )
