@@ -19,16 +19,15 @@ FATAL = (
     "ament_lint_auto_find_test_dependencies",
     "ament_python_install_package",
     "ament_python_install_module",
-    "install",
 )
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 
 
 class AmentPackageNotLast(Rule):
-    """A call that belongs to the package stands behind ``ament_package()``.
+    """A call that has to come first stands behind ``ament_package()``.
 
-    **Why.** CMake stops at an export or a linter behind it; an ``install`` or a Python package
-    behind it is left out of what ``ament_package()`` has written.
+    **Why.** CMake stops at an export or a linter behind it; a Python package behind it is never
+    installed, for ``ament_package()`` does that.
 
     **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
 
@@ -39,11 +38,11 @@ class AmentPackageNotLast(Rule):
     name = "ament-package-not-last"
     examples = (
         Example(
-            "last", {"CMakeLists.txt": f"{_LISTS}install(DIRECTORY launch)\nament_package()\n"}
+            "last", {"CMakeLists.txt": f"{_LISTS}ament_export_libraries(talker)\nament_package()\n"}
         ),
         Example(
-            "an install behind it",
-            {"CMakeLists.txt": f"{_LISTS}ament_package()\ninstall(DIRECTORY launch)\n"},
+            "an export behind it",
+            {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
             at=("CMakeLists.txt:4",),
         ),
     )

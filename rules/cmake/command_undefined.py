@@ -24,9 +24,26 @@ PROVIDERS = {
     "ament_xmllint": ("ament_cmake_xmllint",),
     "rclcpp_components_register_node": ("rclcpp_components",),
     "rclcpp_components_register_nodes": ("rclcpp_components",),
-    "rosidl_generate_interfaces": ("rosidl_default_generators", "rosidl_cmake"),
+    "rosidl_generate_interfaces": ("rosidl_default_generators", "rosidl_core_generators"),
 }
-"""The packages that bring a command, directly or along the way."""
+"""The packages that bring a command."""
+
+_BRING_NOTHING = (
+    "ament_cmake",
+    "ament_cmake_python",
+    "ament_cmake_pytest",
+    "ament_index_cpp",
+    "ament_index_python",
+    "ament_lint_auto",
+    "launch",
+    "launch_ros",
+    "rclcpp",
+    "rclpy",
+    "std_srvs",
+    "tf2",
+    "tf2_ros",
+)
+"""Packages that bring none of these commands but their own, nor do message packages."""
 
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
 
@@ -54,24 +71,17 @@ class CommandUndefined(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        found = [(one.name, one.command.index) for one in cmake.found_packages]
-        if cmake.finds_automatically or cmake.find("include") or not found and not cmake.project:
+        found = {one.name for one in cmake.found_packages}
+        if cmake.finds_automatically or cmake.finds_tests_automatically or cmake.find("include"):
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
             return
         own = {call.values[0].lower() for call in cmake.find("macro", "function") if call.values}
-        others = {name for name, _ in found if not name.startswith(("ament_", "rosidl_"))}
+        if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in found):
+            return
         for name, providers in PROVIDERS.items():
-            if name in own or any(provider in dict(found) for provider in providers):
+            if name in own or not found.isdisjoint(providers):
                 continue
             for command in cmake.find(name):
-                if self._may_come_along(package, others):
-                    continue
                 message = f"{name}() is not known without find_package({providers[0]} REQUIRED)"
                 yield self.report(command.name_location, message)
-
-    def _may_come_along(self, package: Package, found: set[str]) -> bool:
-        """Tell whether a package that is not of ROS itself may bring commands."""
-        return any(name.endswith(("_cmake", "_common", "_lint_common", "_ros")) for name in found) or (
-            package.cmake.finds_tests_automatically
-        )

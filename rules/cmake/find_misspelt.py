@@ -35,7 +35,9 @@ class FindMisspelt(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for found in package.cmake.found_packages:
             meant = similar_package(found.name)
-            if meant is None or package.workspace.get(found.name) is not None:
+            if meant is None or meant == found.name.lower():
+                continue
+            if package.workspace.get(found.name) is not None:
                 continue
             argument = found.command.arguments[0]
             fix = None

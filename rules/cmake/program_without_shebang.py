@@ -49,7 +49,7 @@ class ProgramWithoutShebang(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for path in sorted({program.path for program in programs(package)}):
-            if not path.endswith(".py") or not package.has(path):
+            if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
             source = package.editable(path)
             line = source.lines[0]

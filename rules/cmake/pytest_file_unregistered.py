@@ -48,7 +48,7 @@ class PytestFileUnregistered(Rule):
         arguments = [value for command in cmake.commands for value in command.values]
         for path in package.glob("test/test_*.py") + package.glob("tests/test_*.py"):
             directory, _, name = path.rpartition("/")
-            if any(name in value or value.rstrip("/").endswith(directory) for value in arguments):
+            if any(name in value or value.rstrip("/") == directory for value in arguments):
                 continue
             stem = name.removesuffix(".py")
             if any(stem in value for value in arguments) or not self._has_tests(package, path):

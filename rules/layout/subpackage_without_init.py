@@ -6,8 +6,11 @@ from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
 from scaffold.model.python_module import Import
+from scaffold.model.setup_py import FindPackages
+from scaffold.model.values import UNKNOWN
 
 _FILES = {
+    "setup.py": "from setuptools import find_packages, setup\n\nsetup(packages=find_packages())\n",
     "talker/__init__.py": "",
     "talker/node.py": "from talker.text.hello import hello\n",
     "talker/text/hello.py": "",
@@ -17,8 +20,8 @@ _FILES = {
 class SubpackageWithoutInit(Rule):
     """A directory of modules that are imported has no ``__init__.py``.
 
-    **Why.** setuptools and ``ament_python_install_package`` leave the directory out: it works in
-    the source tree, and installed it is ``ModuleNotFoundError: No module named 'talker.text'``.
+    **Why.** setuptools leaves the directory out: it works in the source tree, and installed it is
+    ``ModuleNotFoundError: No module named 'talker.text'``.
 
     **Fix.** Add an empty ``__init__.py``.
 
@@ -38,12 +41,15 @@ class SubpackageWithoutInit(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        packages = package.setup_py.packages
+        if package.build_type != "ament_python" or packages is UNKNOWN:
+            return
         told: set[str] = set()
         for module in package.modules():
             for one in module.imports:
                 for directory in _directories(package, module.path, one):
                     init = f"{directory}/__init__.py"
-                    if init in told or package.has(init):
+                    if init in told or package.has(init) or self._is_listed(packages, directory):
                         continue
                     told.add(init)
                     at = one.location
@@ -53,6 +59,11 @@ class SubpackageWithoutInit(Rule):
                     )
                     fix = Fix(f"create {init}", (CreateFile(init, ""),))
                     yield self.report(package.start_of(init), message, fix)
+
+    def _is_listed(self, packages: object, directory: str) -> bool:
+        if isinstance(packages, FindPackages):
+            return packages.namespace
+        return isinstance(packages, list | tuple) and directory.replace("/", ".") in packages
 
 
 def _directories(package: Package, path: str, one: Import) -> Iterator[str]:
@@ -66,9 +77,9 @@ def _directories(package: Package, path: str, one: Import) -> Iterator[str]:
         return
     for depth in range(2, len(parts) + 1):
         directory = "/".join(parts[:depth])
-        if package.has_directory(directory) and not package.has(f"{directory}.py"):
+        if package.glob(f"{directory}/*.py") and not package.has(f"{directory}.py"):
             yield directory
     for name in one.names:
         directory = "/".join([*parts, name.name])
-        if package.has_directory(directory) and package.glob(f"{directory}/*.py"):
+        if package.glob(f"{directory}/*.py"):
             yield directory

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.executables import node_scripts
 
 KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
 _MANIFEST = "<package><name>talker</name></package>\n"
@@ -52,8 +53,10 @@ class ScriptDirectoryDiffers(Rule):
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP,
                 "setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n",
+                "talker/node.py": "import rclpy\n",
             },
             at=("setup.cfg:1",),
+            fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
         ),
     )
 
@@ -63,12 +66,13 @@ class ScriptDirectoryDiffers(Rule):
         if not package.setup_py.console_scripts or not package.manifest.name:
             return
         for section, key in KEYS:
-            entry = cfg.get(section, key) or cfg.get(section, key.replace("_", "-"))
-            if entry is None:
+            entry = cfg.option(section, key, key.replace("_", "-"))
+            if entry is None and node_scripts(package):
                 at = package.start_of("setup.cfg")
-                yield self.report(at, f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing")
-            elif entry.value.rstrip("/") not in (wanted, wanted.replace("$base", "${base}")):
+                message = f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing"
+                fix = Fix(f"write {wanted}", (cfg.set(section, key, wanted),))
+                yield self.report(at, message, fix)
+            elif entry is not None and entry.value.rstrip("/") not in {wanted, wanted.replace("$base", "${base}")}:
                 message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
-                fix = Fix(f"write {wanted}", (edit,))
-                yield self.report(entry.value_location, message, fix)
+                yield self.report(entry, message, Fix(f"write {wanted}", (edit,)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.model.executables import node_scripts
 
 _CFG = "[develop]\nscript_dir=$base/lib/{0}\n[install]\ninstall_scripts=$base/lib/{0}\n"
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
@@ -12,6 +13,7 @@ _ENTRY = "    entry_points={'console_scripts': ['talker = talker.node:main']},\n
 _MANIFEST = (
     "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
 )
+_NODE = {"talker/__init__.py": "", "talker/node.py": "import rclpy\n"}
 
 
 class SetupCfgMissing(Rule):
@@ -34,19 +36,27 @@ class SetupCfgMissing(Rule):
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(_ENTRY),
                 "setup.cfg": _CFG.format("talker"),
+                **_NODE,
             },
         ),
-        Example("no executables", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("")}),
+        Example(
+            "a tool that is no node may go to bin",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY),
+                "talker/node.py": "import sys\n",
+            },
+        ),
         Example(
             "missing",
-            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY)},
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             at=("setup.cfg:1",),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        scripts = package.setup_py.console_scripts
+        scripts = node_scripts(package)
         if package.build_type != "ament_python" or package.has("setup.cfg") or not scripts:
             return
         if package.has("pyproject.toml") and "script" in package.source("pyproject.toml").text:

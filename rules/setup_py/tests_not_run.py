@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule
 from scaffold.model import setup_keywords
 
 EXTRAS = ("test", "tests", "testing")
@@ -17,7 +17,7 @@ class TestsNotRun(Rule):
     """setup.py does not say that the tests need pytest.
 
     **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
-    tests ... OK``. setuptools 72 dropped ``tests_require``, which used to say it.
+    tests ... OK``.
 
     **Fix.** Write ``extras_require={'test': ['pytest']}``.
 
@@ -35,15 +35,6 @@ class TestsNotRun(Rule):
             at=("setup.py:3",),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
-        Example(
-            "said in the old way",
-            {
-                "setup.py": _SETUP.format("    tests_require=['pytest'],\n"),
-                "test/test_talker.py": _TEST,
-            },
-            at=("setup.py:5",),
-            fixed={"setup.py": _SETUP.format(_EXTRA)},
-        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -53,19 +44,13 @@ class TestsNotRun(Rule):
         tests = [*package.glob("test/test_*.py"), *package.glob("tests/test_*.py")]
         if not tests or setup.has_unknown_keywords or self._has_extra(package):
             return
-        old = setup.keyword("tests_require")
+        if setup.keyword("tests_require") is not None:
+            return
         new = "extras_require={'test': ['pytest']}"
-        if old is not None:
-            span = setup_keywords.span(setup, "tests_require")
-            message = "setuptools 72 and later ignore tests_require: colcon runs 0 tests"
-            edit = Edit("setup.py", *span, new) if span else None
-            at = old.location
-        else:
-            message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {new}"
-            edit = setup_keywords.insert(setup, new)
-            at = setup.location
+        edit = setup_keywords.insert(setup, new)
         can_fix = edit is not None and setup.keyword("extras_require") is None
-        yield self.report(at, message, Fix(f"write {new}", (edit,)) if edit and can_fix else None)
+        message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {new}"
+        yield self.report(setup, message, Fix(f"add {new}", (edit,)) if edit and can_fix else None)
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")

@@ -89,7 +89,7 @@ rqt_common_plugins rqt_console rqt_dotgraph rqt_controller_manager rqt_graph rqt
 rqt_image_view rqt_joint_trajectory_controller rqt_msg rqt_plot rqt_publisher rqt_py_common
 rqt_py_console rqt_reconfigure rqt_robot_monitor rqt_robot_steering rqt_runtime_monitor
 rqt_service_caller rqt_shell rqt_srv rqt_tf_tree rqt_topic rti_connext_dds_cmake_module rtabmap
-rtabmap_msgs rtabmap_ros rtest rttest rviz2 rviz_assimp_vendor rviz_common rviz_default_plugins
+rtabmap_msgs rtabmap_ros rttest rviz2 rviz_assimp_vendor rviz_common rviz_default_plugins
 rviz_imu_plugin rviz_ogre_vendor rviz_rendering rviz_visual_tools sensor_msgs sensor_msgs_py
 service_msgs shape_msgs shared_queues_vendor simple_launch simulation_interfaces slam_toolbox
 smclib sophus spatio_temporal_voxel_layer spdlog_vendor sqlite3_vendor srdfdom sros2 sros2_cmake
@@ -205,6 +205,7 @@ PROVIDES = {
     "domain_coordinator",
     "ament_cmake_auto": "ament_cmake ament_cmake_gtest ament_cmake_gmock ament_cmake_python",
     "ament_cmake_pytest": "python3-pytest",
+    "autoware_cmake": "ament_cmake ament_cmake_auto ament_lint_auto ament_cmake_python",
     "ament_lint_common": "ament_cmake_copyright ament_cmake_cppcheck ament_cmake_cpplint "
     "ament_cmake_flake8 ament_cmake_lint_cmake ament_cmake_pep257 ament_cmake_uncrustify "
     "ament_cmake_xmllint ament_copyright ament_flake8 ament_pep257 ament_xmllint",
@@ -281,11 +282,16 @@ def module_of_key(key: str) -> str | None:
 
     ``numpy`` is such a key: the manifest has to say ``python3-numpy``.
     """
+    if key in _SYSTEM_KEYS:
+        return None
     for module, keys in _OTHER_MODULES.items():
         if key in (module, _INDEX_NAMES.get(module)) and key not in keys.split():
             return module
     return None
 
+
+_SYSTEM_KEYS = frozenset({"git", "graphviz", "lark", "yaml"})
+"""Keys of rosdep that look like names of the package index."""
 
 _INDEX_NAMES = {
     "PIL": "pillow",

@@ -104,8 +104,10 @@ def _keys(package: Package, one: Import, local: frozenset[str]) -> tuple[str, ..
     if known:
         return known
     names = one.module.split(".")
+    if root in ROS1_PACKAGES:
+        return ()
     is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
-    if is_interface or package.workspace.get(root) is not None or root in ROS1_PACKAGES:
+    if is_interface or package.workspace.get(root) is not None:
         return (root,)
     return ()
 

@@ -1,0 +1,47 @@
+"""PX050: every XML file of the package is one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+MANIFEST = "package.xml"
+
+
+class XmlNotWellFormed(Rule):
+    """An XML file other than package.xml cannot be read.
+
+    **Why.** Whoever loads it (launch, a plugin loader, robot_state_publisher) stops there, and
+    ``ament_xmllint`` fails under ``colcon test``. For package.xml itself SC001 says so.
+
+    **Fix.** Mend the markup at the place shown; a reader stops at the first mistake.
+
+    **Source.** ``ament_xmllint/main.py``; libxml2's limits on depth and length of text.
+    """
+
+    code = "PX050"
+    name = "xml-not-well-formed"
+    examples = (
+        Example(
+            "well-formed",
+            {"package.xml": "<package/>\n", "launch/talker.launch.xml": "<launch>\n</launch>\n"},
+        ),
+        Example(
+            "an element is not closed",
+            {"launch/talker.launch.xml": "<launch>\n  <node>\n</launch>\n"},
+            at=("launch/talker.launch.xml:3",),
+        ),
+        Example("empty", {"plugins.xml": ""}, at=("plugins.xml:1",)),
+        Example("not linted", {"AMENT_IGNORE": "", "broken.xml": "<a>"}),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        from scaffold.model import xml_files
+
+        for path in xml_files.of_package(package):
+            if path != MANIFEST:
+                mistake = xml_files.mistake(package, path)
+                if mistake is not None:
+                    at, message = mistake
+                    yield self.report(at, message)

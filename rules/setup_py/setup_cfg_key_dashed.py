@@ -1,0 +1,47 @@
+"""SP005: options of setup.cfg are spelt with underscores."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+
+_CFG = "[develop]\nscript{0}dir=$base/lib/talker\n[install]\ninstall{0}scripts=$base/lib/talker\n"
+
+
+class SetupCfgKeyDashed(Rule):
+    """An option of setup.cfg is spelt with a dash.
+
+    **Why.** setuptools warns in every build, and newer versions stop: ``Usage of dash-separated
+    'script-dir' will not be supported``.
+
+    **Fix.** Write an underscore.
+
+    **Source.** ros2cli issue 730; setuptools, changes of version 78.
+    """
+
+    code = "SP005"
+    name = "setup-cfg-key-dashed"
+    severity = Severity.WARNING
+    examples = (
+        Example("underscores", {"setup.py": "", "setup.cfg": _CFG.format("_")}),
+        Example(
+            "dashes",
+            {"setup.py": "", "setup.cfg": _CFG.format("-")},
+            at=("setup.cfg:2", "setup.cfg:4"),
+            fixed={"setup.cfg": _CFG.format("_")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if not package.has("setup.py"):
+            return
+        cfg = package.setup_cfg
+        for option in cfg.options:
+            if option.section not in {"develop", "install", "metadata", "options"}:
+                continue
+            if "-" in option.key:
+                right = option.key.replace("-", "_")
+                message = f"setuptools wants {right!r} instead of {option.key!r}"
+                fix = Fix(f"write {right}", (cfg.rename(option, right),))
+                yield self.report(option.key_location, message, fix)
