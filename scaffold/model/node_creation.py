@@ -204,7 +204,14 @@ class Creation:
             name_location=self._facts.module.location(name) if name else created.location,
             default=self._facts.evaluator.evaluate(value),
             default_node=value,
+            declared_type=self._type_named(value),
         )
+
+    def _type_named(self, node: ast.expr | None) -> str | None:
+        name = self._facts.module.qualified_name(node) if node else None
+        if name and name.startswith("rclpy.") and ".Parameter.Type." in name:
+            return name.rpartition(".")[2].lower()
+        return None
 
 
 def _parameters_in(notes: frozenset[str]) -> frozenset[str]:

@@ -223,6 +223,7 @@ class Parameter(Entity):
         name_location: Location,
         default: object,
         default_node: ast.expr | None,
+        declared_type: str | None,
     ) -> None:
         super().__init__(created)
         self.name = name
@@ -233,14 +234,16 @@ class Parameter(Entity):
         """Evaluated; ``UNKNOWN`` also when none is given."""
         self.default_node = default_node
         """``None`` when no default is given."""
+        self.declared_type = declared_type
+        """The type, if that is given in place of a default: ``Parameter.Type.DOUBLE``."""
 
     @property
     def type(self) -> str | None:
-        """The ROS type that the default has: ``double``, ``string_array`` ...; or ``None``.
+        """The ROS type: ``double``, ``string_array`` ...; ``None`` if that cannot be told.
 
         An empty list is a ``byte_array`` for rclpy.
         """
-        return parameter_type(self.default)
+        return self.declared_type or parameter_type(self.default)
 
 
 class ParameterRead(Entity):
@@ -269,6 +272,8 @@ class RclpyCall(NamedTuple):
     """Under ``if rclpy.ok():``."""
     in_with: bool
     """``with rclpy.init() ...:`` this call itself, or its body around another call."""
+    outer_handlers: frozenset[str] = frozenset()
+    """What is caught wherever the function that holds it is called in the file."""
 
     @property
     def catches_keyboard_interrupt(self) -> bool:

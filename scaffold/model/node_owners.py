@@ -163,6 +163,8 @@ class NodeClass(NodeOwner):
         self.node = node
         self.base = base
         """The base class, if that is a node class of the same package."""
+        self.base_index = 0
+        """Which of the base classes makes it a node."""
 
     @cached_property
     def methods(self) -> Mapping[str, FunctionNode]:
@@ -190,13 +192,24 @@ class NodeClass(NodeOwner):
 
     @cached_property
     def super_init(self) -> ast.Call | None:
-        """The first call of ``super().__init__`` or ``Node.__init__`` in its constructor."""
+        """The call of ``super().__init__`` or ``Node.__init__`` in its constructor.
+
+        Else the first call of any ``__init__``: it may be a class that calls Node's.
+        """
         if self.constructor is None:
             return None
+        others: list[ast.Call] = []
         for call in self.facts.calls_in(self.constructor):
             if isinstance(call.func, ast.Attribute) and call.func.attr == "__init__":
-                return call
-        return None
+                if _is_super(call) or self._is_base(call.func.value):
+                    return call
+                others.append(call)
+        return others[0] if others else None
+
+    def _is_base(self, node: ast.expr) -> bool:
+        class_ = self.facts.evaluator.named_class(node)
+        is_own = self.base is not None and class_ is self.base.node
+        return is_own or self.facts.is_node_class(node)
 
     @property
     def calls_super_init(self) -> bool:
@@ -209,11 +222,18 @@ class NodeClass(NodeOwner):
         call = self.super_init
         if call is None:
             return None
-        match call.func:
-            case ast.Attribute(value=ast.Call(func=ast.Name(id="super"))):
-                return call
-            case _:
-                return ast.Call(func=call.func, args=call.args[1:], keywords=call.keywords)
+        if _is_super(call):
+            return call if self._comes_first else None
+        return ast.Call(func=call.func, args=call.args[1:], keywords=call.keywords)
+
+    @property
+    def _comes_first(self) -> bool:
+        """Whether ``super().__init__`` is the constructor of the node, not of a mixin."""
+        for base in self.node.bases[: self.base_index]:
+            class_ = self.facts.evaluator.named_class(base)
+            if class_ is None or "__init__" in self.facts.module.index.bindings(class_):
+                return False
+        return True
 
     @cached_property
     def node_name(self) -> str | Unknown:
@@ -240,3 +260,11 @@ class NodeClass(NodeOwner):
         if call is None or parameter is None:
             return node, facts
         return given_argument(constructor, call, parameter, is_method=True), caller
+
+
+def _is_super(call: ast.Call) -> bool:
+    match call.func:
+        case ast.Attribute(value=ast.Call(func=ast.Name(id="super"))):
+            return True
+        case _:
+            return False

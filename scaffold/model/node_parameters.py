@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass
-from scaffold.model.values import UNKNOWN, Unknown
+from scaffold.model.values import UNKNOWN, Unknown, same
 
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner
@@ -64,7 +64,7 @@ class Declarations:
             base = owner.base
             return UNKNOWN if base.facts is self._facts else base.facts.default_in(base, name)
         values = [self._facts.evaluator.evaluate(node) for node in nodes]
-        return values[0] if values and all(value == values[0] for value in values) else UNKNOWN
+        return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
 
     @property
     def _declarations(self) -> Sequence[tuple[NodeOwner | None, str, ast.expr | None]]:

@@ -17,6 +17,8 @@ _EXECUTORS = frozenset(
     f"rclpy.executors.{kind}Executor" for kind in ("SingleThreaded", "MultiThreaded")
 ) | {"rclpy.experimental.EventsExecutor"}
 
+_MAX_CALLS = 4
+
 
 def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
     """Yield the calls that start, run or end rclpy, in the order of the text."""
@@ -57,15 +59,12 @@ def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
 
 
 def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str) -> RclpyCall:
-    handlers: set[str] = set()
     in_finally = in_handler = asks_ok = in_with = False
     child: ast.AST = call
     for parent in facts.module.parents(call):
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if child in parent.body:
-                handlers.update(_caught(facts, parent))
             case ast.Try() if child in parent.finalbody:
                 in_finally = True
             case ast.ExceptHandler():
@@ -74,19 +73,52 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str) -> RclpyCall:
                 asks_ok = asks_ok or _asks_ok(facts, test)
             case ast.With(items=items):
                 in_with = in_with or any(_enters_init(facts, item) for item in items)
-                handlers.update(*(_suppressed(facts, item) for item in items))
         child = parent
     return RclpyCall(
         name,
         call,
         facts.module.location(call),
         facts.module.enclosing_function(call),
-        frozenset(handlers),
+        frozenset(_handlers_around(facts, call)),
         in_finally,
         in_handler,
         asks_ok,
         in_with,
+        frozenset(_outer_handlers(facts, call, 0)),
     )
+
+
+def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
+    """Return what is caught around a node in its function."""
+    handlers: set[str] = set()
+    child = node
+    for parent in facts.module.parents(node):
+        match parent:
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
+                break
+            case ast.Try() if child in parent.body:
+                handlers.update(_caught(facts, parent))
+            case ast.With(items=items):
+                handlers.update(*(_suppressed(facts, item) for item in items))
+        child = parent
+    return handlers
+
+
+def _outer_handlers(facts: NodeFacts, node: ast.AST, depth: int) -> set[str]:
+    """Return what all calls of a node's function catch."""
+    function = facts.module.enclosing_function(node)
+    if function is None or depth > _MAX_CALLS:
+        return set()
+    caught: list[set[str]] = []
+    for name in facts.module.walk(ast.Name):
+        parent = facts.module.parent(name)
+        is_call = isinstance(parent, ast.Call) and parent.func is name
+        if name.id == function.name and is_call:
+            found = facts.module.index.lookup(name.id, name)
+            if found and any(binding.node is function for binding in found[1]):
+                around = _handlers_around(facts, name)
+                caught.append(around | _outer_handlers(facts, name, depth + 1))
+    return set.intersection(*caught) if caught else set()
 
 
 def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:

@@ -96,7 +96,7 @@ class NodeFacts:
             attribute, variable = self._creation.target(call)
             name = variable or attribute or ""
             item = NodeObject(self, name, self.module.location(call.func), call)
-            item.is_lifecycle = "ifecycle" in (self.module.qualified_name(call.func) or "")
+            item.is_lifecycle = _is_lifecycle(self.module.qualified_names(call.func))
             found.append(item)
         return found
 
@@ -122,17 +122,17 @@ class NodeFacts:
         return not NODE_CLASSES.isdisjoint(self.module.qualified_names(node))
 
     def _new_node_class(self, node: ast.ClassDef) -> NodeClass | None:
-        for expression in node.bases:
+        for position, expression in enumerate(node.bases):
             names = self.module.qualified_names(expression)
-            if not NODE_CLASSES.isdisjoint(names):
-                found = NodeClass(self, node, None)
-                found.is_lifecycle = any("ifecycle" in name for name in names)
-                return found
-            base = self._base_class(expression, names)
-            if base is not None:
-                found = NodeClass(self, node, base)
-                found.is_lifecycle = base.is_lifecycle
-                return found
+            base = None
+            if NODE_CLASSES.isdisjoint(names):
+                base = self._base_class(expression, names)
+                if base is None:
+                    continue
+            found = NodeClass(self, node, base)
+            found.base_index = position
+            found.is_lifecycle = base.is_lifecycle if base else _is_lifecycle(names)
+            return found
         return None
 
     def _base_class(self, expression: ast.expr, names: frozenset[str]) -> NodeClass | None:
@@ -162,7 +162,7 @@ class NodeFacts:
         return None
 
     def related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
-        """Return a class with the bases and direct descendants it has in the file."""
+        """Return a class with the bases and descendants it has in the file."""
         related = [node]
         bases = self._local_bases
         pending = [node]
@@ -171,9 +171,12 @@ class NodeFacts:
                 if base not in related:
                     related.append(base)
                     pending.append(base)
-        for other in self.module.walk(ast.ClassDef):
-            if other not in related and node in bases.get(other, ()):
-                related.append(other)
+        below = [node]
+        for current in below:
+            for other in self.module.walk(ast.ClassDef):
+                if current in bases.get(other, ()) and other not in related:
+                    related.append(other)
+                    below.append(other)
         return related
 
     @cached_property
@@ -343,6 +346,10 @@ class NodeFacts:
     def rclpy_calls(self) -> Sequence[RclpyCall]:
         """The calls that start, run or end rclpy, in the order of the text."""
         return list(rclpy_calls(self))
+
+
+def _is_lifecycle(names: frozenset[str]) -> bool:
+    return any("lifecycle" in name for name in names)
 
 
 def _module_paths(path: str, module: str) -> Iterator[str]:

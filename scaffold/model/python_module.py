@@ -319,7 +319,8 @@ class PythonModule:
     def _imported_as(self, node: ast.Name) -> frozenset[str]:
         found = self.index.lookup(node.id, node)
         if found is None:
-            is_star = "*" in self.index.bindings(self.tree)
+            # A star import may bring a function called open or sum, but no new KeyboardInterrupt.
+            is_star = "*" in self.index.bindings(self.tree) and node.id.islower()
             is_builtin = hasattr(builtins, node.id) and not is_star
             return frozenset({node.id} if is_builtin else ())
         if any(binding.kind != "import" for binding in found[1]):

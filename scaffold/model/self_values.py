@@ -105,7 +105,10 @@ class SelfEvaluator(Evaluator):
         return None
 
     def single_value(self, node: ast.expr) -> ast.expr:
-        """Follow names and attributes of ``self`` with one assignment to what is assigned."""
+        """Follow names and attributes of ``self`` with one assignment to what is assigned.
+
+        ``None`` does not count: who uses the object waits for the other assignment.
+        """
         for _ in range(10):
             values: Sequence[ast.expr | None] | None = None
             if isinstance(node, ast.Name):
@@ -117,10 +120,15 @@ class SelfEvaluator(Evaluator):
                 ]
             elif isinstance(node, ast.Attribute):
                 values = self.attribute_values(node)
-            if not values or len(values) != 1 or values[0] is None:
+            made = [value for value in values or () if not _is_none(value)]
+            if len(made) != 1 or made[0] is None:
                 return node
-            node = values[0]
+            node = made[0]
         return node
+
+
+def _is_none(node: ast.expr | None) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
 
 
 def _is_static(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
