@@ -1,0 +1,59 @@
+"""CM061: the interface files that are listed exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_interfaces import generations
+from scaffold.model.interface_syntax import SECTIONS
+from scaffold.model.interfaces import nearest_word
+
+_LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
+
+
+class InterfaceFileMissing(Rule):
+    """``rosidl_generate_interfaces`` lists a file that is not there, or is no interface.
+
+    **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``.
+
+    **Fix.** Write the path of the file relative to CMakeLists.txt; it ends in .msg, .srv, .action
+    or .idl.
+
+    **Source.** ``rosidl_cmake/cmake/rosidl_generate_interfaces.cmake``.
+    """
+
+    code = "CM061"
+    name = "interface-file-missing"
+    examples = (
+        Example(
+            "it exists, or is made by the build",
+            {
+                "CMakeLists.txt": _LISTS % "msg/Beat.msg ${CMAKE_CURRENT_BINARY_DIR}:msg/Made.msg",
+                "msg/Beat.msg": "int32 count\n",
+            },
+        ),
+        Example(
+            "misspelt, without its directory",
+            {
+                "CMakeLists.txt": _LISTS % "\n  msg/beat.msg\n  Beat.msg\n",
+                "msg/Beat.msg": "int32 count\n",
+            },
+            at=("CMakeLists.txt:3", "CMakeLists.txt:4"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        there = [path for path in package.files if path.rpartition(".")[2] in {*SECTIONS, "idl"}]
+        made = [command.values for command in package.cmake.find("configure_file", "file")]
+        for call in generations(package):
+            for file in call.files:
+                path, ending = file.path, file.path.rpartition(".")[2]
+                if package.has(path) and ending not in {*SECTIONS, "idl"}:
+                    message = f"{path} is no .msg, .srv, .action or .idl file"
+                    yield self.report(file.argument, message)
+                elif not package.has(path) and not any(path in values for values in made):
+                    same = [one for one in there if one.lower().endswith(f"/{path.lower()}")]
+                    hint = f"; did you mean {same[0]!r}?" if same else nearest_word(path, there)
+                    message = f"there is no file {path!r}, so CMake stops{hint}"
+                    yield self.report(file.argument, message)

@@ -1,0 +1,116 @@
+"""CM060: interface files are generated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.cmake_facts import has_unknown_commands, uses_ament
+from scaffold.model.cmake_interfaces import Generation, generations
+from scaffold.model.interface_files import standing
+
+_LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
+
+
+class InterfaceNotGenerated(Rule):
+    """A .msg, .srv or .action file is there, but nothing is generated from it.
+
+    **Why.** The build succeeds; ``ros2 interface show`` and every import say that there is no
+    such type.
+
+    **Fix.** Add the file to ``rosidl_generate_interfaces``. Packages of the build type
+    ament_python cannot generate interfaces: move the file to a package of ament_cmake.
+
+    **Source.** ROS 2 documentation, "Creating custom msg and srv files".
+    """
+
+    code = "CM060"
+    name = "interface-not-generated"
+    examples = (
+        Example(
+            "listed; left out on purpose, as a comment says; a file for tests",
+            {
+                "CMakeLists.txt": _LISTS % "msg/Beat.msg\n  # msg/Old.msg",
+                "msg/Beat.msg": "int32 count\n",
+                "msg/Old.msg": "int32 count\n",
+                "test/msg/Other.msg": "int32 count\n",
+            },
+        ),
+        Example(
+            "not listed",
+            {
+                "CMakeLists.txt": _LISTS % '"msg/Beat.msg"',
+                "msg/Beat.msg": "int32 count\n",
+                "srv/Add.srv": "int32 a\n---\nint32 b\n",
+            },
+            at=("CMakeLists.txt:2",),
+            fixed={"CMakeLists.txt": _LISTS % '"msg/Beat.msg"\n  "srv/Add.srv"'},
+        ),
+        Example(
+            "nothing is generated",
+            {
+                "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
+                "msg/Beat.msg": "int32 count\n",
+            },
+            at=("CMakeLists.txt:1",),
+        ),
+        Example(
+            "in a Python package",
+            {
+                "package.xml": "<package><export><build_type>ament_python</build_type></export>"
+                "</package>\n",
+                "setup.py": "",
+                "msg/Beat.msg": "int32 count\n",
+            },
+            at=("msg/Beat.msg:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        files = standing(package)
+        if not files:
+            return
+        if package.build_type == "ament_python":
+            for path in files:
+                message = "an ament_python package generates no interfaces: move it to ament_cmake"
+                yield self.report(package.start_of(path), message)
+            return
+        calls = generations(package)
+        if not all(call.is_complete for call in calls) or _is_elsewhere(package):
+            return
+        if not calls:
+            project = package.cmake.project
+            if project is not None and uses_ament(package):
+                message = f"nothing generates {files[0]}: rosidl_generate_interfaces is not called"
+                yield self.report(project.name_location, message)
+            return
+        listed = {file.path for call in calls for file in call.files}
+        comments = "\n".join(package.cmake.text(token) for token in package.cmake.comments)
+        for path in files:
+            if path in listed or path.rpartition("/")[2] in comments:
+                continue
+            name = path.rpartition("/")[2].rpartition(".")[0]
+            message = f"{path} is not among the files: nobody can use {name}"
+            yield self.report(calls[0].command.name_location, message, _add(calls[0], path))
+
+
+def _is_elsewhere(package: Package) -> bool:
+    """Tell whether other CMake files or commands may generate interfaces, too."""
+    return has_unknown_commands(package) or any(
+        "generate" in command.name and "interfaces" in command.name
+        for command in package.cmake.commands
+        if command.name != "rosidl_generate_interfaces"
+    )
+
+
+def _add(call: Generation, path: str) -> Fix | None:
+    literal = [file.argument for file in call.files if file.argument in call.command.arguments]
+    if not literal:
+        return None
+    last = literal[-1]
+    text = f'"{path}"' if last.quoted else path
+    indent = " " * (last.location.column - 1)
+    on_own_line = last.location.line > call.command.location.line
+    separator = f"\n{indent}" if on_own_line else " "
+    edit = Edit("CMakeLists.txt", last.end, last.end, separator + text)
+    return Fix(f"generate {path}", (edit,), Safety.SAFE)

@@ -1,0 +1,53 @@
+"""CM063: a package of interfaces installs no Python package of the same name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_interfaces import generations, is_interface_package
+
+_LISTS = (
+    "project(my_robot)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+    "ament_python_install_package(%s)\n"
+)
+_FILES = {"msg/Beat.msg": "int32 count\n", "my_robot/__init__.py": ""}
+
+
+class InterfacesBesidePythonPackage(Rule):
+    """A package generates interfaces and installs a Python package of the same name.
+
+    **Why.** Both are the Python package ``my_robot``: CMake stops because the target
+    ``ament_cmake_python_copy_my_robot`` exists already.
+
+    **Fix.** Move the interfaces to a package of their own, such as ``my_robot_msgs``.
+
+    **Source.** ROS 2 documentation, "ament_cmake_python user documentation";
+    https://github.com/ros2/rosidl_python/issues/141.
+    """
+
+    code = "CM063"
+    name = "interfaces-beside-python-package"
+    examples = (
+        Example("another name", {"CMakeLists.txt": _LISTS % "my_robot_tools", **_FILES}),
+        Example(
+            "the same name",
+            {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
+            at=("CMakeLists.txt:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if not is_interface_package(package):
+            return
+        line = generations(package)[0].command.location.line
+        for command in cmake.find("ament_python_install_package"):
+            name = cmake.expand(command.arguments[0], command) if command.arguments else None
+            if name is not None and name == cmake.project_name:
+                message = (
+                    f"the Python package {name!r} and the interfaces generated in line {line} "
+                    "have the same name, so CMake stops: move the interfaces to a package of "
+                    "their own"
+                )
+                yield self.report(command.name_location, message)

@@ -1,0 +1,69 @@
+"""MS009: the types of fields exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.interface_files import interface_files
+from scaffold.model.interface_values import FieldType
+from scaffold.model.interfaces import Definitions, nearest_word
+
+_LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
+
+
+class FieldTypeUnknown(Rule):
+    """A field of an interface has a type that its package does not have.
+
+    **Why.** The build stops: the generated code includes a header that nobody writes, such as
+    ``my_msgs/msg/detail/header__struct.h``.
+
+    **Fix.** Write the type as ``package/Name``; without a package it is one of this package.
+
+    **Source.** ROS 2 documentation, "Interfaces": a type without a package.
+    """
+
+    code = "MS009"
+    name = "field-type-unknown"
+    examples = (
+        Example(
+            "of another package, of this package, of a package that nobody knows",
+            {
+                "package.xml": "<package><name>my_msgs</name></package>\n",
+                "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg msg/Beats.msg"),
+                "msg/Beat.msg": "std_msgs/Header header\nunheard_msgs/Thing thing\n",
+                "msg/Beats.msg": "Beat[] beats\n",
+            },
+        ),
+        Example(
+            "a header without its package, a misspelt type",
+            {
+                "package.xml": "<package><name>my_msgs</name></package>\n",
+                "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
+                "msg/Beat.msg": "Header header\ngeometry_msgs/Pont point\n",
+            },
+            at=("msg/Beat.msg:1", "msg/Beat.msg:2"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        definitions = package.workspace.interfaces
+        for file in interface_files(package):
+            for section in file.definition.sections:
+                for field in section.fields:
+                    message = _flaw(definitions, field.type, str(field.type.element), package.name)
+                    if message:
+                        yield self.report(field.type_location, message)
+
+
+def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) -> str | None:
+    names = definitions.names(type_.package, "msg") if type_.package else None
+    if names is None or type_.name in names:
+        return None
+    others = definitions.matches(f"msg/{type_.name}")
+    if others and type_.package == own:
+        package, _, name = others[0].split("/")
+        hint = f"; did you mean '{package}/{name}'?"
+    else:
+        hint = nearest_word(type_.name, names)
+    return f"{written}: {type_.package} has no message {type_.name!r}{hint}"

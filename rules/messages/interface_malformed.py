@@ -1,0 +1,60 @@
+"""MS008: interface files can be read by rosidl."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.interface_files import problems
+from scaffold.model.interface_syntax import ProblemKind
+
+_LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg srv/Add.srv)\n"
+
+
+class InterfaceMalformed(Rule):
+    """A line of a .msg, .srv or .action file is nothing that rosidl can read.
+
+    **Why.** The build stops in rosidl_adapter, with the line but not its number: a type that is
+    none, a size that is no number, a default that does not fit its type, a missing ``---``.
+
+    **Fix.** Write the line as the message says.
+
+    **Source.** ``rosidl_adapter/parser.py``; ROS 2 documentation, "Interfaces".
+    """
+
+    code = "MS008"
+    name = "interface-malformed"
+    examples = (
+        Example(
+            "types, sizes, bounds and defaults",
+            {
+                "CMakeLists.txt": _LISTS,
+                "msg/Beat.msg": "std_msgs/Header header\nuint8[<=3] levels [1, 2]\n"
+                "string<=9 name 'beat'\n",
+                "srv/Add.srv": "int32 a\n---\nint32 b\n",
+            },
+        ),
+        Example(
+            "a type of C, a default out of range, an indented line, no separator",
+            {
+                "CMakeLists.txt": _LISTS,
+                "msg/Beat.msg": "int count\nuint8 level 256\n  bool on\nint32[0] none\n"
+                "std_msgs/msg/String text\n",
+                "srv/Add.srv": "int32 a\n",
+            },
+            at=(
+                "msg/Beat.msg:1",
+                "msg/Beat.msg:2",
+                "msg/Beat.msg:3",
+                "msg/Beat.msg:4",
+                "msg/Beat.msg:5",
+                "srv/Add.srv:1",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for problem in problems(
+            package, ProblemKind.SYNTAX, ProblemKind.TYPE, ProblemKind.VALUE, ProblemKind.SEPARATOR
+        ):
+            yield self.report(problem, problem.message)

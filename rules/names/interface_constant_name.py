@@ -1,0 +1,51 @@
+"""NM022: constants of interfaces have names that rosidl takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.interface_files import problems
+from scaffold.model.interface_syntax import ProblemKind
+
+_LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+
+
+class InterfaceConstantName(Rule):
+    """A constant of an interface has a name that rosidl refuses.
+
+    **Why.** The build stops in rosidl_adapter: ``'max' is an invalid constant name``. An ``=``
+    makes a line a constant, also where a default was meant.
+
+    **Fix.** Write capitals; a default stands behind the name of a field without ``=``.
+
+    **Source.** ``rosidl_adapter/parser.py``, ``VALID_CONSTANT_NAME_PATTERN``.
+    """
+
+    code = "NM022"
+    name = "interface-constant-name"
+    examples = (
+        Example(
+            "capitals, a default",
+            {
+                "CMakeLists.txt": _LISTS,
+                "msg/Beat.msg": "int32 MAX_COUNT=5\nint32 count 1\n",
+            },
+        ),
+        Example(
+            "small letters, a default with an equals sign, a bound with blanks",
+            {
+                "CMakeLists.txt": _LISTS,
+                "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n",
+            },
+            at=(
+                "msg/Beat.msg:1",
+                "msg/Beat.msg:2",
+                "msg/Beat.msg:3",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for problem in problems(package, ProblemKind.CONSTANT_NAME):
+            yield self.report(problem, problem.message)

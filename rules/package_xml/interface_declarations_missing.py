@@ -1,0 +1,105 @@
+"""PX040: a package that generates interfaces says so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.cmake_interfaces import generations, is_interface_package
+from scaffold.model.manifest import Manifest
+
+GROUP = "rosidl_interface_packages"
+_GENERATORS = ("rosidl_default_generators", "rosidl_core_generators")
+_RUNTIMES = ("rosidl_default_runtime", "rosidl_core_runtime")
+_CMAKE = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+_FILES = {"CMakeLists.txt": _CMAKE, "msg/Beat.msg": "int32 count\n"}
+_BUILD = "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n"
+_RUN = "  <exec_depend>rosidl_default_runtime</exec_depend>\n"
+_MEMBER = f"  <member_of_group>{GROUP}</member_of_group>\n"
+
+
+def _manifest(lines: str) -> str:
+    return f'<package format="3">\n  <name>my_msgs</name>\n{lines}</package>\n'
+
+
+class InterfaceDeclarationsMissing(Rule):
+    """A package generates interfaces without the dependencies or the group for that.
+
+    **Why.** Without the group CMake stops: ``Packages installing interfaces must include
+    '<member_of_group>rosidl_interface_packages</member_of_group>'``. Without the dependencies it
+    builds on the machine of its author only.
+
+    **Fix.** Declare ``rosidl_default_generators`` for the build, ``rosidl_default_runtime`` for
+    running, and the group.
+
+    **Source.** ROS 2 documentation, "Creating custom msg and srv files";
+    ``rosidl_cmake/cmake/rosidl_generate_interfaces.cmake``.
+    """
+
+    code = "PX040"
+    name = "interface-declarations-missing"
+    examples = (
+        Example("all three", {"package.xml": _manifest(_BUILD + _RUN + _MEMBER), **_FILES}),
+        Example(
+            "without the group",
+            {"package.xml": _manifest(_BUILD + _RUN), **_FILES},
+            at=("package.xml:4",),
+            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+        ),
+        Example(
+            "without anything",
+            {"package.xml": _manifest(""), **_FILES},
+            at=("package.xml:1", "package.xml:1", "package.xml:1"),
+            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+        ),
+        Example(
+            "groups came with format 3",
+            {
+                "package.xml": _manifest(_BUILD + _RUN).replace('"3"', '"2"'),
+                **_FILES,
+            },
+            at=("package.xml:4",),
+            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if not is_interface_package(package):
+            return
+        manifest = package.manifest
+        last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
+        line = generations(package)[0].command.location.line
+        for said, tag, text in _missing(manifest, package):
+            message = f"CMakeLists.txt:{line} generates interfaces, but {said}"
+            changes = [manifest.insert(tag, text)]
+            changes += _format_3(manifest) if tag == "member_of_group" else []
+            fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))
+            yield self.report(last.name_location, message, fix)
+
+
+def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, str]]:
+    """Yield what is not declared: words, tag and text."""
+    build = manifest.build_names | manifest.run_names
+    if build.isdisjoint(_GENERATORS):
+        tag = "buildtool_depend"
+        yield f"no <{tag}> {_GENERATORS[0]}", tag, _GENERATORS[0]
+    if manifest.run_names.isdisjoint(_RUNTIMES):
+        tag = "exec_depend" if manifest.format > 1 else "run_depend"
+        yield f"no <{tag}> {_RUNTIMES[0]}", tag, _RUNTIMES[0]
+    skips = [call.options & {"SKIP_GROUP_MEMBERSHIP_CHECK"} for call in generations(package)]
+    if not manifest.member_of(GROUP) and not all(skips):
+        said = f"there is no <member_of_group> {GROUP}: CMake stops"
+        if manifest.format < 3:  # noqa: PLR2004  REP-149
+            said += "; groups need package format 3"
+        yield said, "member_of_group", GROUP
+
+
+def _format_3(manifest: Manifest) -> list[Edit]:
+    """Return the change of a manifest of format 2 to 3, which allows all that 2 does."""
+    attribute = manifest.root.attributes.get("format")
+    if manifest.format != 2 or attribute is None:  # noqa: PLR2004  REP-140
+        return []
+    at = attribute.location
+    start = manifest.source.offset(at.line, at.column)
+    end = manifest.source.offset(at.end_line, at.end_column)
+    return [Edit("package.xml", start, end, "3")]
