@@ -204,7 +204,7 @@ def _newer_version(text: str, positions: Positions, error: SyntaxError) -> tuple
     for pattern, version in _NEWER:
         if running < version and re.search(pattern, text[start:end]):
             return version
-    if running < (3, 12) and "string" in error.msg and _has_new_f_string(text, start, end):
+    if running < (3, 12) and _has_new_f_string(text, start, end):
         return (3, 12)
     return None
 
