@@ -186,6 +186,12 @@ class Package:
 
         return self._view(("nodes", path), parse)
 
+    def rclpy_files(self) -> Iterator[NodeFacts]:
+        """What the Python files that import rclpy say."""
+        for module in self.modules():
+            if "rclpy" in module.imports_by_root:
+                yield self.node_facts(module.path)
+
     @property
     def python_files(self) -> tuple[str, ...]:
         """The files that are Python by their name or, for scripts, by their first line."""

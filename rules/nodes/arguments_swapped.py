@@ -1,0 +1,76 @@
+"""ND004: arguments stand in the order of rclpy."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.node_entities import Endpoint, Entity, Timer
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher({}, 10)\n"
+    "        self.create_timer({})\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class ArgumentsSwapped(Rule):
+    """The first two arguments of a ``create_...`` call are swapped.
+
+    **Why.** ``create_timer`` wants the period first, ``create_publisher`` and its like the type:
+    the node ends with ``TypeError`` or ``AttributeError`` at start.
+
+    **Fix.** Swap them.
+
+    **Source.** ``rclpy/node.py``.
+    """
+
+    code = "ND004"
+    name = "arguments-swapped"
+    examples = (
+        Example("in order", {"talker.py": _NODE.format("String, 'chatter'", "0.5, self.tick")}),
+        Example(
+            "swapped",
+            {"talker.py": _NODE.format("'chatter', String", "self.tick, 0.5")},
+            at=("talker.py:8", "talker.py:9"),
+            fixed={"talker.py": _NODE.format("String, 'chatter'", "0.5, self.tick")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for entity in facts.entities:
+                wanted = self._wanted(facts, entity)
+                if wanted:
+                    first, second = entity.call.args[:2]
+                    path = facts.module.path
+                    edits = (
+                        Edit(path, *facts.module.span(first), facts.module.text(second)),
+                        Edit(path, *facts.module.span(second), facts.module.text(first)),
+                    )
+                    at = facts.module.location(first)
+                    yield self.report(at, wanted, Fix("swap the arguments", edits))
+
+    def _wanted(self, facts: NodeFacts, entity: Entity) -> str | None:
+        """Return what is wrong, if the first two arguments are surely swapped."""
+        if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
+            return None
+        first, second = entity.call.args[:2]
+        evaluate = facts.evaluator.evaluate
+        if isinstance(entity, Timer):
+            is_callable = isinstance(first, ast.Lambda | ast.Attribute) and not isinstance(
+                evaluate(first), int | float
+            )
+            if is_callable and isinstance(evaluate(second), int | float):
+                return "create_timer() wants the period in seconds first, then the callback"
+        elif isinstance(entity, Endpoint) and isinstance(evaluate(first), str):
+            if facts.interface(second) is not None:
+                return f"the type comes first, then the name {evaluate(first)!r}"
+        return None

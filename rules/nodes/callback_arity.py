@@ -1,0 +1,88 @@
+"""ND003: callbacks take what they are given."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import (
+    ActionServer,
+    Callback,
+    Entity,
+    Service,
+    Subscription,
+    Timer,
+)
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.create_subscription(String, 'chatter', self.hear, 10)\n\n"
+    "    def hear(self{}):\n"
+    "        pass\n"
+)
+
+
+class CallbackArity(Rule):
+    """A callback takes another number of arguments than it is given.
+
+    **Why.** rclpy refuses the callback of a subscription at once; others end the node with
+    ``TypeError`` when they are first called.
+
+    **Fix.** A subscription gives the message (and, if wanted, its information), a service the
+    request and the response, a timer nothing, an action server the goal handle.
+
+    **Source.** ``rclpy/subscription.py``, ``rclpy/service.py``, ``rclpy/executors.py``.
+    """
+
+    code = "ND003"
+    name = "callback-arity"
+    examples = (
+        Example("the message", {"listener.py": _NODE.format(", message")}),
+        Example("nothing", {"listener.py": _NODE.format("")}, at=("listener.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for entity, callback in facts.callbacks:
+                given = _given(entity)
+                takes = _takes(callback)
+                if given is None or takes is None or any(n in takes for n in given[0]):
+                    continue
+                least, most = takes.start, takes.stop - 1
+                has = str(least) if least == most else f"{least} to {most}"
+                message = f"{callback.name or 'the callback'} takes {has} arguments; {given[1]}"
+                yield self.report(callback, message)
+
+
+def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
+    """Return how many arguments a callback may be given, and a text that says so."""
+    if isinstance(entity, Subscription):
+        return (1, 2), "a subscription gives it the message"
+    if isinstance(entity, Timer):
+        return (0,), "a timer gives it none"
+    if isinstance(entity, Service):
+        return (2,), "a service gives it the request and the response"
+    if isinstance(entity, ActionServer):
+        return (1,), "an action server gives it the goal handle"
+    return None
+
+
+def _takes(callback: Callback) -> range | None:
+    """Return the numbers of positional arguments that a callback accepts."""
+    function = callback.function
+    if function is None or callback.is_called or callback.is_partial:
+        return None
+    if not isinstance(function, ast.Lambda) and function.decorator_list:
+        return None
+    arguments = function.args
+    if arguments.vararg is not None or any(
+        default is None for default in arguments.kw_defaults if arguments.kwonlyargs
+    ):
+        return None
+    names = [*arguments.posonlyargs, *arguments.args]
+    most = len(names) - int(callback.is_bound)
+    return range(most - len(arguments.defaults), most + 1)
