@@ -1,0 +1,36 @@
+"""ND007: ``rclpy.init()`` is no context manager on Jazzy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
+_PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
+
+
+class InitAsContextManager(Rule):
+    """``with rclpy.init()`` needs a newer ROS than Jazzy.
+
+    **Why.** On Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not support the
+    context manager protocol``.
+
+    **Fix.** Call ``rclpy.init(args=args)``, and ``rclpy.try_shutdown()`` in a ``finally``.
+
+    **Source.** rclpy 7.4.0 (pull request 1298) introduced it; Jazzy has 7.1.
+    """
+
+    code = "ND007"
+    name = "init-as-context-manager"
+    examples = (
+        Example("a plain call", {"talker.py": _PLAIN}),
+        Example("a with statement", {"talker.py": _WITH}, at=("talker.py:5",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.init_calls:
+                if call.in_with:
+                    message = "rclpy.init() of Jazzy is no context manager: the node never starts"
+                    yield self.report(call, message)

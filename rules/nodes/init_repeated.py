@@ -1,0 +1,53 @@
+"""ND005: rclpy is started once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import RclpyCall
+
+_MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
+
+
+class InitRepeated(Rule):
+    """``rclpy.init()`` is called twice in a row.
+
+    **Why.** ``RuntimeError: Context.init() must only be called once``.
+
+    **Fix.** Keep the first call.
+
+    **Source.** ``rclpy/context.py``.
+    """
+
+    code = "ND005"
+    name = "init-repeated"
+    examples = (
+        Example("once", {"talker.py": _MAIN.format("")}),
+        Example(
+            "again after a shutdown",
+            {"talker.py": _MAIN.format("    rclpy.shutdown()\n    rclpy.init()\n")},
+        ),
+        Example("twice", {"talker.py": _MAIN.format("    rclpy.init()\n")}, at=("talker.py:6",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            started: RclpyCall | None = None
+            calls = sorted(
+                (*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location
+            )
+            for call in calls:
+                if call.name != "init":
+                    started = None
+                    continue
+                if self._has_own_context(call) or facts.is_conditional(call.call):
+                    started = None
+                    continue
+                if started is not None and started.function is call.function:
+                    line = started.location.line
+                    yield self.report(call, f"rclpy.init() was called in line {line} already")
+                started = call
+
+    def _has_own_context(self, call: RclpyCall) -> bool:
+        return any(word.arg in {"context", None} for word in call.call.keywords)

@@ -1,0 +1,51 @@
+"""ND006: the command line reaches rclpy."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+
+_MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
+
+
+class InitWithoutArguments(Rule):
+    """``rclpy.init`` is given an empty list of arguments.
+
+    **Why.** It replaces the command line: ``--ros-args`` with remappings and parameters, also
+    those of a launch file, have no effect.
+
+    **Fix.** Write ``rclpy.init(args=args)``, where ``None`` means the command line.
+
+    **Source.** ROS 2 documentation, "Passing ROS arguments to nodes via the command line".
+    """
+
+    code = "ND006"
+    name = "init-without-arguments"
+    examples = (
+        Example("the command line", {"talker.py": _MAIN.format("args=args")}),
+        Example(
+            "an empty list",
+            {"talker.py": _MAIN.format("args=[]")},
+            at=("talker.py:5",),
+            fixed={"talker.py": _MAIN.format("args=args")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if facts.module.in_tests:
+                continue
+            for call in facts.init_calls:
+                given = [word.value for word in call.call.keywords if word.arg == "args"]
+                given = given or call.call.args[:1]
+                if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
+                    continue
+                own = call.function.args.args if call.function else []
+                fix = None
+                if any(argument.arg == "args" for argument in own):
+                    edit = Edit(facts.module.path, *facts.module.span(given[0]), "args")
+                    fix = Fix("hand on the arguments", (edit,))
+                message = "an empty list replaces the command line: --ros-args have no effect"
+                yield self.report(facts.module.location(given[0]), message, fix)

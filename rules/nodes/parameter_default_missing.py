@@ -1,0 +1,55 @@
+"""ND015: parameters have a default."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Parameter
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter({})\n"
+)
+
+
+class ParameterDefaultMissing(Rule):
+    """A parameter is declared without a default, or with an empty list.
+
+    **Why.** Without one its value is None until somebody sets it, and rclpy warns. An empty list
+    is one of bytes to rclpy: a list of strings is then refused.
+
+    **Fix.** Give a default, or the type: ``Parameter.Type.STRING_ARRAY``.
+
+    **Source.** rclpy issue 1030; ``rclpy/parameter.py``: ``[]`` is a ``BYTE_ARRAY``.
+    """
+
+    code = "ND015"
+    name = "parameter-default-missing"
+    examples = (
+        Example("with", {"talker.py": _NODE.format("'rate', 2.0")}),
+        Example("without", {"talker.py": _NODE.format("'rate'")}, at=("talker.py:7",)),
+        Example("an empty list", {"talker.py": _NODE.format("'names', []")}, at=("talker.py:7",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for parameter in facts.parameters:
+                problem = self._problem(parameter)
+                if problem:
+                    at = parameter.name_location
+                    yield self.report(at, problem)
+
+    def _problem(self, parameter: Parameter) -> str | None:
+        if parameter.has_unknown_arguments or parameter.declared_type is not None:
+            return None
+        if parameter.argument("descriptor") is not None:
+            return None
+        if parameter.default_node is None:
+            return f"parameter {parameter.name!r} has no default: its value is None"
+        if parameter.default == [] or parameter.default == ():
+            return f"parameter {parameter.name!r}: an empty list is a list of bytes to rclpy"
+        return None

@@ -1,0 +1,49 @@
+"""ND016: parameters are declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.declare_parameter('{}', 1.0)\n"
+)
+
+
+class ParameterRepeated(Rule):
+    """A node declares a parameter twice.
+
+    **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
+
+    **Fix.** Keep one.
+
+    **Source.** ``rclpy/node.py``, ``declare_parameters``.
+    """
+
+    code = "ND016"
+    name = "parameter-repeated"
+    examples = (
+        Example("two parameters", {"talker.py": _NODE.format("period")}),
+        Example("one parameter twice", {"talker.py": _NODE.format("rate")}, at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for node in facts.nodes:
+                first: dict[str, int] = {}
+                for parameter in node.parameters:
+                    name = parameter.name
+                    if not isinstance(name, str) or parameter.is_conditional:
+                        continue
+                    at = parameter.name_location
+                    if name in first:
+                        message = f"parameter {name!r} is declared in line {first[name]} already"
+                        yield self.report(at, message)
+                    else:
+                        first[name] = at.line

@@ -1,0 +1,59 @@
+"""ND010: publishers and subscriptions have a QoS profile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Publisher, Subscription
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher(String, 'chatter'{})\n"
+)
+_QOS = "from rclpy.qos import QoSProfile\n"
+
+
+class QosMissing(Rule):
+    """A publisher or subscription has no QoS argument, or a profile without a depth.
+
+    **Why.** ROS 2 wants to know how many messages to keep: ``TypeError`` without the argument,
+    ``InvalidQoSProfileException`` without the depth.
+
+    **Fix.** Give a depth, such as 10, or a profile such as ``qos_profile_sensor_data``.
+
+    **Source.** ``rclpy/node.py``; ``rclpy/qos.py``.
+    """
+
+    code = "ND010"
+    name = "qos-missing"
+    examples = (
+        Example("a depth", {"talker.py": _NODE.format("", ", 10")}),
+        Example("nothing", {"talker.py": _NODE.format("", "")}, at=("talker.py:8",)),
+        Example(
+            "a profile without a depth",
+            {"talker.py": _NODE.format(_QOS, ", QoSProfile()")},
+            at=("talker.py:9",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for entity in (*facts.publishers, *facts.subscriptions):
+                problem = self._problem(entity)
+                if problem:
+                    yield self.report(entity, problem)
+
+    def _problem(self, entity: Publisher | Subscription) -> str | None:
+        if entity.has_unknown_arguments:
+            return None
+        if entity.argument("qos_profile") is None:
+            what = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
+            return f"{what}() wants a depth or a QoS profile as well"
+        qos = entity.qos
+        if qos is not None and qos.depth is None:
+            return "a QoS profile that keeps the last messages needs a depth"
+        return None

@@ -1,0 +1,62 @@
+"""ND009: the context is shut down once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+
+_MAIN = (
+    "import rclpy\n\n\n"
+    "def main():\n    rclpy.init()\n    node = rclpy.create_node('talker')\n"
+    "    try:\n        rclpy.spin(node)\n"
+    "    except KeyboardInterrupt:\n        pass\n    finally:\n        rclpy.{}()\n"
+)
+
+
+class ShutdownRepeated(Rule):
+    """``rclpy.shutdown()`` runs after a signal has shut rclpy down.
+
+    **Why.** The handler of SIGINT and SIGTERM does it first: ``RCLError: rcl_shutdown already
+    called on the given context``, and the node ends with an error.
+
+    **Fix.** Write ``rclpy.try_shutdown()``.
+
+    **Source.** ``rclpy/__init__.py``, ``try_shutdown``; ``demo_nodes_py``.
+    """
+
+    code = "ND009"
+    name = "shutdown-repeated"
+    examples = (
+        Example("tried", {"talker.py": _MAIN.format("try_shutdown")}),
+        Example(
+            "again",
+            {"talker.py": _MAIN.format("shutdown")},
+            at=("talker.py:12",),
+            fixed={"talker.py": _MAIN.format("try_shutdown")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if facts.module.in_tests:
+                continue
+            for call in facts.shutdown_calls:
+                if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
+                    continue
+                if not call.in_finally or self._is_caught(call.handlers):
+                    continue
+                spins = [one for one in facts.spin_calls if one.function is call.function]
+                if not any(one.catches_keyboard_interrupt for one in spins):
+                    continue
+                _, end = facts.module.span(call.call.func)
+                start = end - len("shutdown")
+                edit = Edit(facts.module.path, start, end, "try_shutdown")
+                fix = None
+                if facts.module.source.text[start:end] == "shutdown":
+                    fix = Fix("write try_shutdown()", (edit,))
+                message = "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()"
+                yield self.report(call, message, fix)
+
+    def _is_caught(self, handlers: frozenset[str]) -> bool:
+        return not handlers.isdisjoint({"Exception", "BaseException"})

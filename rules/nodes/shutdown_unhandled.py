@@ -1,0 +1,79 @@
+"""ND008: a node stops without a traceback."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import RclpyCall
+from scaffold.model.nodes import NodeFacts
+
+_IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
+_HANDLED = (
+    "def main():\n    rclpy.init()\n    node = rclpy.create_node('talker')\n"
+    "    try:\n        rclpy.spin(node)\n"
+    "    except {}:\n        pass\n    finally:\n        rclpy.try_shutdown()\n"
+)
+_BARE = (
+    "def main():\n    rclpy.init()\n    node = rclpy.create_node('talker')\n"
+    "    rclpy.spin(node)\n    rclpy.shutdown()\n"
+)
+
+
+class ShutdownUnhandled(Rule):
+    """Nothing catches what ends a spinning node.
+
+    **Why.** Ctrl-C raises KeyboardInterrupt, SIGTERM (``docker stop``, systemd, a launch file)
+    ExternalShutdownException: a traceback, and an exit code that says it failed.
+
+    **Fix.** Put ``rclpy.spin`` into ``try``, and write
+    ``except (KeyboardInterrupt, ExternalShutdownException): pass``.
+
+    **Source.** ROS 2 documentation, "Migrating a Python package example"; ``demo_nodes_py``.
+    """
+
+    code = "ND008"
+    name = "shutdown-unhandled"
+    examples = (
+        Example(
+            "both are caught",
+            {
+                "talker.py": _IMPORTS
+                + _HANDLED.format("(KeyboardInterrupt, ExternalShutdownException)")
+            },
+        ),
+        Example("none is caught", {"talker.py": _IMPORTS + _BARE}, at=("talker.py:8",)),
+        Example(
+            "SIGTERM is forgotten",
+            {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
+            at=("talker.py:9",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if facts.module.in_tests or not self._is_program(facts):
+                continue
+            for call in facts.spin_calls:
+                if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
+                    continue
+                missing = self._missing(call)
+                if missing:
+                    yield self.report(call, f"nothing catches {missing}")
+
+    def _is_program(self, facts: NodeFacts) -> bool:
+        return bool(facts.init_calls)
+
+    def _runs_in_thread(self, facts: NodeFacts, call: RclpyCall) -> bool:
+        """Tell whether another function than that of ``rclpy.init`` spins: it may be a thread."""
+        return all(init.function is not call.function for init in facts.init_calls)
+
+    def _missing(self, call: RclpyCall) -> str:
+        caught = call.handlers | call.outer_handlers
+        problems: list[str] = []
+        if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}):
+            problems.append("KeyboardInterrupt (Ctrl-C)")
+        names = {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
+        if caught.isdisjoint(names) and not call.asks_ok:
+            problems.append("ExternalShutdownException (SIGTERM)")
+        return " and ".join(problems)
