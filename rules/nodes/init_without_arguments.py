@@ -35,8 +35,6 @@ class InitWithoutArguments(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            if facts.module.in_tests:
-                continue
             for call in facts.init_calls:
                 given = [word.value for word in call.call.keywords if word.arg == "args"]
                 given = given or call.call.args[:1]

@@ -44,7 +44,9 @@ class ParameterDefaultMissing(Rule):
                     yield self.report(at, problem)
 
     def _problem(self, parameter: Parameter) -> str | None:
-        if parameter.has_unknown_arguments or parameter.declared_type is not None:
+        if not isinstance(parameter.name, str) or parameter.has_unknown_arguments:
+            return None
+        if parameter.declared_type is not None:
             return None
         if parameter.argument("descriptor") is not None:
             return None

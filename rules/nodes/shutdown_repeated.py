@@ -39,8 +39,6 @@ class ShutdownRepeated(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            if facts.module.in_tests:
-                continue
             for call in facts.shutdown_calls:
                 if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                     continue

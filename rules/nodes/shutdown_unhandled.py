@@ -52,7 +52,7 @@ class ShutdownUnhandled(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            if facts.module.in_tests or not self._is_program(facts):
+            if not facts.init_calls:
                 continue
             for call in facts.spin_calls:
                 if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
@@ -60,9 +60,6 @@ class ShutdownUnhandled(Rule):
                 missing = self._missing(call)
                 if missing:
                     yield self.report(call, f"nothing catches {missing}")
-
-    def _is_program(self, facts: NodeFacts) -> bool:
-        return bool(facts.init_calls)
 
     def _runs_in_thread(self, facts: NodeFacts, call: RclpyCall) -> bool:
         """Tell whether another function than that of ``rclpy.init`` spins: it may be a thread."""

@@ -187,9 +187,9 @@ class Package:
         return self._view(("nodes", path), parse)
 
     def rclpy_files(self) -> Iterator[NodeFacts]:
-        """What the Python files that import rclpy say."""
+        """What the Python files that import rclpy say; tests try what nodes must not do."""
         for module in self.modules():
-            if "rclpy" in module.imports_by_root:
+            if "rclpy" in module.imports_by_root and not module.in_tests:
                 yield self.node_facts(module.path)
 
     @property
