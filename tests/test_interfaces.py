@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from scaffold.cli.main import main
 from scaffold.errors import InputError
+from scaffold.model.cmake_interfaces import generations
 from scaffold.model.interface_sources import BundleSource, PrefixSource
 from scaffold.model.interface_syntax import (
     Definition,
@@ -518,3 +519,41 @@ def _wheel_prefix() -> str:
     if not os.path.isdir(os.path.join(prefix, "share", "std_msgs")):
         pytest.skip("std_msgs is installed without its definitions")
     return prefix
+
+
+# -- what generates them
+
+
+def test_generated_files_are_found_through_variables() -> None:
+    calls = (
+        "set(messages\n  msg/Status.msg\n  msg/Other.msg\n)\n"
+        'rosidl_generate_interfaces(${PROJECT_NAME} ${messages} "srv/Add.srv" ${unknown}\n'
+        "  DEPENDENCIES std_msgs SKIP_INSTALL)\n"
+    )
+    (call,) = generations(package("my_msgs", {}, calls))
+    assert call.target == "my_msgs"
+    assert [(file.path, file.argument.location.line) for file in call.files] == [
+        ("msg/Status.msg", 3),
+        ("msg/Other.msg", 4),
+        ("srv/Add.srv", 6),
+    ]
+    assert not call.is_complete
+    assert call.dependencies == ["std_msgs"]
+    assert call.options == {"DEPENDENCIES", "SKIP_INSTALL"}
+
+
+@pytest.mark.parametrize(
+    "calls",
+    ["", GENERATE.replace("msg/Status.msg", "${files}"), GENERATE.replace("Status", "Missing")],
+)
+def test_package_that_may_have_more_is_not_judged(calls: str) -> None:
+    own = package("my_msgs", {"msg/Status.msg": "int32 code\n"}, calls)
+    assert Workspace([own]).interfaces.names("my_msgs", "msg") is None
+    assert Workspace([own]).interfaces.find("my_msgs/msg/Status") is not None
+
+
+def test_idl_has_names_only() -> None:
+    own = package("my_msgs", {"msg/Status.msg": "int32 code\n", "msg/Made.idl": ""}, GENERATE)
+    definitions = Workspace([own]).interfaces
+    assert definitions.names("my_msgs", "msg") == ["Made", "Status"]
+    assert definitions.find("my_msgs/msg/Made") is None
