@@ -8,6 +8,8 @@ PIP_INSTALL = $(BIN)/python -m pip --disable-pip-version-check install --quiet
 
 DEMO = demo
 SCAFFOLD = $(BIN)/ros2-scaffold
+# Shows a command as it would be typed, and runs it.
+RUN = @show() { echo; echo "\$$ ros2-scaffold $$*"; cd $(DEMO) && ../$(SCAFFOLD) "$$@"; }; show
 
 # Set while a program of another environment with the ROS wheels runs make.
 ifdef _ROS_WHEELS_BOOTSTRAP_COMPLETE
@@ -25,6 +27,14 @@ help:
 	@echo 'make docs        write docs/rules from the rules'
 	@echo 'make benchmark   how fast the tool is, as ratios'
 	@echo 'make clean       remove what all of these have made'
+
+.PHONY: demo
+demo: $(VENV)/demo.stamp
+	@rm -rf $(DEMO) && mkdir $(DEMO)
+	$(RUN) new talker --topic chatter --rate 10
+	$(RUN) check talker
+	$(RUN) smoke talker
+	@echo; echo 'The package is in $(DEMO)/talker.'
 
 .PHONY: test
 test: $(VENV)/test.stamp

@@ -1,0 +1,93 @@
+"""What the README shows is what happens.
+
+A ``console`` block holds commands after ``$`` and their output, in which ``...`` stands for the
+rest of a line, or alone for any lines. The blocks are one session: each command goes on where
+those before it ended. Of what is measured only the form is compared.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+README = Path(__file__).parent.parent / "README.md"
+
+
+class Step(NamedTuple):
+    command: str
+    output: str
+
+    @property
+    def is_slow(self) -> bool:
+        return "ros2-scaffold smoke" in self.command
+
+
+def read_steps(text: str) -> list[Step]:
+    steps = []
+    for block in re.findall(r"(?ms)^```console\n(.*?)^```$", text):
+        for part in re.split(r"(?m)^\$ ", block)[1:]:
+            command, _, output = part.partition("\n")
+            steps.append(Step(command, output))
+    return steps
+
+
+STEPS = read_steps(README.read_text())
+
+
+@pytest.mark.parametrize(
+    "index",
+    [
+        pytest.param(index, id=step.command, marks=[pytest.mark.build] if step.is_slow else [])
+        for index, step in enumerate(STEPS)
+    ],
+)
+def test_step(index: int, tmp_path: Path) -> None:
+    for earlier in STEPS[:index]:
+        if not earlier.is_slow:
+            run(earlier.command, tmp_path)
+    assert_same(run(STEPS[index].command, tmp_path), STEPS[index])
+
+
+def test_verbs_are_shown() -> None:
+    shown = {step.command.split()[1] for step in STEPS if step.command.startswith("ros2-scaffold")}
+    assert shown >= {"new", "check", "rules", "smoke"}
+
+
+def run(command: str, directory: Path) -> str:
+    """Return what a terminal of somebody whom git knows shows."""
+    path = os.pathsep.join([os.path.join(sys.prefix, "bin"), os.environ["PATH"]])
+    identity = {"user.name": "Ada Lovelace", "user.email": "ada@example.org"}
+    git = {"GIT_CONFIG_COUNT": str(len(identity))}
+    for index, (key, value) in enumerate(identity.items()):
+        git |= {f"GIT_CONFIG_KEY_{index}": key, f"GIT_CONFIG_VALUE_{index}": value}
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=directory,
+        env={**os.environ, **git, "PATH": path, "PYTHONUNBUFFERED": "1", "LC_ALL": "C.UTF-8"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    return done.stdout
+
+
+def assert_same(output: str, step: Step) -> None:
+    said = without_figures(output) if step.is_slow else output
+    shown = without_figures(step.output) if step.is_slow else step.output
+    pattern = "".join(
+        r"(?:.*\n)*" if line == "...\n" else re.escape(line).replace(r"\.\.\.", ".*")
+        for line in shown.splitlines(keepends=True)
+    )
+    assert re.fullmatch(pattern, said), f"README.md shows:\n{step.output}\nbut it is:\n{output}"
+
+
+def without_figures(text: str) -> str:
+    return re.sub(r"\d+(?:\.\d+)?", "0", text)
