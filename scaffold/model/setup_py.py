@@ -412,16 +412,16 @@ class SetupPy:
         module, colon, function = (part.strip() for part in target.partition("[")[0].partition(":"))
         joined = self._joined_literals(node)
         problem = None
-        if "=" in target or ":" in function or ":" in name:
-            problem = "two entries run together"
-        elif not name or not equals or not module:
+        if not name or not equals or not module:
             problem = "not of the form name = module:function"
-        elif not function and (colon or group in {"console_scripts", "gui_scripts"}):
+        elif "=" in target or ":" in function or ":" in name:
+            problem = "two entries run together"
+        if problem:
+            return EntryPoint(group, "", "", "", text, at, node, problem, joined)
+        if not function and (colon or group in {"console_scripts", "gui_scripts"}):
             problem = "no function is named: name = module:function"
         elif not all(part.isidentifier() for part in f"{module}.{function or 'x'}".split(".")):
             problem = "module or function is not a Python name"
-        if problem and not (name and module and function):
-            name = module = function = ""
         return EntryPoint(group, name, module, function, text, at, node, problem, joined)
 
     def _joined_literals(self, node: ast.expr) -> tuple[Location, ...]:
