@@ -75,6 +75,7 @@ class MessageTypes:
         self.module = facts.module
         self.definitions = definitions
         self._known: dict[ast.AST, FieldType | MessageClass | None] = {}
+        self._classes: dict[ast.expr, MessageClass | None] = {}
         self._depth = 0
 
     @classmethod
@@ -128,8 +129,10 @@ class MessageTypes:
 
     def class_of(self, node: ast.expr) -> MessageClass | None:
         """Return the message class that an expression names."""
-        name = self.module.qualified_name(self.facts.evaluator.single_value(node))
-        return self.class_named(name) if name else None
+        if node not in self._classes:
+            name = self.module.qualified_name(self.facts.evaluator.single_value(node))
+            self._classes[node] = self.class_named(name) if name else None
+        return self._classes[node]
 
     def _class_of_type(self, type_: FieldType) -> MessageClass | None:
         interface = self.definitions.find(type_.full_name)
