@@ -66,6 +66,28 @@ def ament_xmllint(directory: Path, *options: str) -> set[Finding]:
     return _run(_from_system("ament_xmllint"), directory, options, system_environment())
 
 
+def files_rejected_by_xmllint(directory: Path) -> set[str]:
+    """Return the XML files that ament_xmllint of the system rejects.
+
+    Its report is itself ill-formed when a message quotes the end of a CDATA section, so the
+    names are taken from what it prints.
+    """
+    program = _from_system("ament_xmllint")
+    done = subprocess.run(
+        [program, "."],
+        cwd=directory,
+        env=system_environment(),
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=_TIMEOUT,
+        check=False,
+    )
+    if "Traceback" in done.stderr:
+        raise AssertionError(f"{program} failed ({done.returncode}):\n{done.stderr}")
+    return set(re.findall(r"(?m)^File '(.+)' is invalid:$", done.stderr))
+
+
 def needs_system_linter(name: str) -> pytest.MarkDecorator:
     """Skip a test, aloud, where a linter of the system is not installed."""
     return pytest.mark.skipif(

@@ -201,7 +201,8 @@ class Known(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def _known() -> dict[str, list[Known]]:
+def known_texts() -> dict[str, list[Known]]:
+    """Return the known texts by what they are: ``header``, or the name of a file."""
     found: dict[str, list[Known]] = {}
     with open(_DATA, encoding="utf-8") as file:
         for line in file:
@@ -213,7 +214,7 @@ def _known() -> dict[str, list[Known]]:
 @lru_cache(maxsize=256)
 def identify(text: str) -> str | None:
     """Return the SPDX identifier of the known header that is in a text, blanks joined."""
-    for known in _known()["header"]:
+    for known in known_texts()["header"]:
         if _in_order(text, known.sections):
             return known.licence
     return None
@@ -238,7 +239,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
     """
     best: tuple[int, str, str, str] | None = None
     words = text.split()
-    for known in _known()["header"]:
+    for known in known_texts()["header"]:
         same, expected, given = _compare(words, [part.split() for part in known.sections])
         enough = min(_NEAR, sum(map(len, (part.split() for part in known.sections))) // 2)
         if same >= enough and (best is None or same > best[0]):
@@ -265,7 +266,7 @@ def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str
 def identify_file(name: str, data: bytes) -> str | None:
     """Return the SPDX identifier of a LICENSE or CONTRIBUTING.md, ``None`` if it is unknown."""
     text = " ".join(data.decode("utf-8", "replace").split())
-    for known in _known()[name]:
+    for known in known_texts()[name]:
         last = -1
         for mark in known.sections:
             at = _find_marked(text, mark)
