@@ -69,7 +69,7 @@ class LicenceHeaderUnknown(Rule):
         if passed_over:
             why = use.why_not or "it is told to exclude them"
             number = len(passed_over) - 1
-            more = f", and in {number} more files something alike" if number else ""
+            more = f" (and {number} more files have no known header)" if number else ""
             message = f"{_reason(passed_over[0].text)}{more}: ament_copyright would fail, but {why}"
             yield self.report(passed_over[0], message)._replace(severity=Severity.INFO)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.manifest_structure import LIMITS, structure
 from scaffold.model.manifest_values import LIMIT, fits
 
@@ -22,6 +22,7 @@ class DependencyVersionMalformed(Rule):
 
     code = "PX070"
     name = "dependency-version-malformed"
+    severity = Severity.WARNING
     examples = (
         Example(
             "well-formed",

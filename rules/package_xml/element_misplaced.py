@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Safety, Severity
 from scaffold.model.manifest_structure import Misplaced, structure
 
 RIGHT = """\
@@ -39,6 +39,7 @@ class ElementMisplaced(Rule):
 
     code = "PX060"
     name = "element-misplaced"
+    severity = Severity.WARNING
     examples = (
         Example("in order", {"package.xml": RIGHT}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.manifest_structure import structure
 
 
@@ -21,6 +21,7 @@ class TextBetweenElements(Rule):
 
     code = "PX066"
     name = "text-between-elements"
+    severity = Severity.WARNING
     examples = (
         Example(
             "a comment",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.manifest_structure import structure
 from scaffold.model.manifest_values import is_uri
 
@@ -21,6 +21,7 @@ class UrlMalformed(Rule):
 
     code = "PX075"
     name = "url-malformed"
+    severity = Severity.WARNING
     examples = (
         Example("a URL", {"package.xml": "<package><url>http://a.org:80/b#c</url></package>\n"}),
         Example(

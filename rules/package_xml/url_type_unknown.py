@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.manifest_structure import collapse, structure
 from scaffold.model.manifest_values import URL_TYPES
 
@@ -23,6 +23,7 @@ class UrlTypeUnknown(Rule):
 
     code = "PX069"
     name = "url-type-unknown"
+    severity = Severity.WARNING
     examples = (
         Example(
             "known",

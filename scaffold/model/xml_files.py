@@ -91,7 +91,8 @@ def _explain(path: str, data: bytes, error: expat.ExpatError) -> tuple[Location,
         xml_tree.parse(Source(path, text))
     except ParseError as found:
         if "DOCTYPE" not in found.message:
-            return found.location, found.message.replace("package.xml", path)
+            said = found.message.replace("package.xml", path).replace(" such as <package>", "")
+            return found.location, said
     except UnicodeDecodeError:
         pass
     at = Location(path, error.lineno, error.offset + 1, error.lineno, error.offset + 2)
