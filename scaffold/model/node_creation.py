@@ -96,10 +96,11 @@ class Creation:
         elif method == "create_timer":
             period = created.arguments.get("timer_period_sec")
             value, notes = evaluator.trace(period.node if period else None)
+            is_number = isinstance(value, int | float) and type(value) is not bool
             yield Timer(
                 created,
-                period=value if isinstance(value, int | float) else UNKNOWN,
-                from_parameters=_parameters_in(notes),
+                period=value if isinstance(value, int | float) and is_number else UNKNOWN,
+                from_parameters=_parameters_in(notes) if is_number else frozenset(),
                 callback=self._callback_argument(created, "callback"),
             )
         elif method in _READS:
@@ -115,7 +116,7 @@ class Creation:
         name = created.arguments.get(kind.name_parameter)
         text, notes = self._facts.evaluator.trace(name.node if name else None)
         qos = created.arguments.get("qos_profile")
-        parameters = _parameters_in(notes)
+        parameters = _parameters_in(notes) if isinstance(text, str) else ()
         made = kind(
             created,
             interface=self._facts.interface(type_.node) if type_ else None,

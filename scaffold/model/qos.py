@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from scaffold.model.self_values import SelfEvaluator
     from scaffold.model.source import Location
 
-_PROFILES: Mapping[str, tuple[int, str, str, str]] = {
+PROFILES: Mapping[str, tuple[int, str, str, str]] = {
     "default": (10, "KEEP_LAST", "RELIABLE", "VOLATILE"),
     "sensor_data": (5, "KEEP_LAST", "BEST_EFFORT", "VOLATILE"),
     "services_default": (10, "KEEP_LAST", "RELIABLE", "VOLATILE"),
@@ -38,7 +38,7 @@ def qos_of(evaluator: SelfEvaluator, node: ast.expr) -> Qos:
 def _plain(evaluator: SelfEvaluator, node: ast.expr, at: Location) -> Qos:
     value = evaluator.evaluate(node)
     if type(value) is int:
-        return Qos(at, None, value, *_PROFILES["default"][1:])
+        return Qos(at, None, value, *PROFILES["default"][1:])
     name = evaluator.module.qualified_name(node) or ""
     profile = ""
     if name.startswith("rclpy.qos.qos_profile_"):
@@ -51,7 +51,7 @@ def _plain(evaluator: SelfEvaluator, node: ast.expr, at: Location) -> Qos:
             profile = str(evaluator.evaluate(node.args[0])).lower()
         elif called == "rclpy.qos.QoSProfile":
             return _constructed(evaluator, node, at)
-    return Qos(at, profile, *_PROFILES[profile]) if profile in _PROFILES else Qos(at)
+    return Qos(at, profile, *PROFILES[profile]) if profile in PROFILES else Qos(at)
 
 
 def _constructed(evaluator: SelfEvaluator, node: ast.Call, at: Location) -> Qos:
