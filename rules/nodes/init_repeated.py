@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import RclpyCall
+from scaffold.model.nodes import NodeFacts
 
 _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
 
@@ -38,6 +39,11 @@ class InitRepeated(Rule):
                 (*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location
             )
             for call in calls:
+                in_node = call.name == "init" and self._is_in_node(facts, call)
+                if in_node and any(not self._is_in_node(facts, one) for one in facts.init_calls):
+                    message = "rclpy.init() was called before this node is made: RuntimeError"
+                    yield self.report(call, message)
+                    continue
                 if call.name != "init":
                     started = None
                     continue
@@ -48,6 +54,11 @@ class InitRepeated(Rule):
                     line = started.location.line
                     yield self.report(call, f"rclpy.init() was called in line {line} already")
                 started = call
+
+    def _is_in_node(self, facts: NodeFacts, call: RclpyCall) -> bool:
+        """Tell whether a method of a node class calls it: then the node exists already."""
+        class_ = facts.module.enclosing_class(call.call)
+        return class_ is not None and facts.node_class(class_) is not None
 
     def _has_own_context(self, call: RclpyCall) -> bool:
         return any(word.arg in {"context", None} for word in call.call.keywords)

@@ -293,6 +293,23 @@ class NodeFacts:
 
     # -- callbacks
 
+    def is_number(self, node: ast.Attribute) -> bool:
+        """Tell whether an attribute of ``self`` is a number wherever its class assigns to it."""
+        class_ = self.module.enclosing_class(node)
+        if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
+            return False
+        values: list[ast.expr] = []
+        for statement in ast.walk(class_):
+            match statement:
+                case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)]):
+                    values += [statement.value] if name == node.attr else []
+                case ast.AugAssign(target=ast.Attribute(value=ast.Name(id="self"), attr=name)):
+                    values += [statement.value] if name == node.attr else []
+                case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Del()):
+                    return False
+        known = [self.evaluator.evaluate(value) for value in values]
+        return bool(known) and all(type(value) in {int, float} for value in known)
+
     def callback(self, node: ast.expr) -> Callback:
         """Return what an expression stands for as a callback."""
         return node_callbacks.resolve(self, node)

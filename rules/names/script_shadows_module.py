@@ -1,0 +1,44 @@
+"""NM040: a script does not hide a module."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_facts import programs
+from scaffold.model.known import ROS_PACKAGES
+
+_LISTS = "project(talker)\ninstall(PROGRAMS talker/{}.py DESTINATION lib/${{PROJECT_NAME}})\n"
+
+
+class ScriptShadowsModule(Rule):
+    """An installed script has the name of a module that nodes import.
+
+    **Why.** Python looks in the script's own directory first: every program installed beside it
+    that imports ``logging`` or ``queue``, as rclpy does, imports the script instead and dies.
+
+    **Fix.** Rename the script, or install it without its ending: ``RENAME``.
+
+    **Source.** Python documentation, ``sys.path``.
+    """
+
+    code = "NM040"
+    name = "script-shadows-module"
+    examples = (
+        Example("a name of its own", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}),
+        Example(
+            "of the standard library",
+            {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
+            at=("CMakeLists.txt:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for program in programs(package):
+            stem, _, ending = program.name.rpartition(".")
+            if ending != "py":
+                continue
+            if stem in sys.stdlib_module_names or (stem in ROS_PACKAGES and stem != package.name):
+                message = f"{program.name} hides the module {stem!r} from every program beside it"
+                yield self.report(program, message)

@@ -1,0 +1,52 @@
+"""ND020: coroutines of rclpy wait for what rclpy knows."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+AWAITED = ("asyncio.sleep", "asyncio.wait", "asyncio.wait_for", "asyncio.gather")
+_NODE = (
+    "import asyncio\n\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    async def tick(self):\n"
+    "        await {}\n"
+)
+
+
+class AsyncioInCallback(Rule):
+    """A callback awaits something of asyncio.
+
+    **Why.** rclpy runs coroutines itself, without an event loop of asyncio: ``RuntimeError: no
+    running event loop``.
+
+    **Fix.** Await a Future of rclpy, or use a timer.
+
+    **Source.** rclpy issue 1313; ``rclpy/task.py``.
+    """
+
+    code = "ND020"
+    name = "asyncio-in-callback"
+    examples = (
+        Example("a future of rclpy", {"talker.py": _NODE.format("self.client.call_async(None)")}),
+        Example("asyncio", {"talker.py": _NODE.format("asyncio.sleep(0.1)")}, at=("talker.py:12",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            functions = {id(callback.function) for _, callback in facts.callbacks}
+            if "asyncio.run" in facts.module.source.text or "run_until" in facts.module.source.text:
+                continue
+            for node in facts.module.walk(ast.Await):
+                function = facts.module.enclosing_function(node)
+                if id(function) not in functions or not isinstance(node.value, ast.Call):
+                    continue
+                name = facts.module.qualified_name(node.value.func)
+                if name in AWAITED:
+                    message = f"{name}() needs an event loop of asyncio, which rclpy does not run"
+                    yield self.report(facts.module.location(node), message)

@@ -1,0 +1,106 @@
+"""ND021: the result of a call is read when it is there."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.scopes import FunctionNode
+
+CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
+WAITS = frozenset({"spin_until_future_complete", "spin_once", "done", "wait", "spin", "join"})
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Caller(Node):\n"
+    "    def ask(self):\n"
+    "        future = self.client.call_async(self.request)\n"
+    "        {}\n\n"
+    "    def answer(self, future):\n"
+    "        return future.result().success\n"
+)
+
+
+class FutureReadTooEarly(Rule):
+    """The result of an asynchronous call is read right after the call.
+
+    **Why.** Nothing has answered yet: ``result()`` is None, and ``AttributeError: 'NoneType'
+    object has no attribute ...`` follows.
+
+    **Fix.** Read it in ``future.add_done_callback``, or ``await`` the future.
+
+    **Source.** ROS 2 documentation, "Synchronous vs. asynchronous service clients".
+    """
+
+    code = "ND021"
+    name = "future-read-too-early"
+    examples = (
+        Example(
+            "when it is done",
+            {"caller.py": _NODE.format("future.add_done_callback(self.answer)")},
+        ),
+        Example("at once", {"caller.py": _NODE.format("return future.result()")}, at=("caller.py:7",)),
+        Example(
+            "by the callback, called at once",
+            {"caller.py": _NODE.format("self.answer(future)")},
+            at=("caller.py:7",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for function in facts.module.function_nodes:
+                for name in _futures(function):
+                    if _waits(function):
+                        continue
+                    for call in facts.calls_in(function):
+                        if self._reads(facts, call, name):
+                            at = facts.module.location(call)
+                            message = f"{name} is not done here: its result is None"
+                            yield self.report(at, message)
+
+    def _reads(self, facts: NodeFacts, call: ast.Call, name: str) -> bool:
+        match call.func:
+            case ast.Attribute(value=ast.Name(id=owner), attr="result"):
+                return owner == name
+        if not any(isinstance(arg, ast.Name) and arg.id == name for arg in call.args):
+            return False
+        callback = facts.callback(call.func)
+        function = callback.function
+        if function is None or isinstance(function, ast.Lambda) or len(call.args) != 1:
+            return False
+        parameter = function.args.args[-1].arg if function.args.args else ""
+        return not _waits(function) and any(
+            isinstance(inner.func, ast.Attribute)
+            and inner.func.attr == "result"
+            and isinstance(inner.func.value, ast.Name)
+            and inner.func.value.id == parameter
+            for inner in facts.calls_in(function)
+        )
+
+
+def _futures(function: FunctionNode) -> list[str]:
+    """Return the variables that hold the future of an asynchronous call."""
+    found: list[str] = []
+    for statement in ast.walk(function):
+        match statement:
+            case ast.Assign(
+                targets=[ast.Name(id=name)], value=ast.Call(func=ast.Attribute(attr=method))
+            ) if method in CALLS:
+                found.append(name)
+    return found
+
+
+def _waits(function: FunctionNode) -> bool:
+    """Tell whether anything in a function may let the future finish."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Await | ast.While | ast.Yield):
+            return True
+        if isinstance(node, ast.Attribute) and (
+            node.attr in WAITS or "spin" in node.attr or "wait" in node.attr
+        ):
+            return True
+        if isinstance(node, ast.Name) and ("spin" in node.id or "wait" in node.id):
+            return True
+    return False

@@ -1,0 +1,76 @@
+"""ND018: log messages are text."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.values import UNKNOWN
+
+METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tick(self):\n"
+    "        self.get_logger().info({})\n"
+)
+
+
+class LogMessageNotText(Rule):
+    """A logger is given something that is not text.
+
+    **Why.** rclpy does not convert it: ``TypeError`` when the line is reached.
+
+    **Fix.** Write ``str(...)`` or an f-string.
+
+    **Source.** ``rclpy/impl/rcutils_logger.py``.
+    """
+
+    code = "ND018"
+    name = "log-message-not-text"
+    examples = (
+        Example("text", {"talker.py": _NODE.format("f'{1}'")}),
+        Example(
+            "a number",
+            {"talker.py": _NODE.format("42")},
+            at=("talker.py:6",),
+            fixed={"talker.py": _NODE.format("str(42)")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                if not _is_logger(call) or not call.args:
+                    continue
+                message = call.args[0]
+                if len(call.args) > 1 and not isinstance(message, ast.Starred):
+                    at = facts.module.location(call.args[1])
+                    yield self.report(at, "a logger takes one text; it does not format arguments")
+                elif self._is_no_text(facts, message):
+                    start, end = facts.module.span(message)
+                    path = facts.module.path
+                    edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
+                    at = facts.module.location(message)
+                    problem = "a logger wants text, and this is none: TypeError"
+                    yield self.report(at, problem, Fix("convert it to text", edits))
+
+    def _is_no_text(self, facts: NodeFacts, node: ast.expr) -> bool:
+        if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):
+            return True
+        if isinstance(node, ast.Call):
+            return facts.module.qualified_name(node.func) in {"len", "int", "float", "sum", "list"}
+        if isinstance(node, ast.Attribute) and facts.is_number(node):
+            return True
+        value = facts.evaluator.evaluate(node)
+        return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
+
+
+def _is_logger(call: ast.Call) -> bool:
+    match call.func:
+        case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
+            return call.func.attr in METHODS
+        case _:
+            return False

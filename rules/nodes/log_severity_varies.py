@@ -1,0 +1,60 @@
+"""ND019: a log statement has one severity."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tick(self, bad):\n"
+    "{}"
+)
+_BRANCHES = (
+    "        if bad:\n            self.get_logger().error('bad')\n"
+    "        else:\n            self.get_logger().info('good')\n"
+)
+_CHOICE = (
+    "        log = self.get_logger().error if bad else self.get_logger().info\n"
+    "        log('done')\n"
+)
+
+
+class LogSeverityVaries(Rule):
+    """One log statement is reached with more than one severity.
+
+    **Why.** rclpy remembers the severity of each place: ``ValueError: Logger severity cannot be
+    changed between calls`` when the second one comes.
+
+    **Fix.** Write one call per severity.
+
+    **Source.** ``rclpy/impl/rcutils_logger.py``; rclpy issue 1199.
+    """
+
+    code = "ND019"
+    name = "log-severity-varies"
+    examples = (
+        Example("a call for each", {"talker.py": _NODE.format(_BRANCHES)}),
+        Example("a choice of methods", {"talker.py": _NODE.format(_CHOICE)}, at=("talker.py:6",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            module = facts.module
+            for node in module.walk(ast.IfExp):
+                chosen = {self._severity(one) for one in (node.body, node.orelse)}
+                if None not in chosen and len(chosen) > 1:
+                    message = "this log statement has two severities: rclpy raises ValueError"
+                    yield self.report(module.location(node), message)
+
+    def _severity(self, node: ast.expr) -> str | None:
+        match node:
+            case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
+                return node.attr if node.attr in METHODS else None
+            case ast.Attribute(value=ast.Name(id=name)) if "log" in name.lower():
+                return node.attr if node.attr in METHODS else None
+        return None

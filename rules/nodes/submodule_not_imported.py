@@ -1,0 +1,76 @@
+"""ND011: what is used of rclpy is imported."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import PythonModule
+
+SUBMODULES = frozenset(
+    {"action", "callback_groups", "clock", "duration", "executors", "lifecycle", "node", "parameter"}
+    | {"qos", "task", "time", "timer", "utilities"}
+)
+_LOADED = frozenset({"context", "utilities", "parameter", "task", "exceptions", "impl", "signals"})
+"""What ``import rclpy`` itself imports at module level on Jazzy."""
+
+_NODE = "import rclpy\n{}\n\nclass Talker(rclpy.node.Node):\n    pass\n"
+
+
+class SubmoduleNotImported(Rule):
+    """A module of rclpy is used as ``rclpy.node`` without being imported.
+
+    **Why.** ``import rclpy`` does not load it: ``AttributeError: module 'rclpy' has no attribute
+    'node'``. It works by chance where something else has loaded it; reported is what surely fails.
+
+    **Fix.** Write ``from rclpy.node import Node``, or ``import rclpy.node``.
+
+    **Source.** rclpy issue 1301; ``rclpy/__init__.py``.
+    """
+
+    code = "ND011"
+    name = "submodule-not-imported"
+    examples = (
+        Example("imported", {"talker.py": _NODE.format("import rclpy.node\n")}),
+        Example("not imported", {"talker.py": _NODE.format("")}, at=("talker.py:4",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            if "rclpy" in module.imports_by_root:
+                yield from self._check(module)
+
+    def _check(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if not all(self._loads_nothing(root) for root in module.imports_by_root):
+            return
+        imports = module.imports_by_root["rclpy"]
+        loaded = {one.module.split(".")[1] for one in imports if "." in one.module} | _LOADED
+        if loaded & {"node", "executors", "action", "lifecycle"}:
+            # Each of these loads most of the others.
+            loaded |= SUBMODULES - {"action", "lifecycle"}
+        told: set[str] = set()
+        for node in module.walk(ast.Attribute):
+            if node.attr not in SUBMODULES - loaded or node.attr in told:
+                continue
+            if not isinstance(node.value, ast.Name) or module.qualified_name(node.value) != "rclpy":
+                continue
+            if not self._runs_at_import(module, node):
+                continue
+            told.add(node.attr)
+            message = f"`import rclpy` does not load rclpy.{node.attr}: AttributeError at this line"
+            yield self.report(module.location(node), message)
+
+    def _loads_nothing(self, root: str) -> bool:
+        """Tell whether importing a package loads no module of rclpy."""
+        return root in sys.stdlib_module_names or root == "rclpy" or root.endswith("_msgs")
+
+    def _runs_at_import(self, module: PythonModule, node: ast.Attribute) -> bool:
+        """Tell whether the line runs before a call of rclpy may have loaded the module."""
+        for parent in module.parents(node):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+                return False
+            if isinstance(parent, ast.arg | ast.AnnAssign):
+                return False
+        return True
