@@ -1,0 +1,140 @@
+"""``ros2-scaffold smoke [PATHS]``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+
+FORMATS = ("text", "json")
+SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM")}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.description = (
+        "Build packages with colcon, run each of their executables in a ROS domain of its own on "
+        "the loopback network, observe it from another process, compare that with what its source "
+        "says, and stop it. This is the one verb that runs the code of the packages."
+    )
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        default=["."],
+        metavar="PATH",
+        help="a package or a workspace (default: the current directory)",
+    )
+    parser.add_argument("--format", choices=FORMATS, default="text", help="form of the report")
+    parser.add_argument(
+        "--duration",
+        type=_seconds,
+        default=5.0,
+        metavar="S",
+        help="seconds to observe each executable after its first sign of life (default: 5)",
+    )
+    parser.add_argument(
+        "--timeout",
+        type=_seconds,
+        default=10.0,
+        metavar="S",
+        help="seconds from the start of an executable in which its node has to appear and its "
+        "first messages have to come (default: 10)",
+    )
+    parser.add_argument(
+        "--build-timeout",
+        type=_seconds,
+        default=900.0,
+        metavar="S",
+        help="seconds after which the build is given up (default: 900)",
+    )
+    parser.add_argument(
+        "--signal",
+        choices=tuple(SIGNALS),
+        default="INT",
+        help="how to stop: ^C, what systemd and containers send, or both one after the other "
+        "(default: INT)",
+    )
+    parser.add_argument(
+        "--jobs",
+        type=_positive,
+        default=4,
+        metavar="N",
+        help="executables to run at the same time, each for itself (default: 4)",
+    )
+    parser.add_argument(
+        "--workspace",
+        metavar="DIR",
+        help="put build, install and log here instead of into a directory that is removed",
+    )
+    parser.add_argument(
+        "--keep", action="store_true", help="keep the scratch directory and say where it is"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Build, run and observe packages; return the exit code."""
+    from pathlib import Path
+    from signal import Signals
+
+    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.model import discovery
+    from scaffold.smoke.report import report
+    from scaffold.smoke.smoke import InterruptedBySignalError, Options, packages_of, smoke
+
+    packages = packages_of(discovery.find(options.paths))
+    with _Progress() as progress:
+        try:
+            result = smoke(
+                packages,
+                Options(
+                    duration=options.duration,
+                    timeout=options.timeout,
+                    build_timeout=options.build_timeout,
+                    signals=tuple(Signals[name] for name in SIGNALS[options.signal]),
+                    workspace=Path(options.workspace).absolute() if options.workspace else None,
+                    keep=options.keep,
+                    jobs=options.jobs,
+                ),
+                progress=progress,
+            )
+        except InterruptedBySignalError as end:
+            sys.stderr.write(f"ros2-scaffold: interrupted by {Signals(end.number).name}\n")
+            return 128 + end.number
+    report(result, options.format, sys.stdout)
+    if result.scratch:
+        sys.stderr.write(f"kept: {result.scratch}\n")
+    return CLEAN if result.ok else FOUND
+
+
+class _Progress:
+    """One line that is written again and again, on a terminal only."""
+
+    def __init__(self) -> None:
+        self._shown = sys.stderr.isatty()
+
+    def __enter__(self) -> Callable[[str], None]:
+        return self._show
+
+    def __exit__(self, *_: object) -> None:
+        if self._shown:
+            sys.stderr.write("\r\033[K")
+            sys.stderr.flush()
+
+    def _show(self, text: str) -> None:
+        if self._shown:
+            sys.stderr.write(f"\r\033[K{text[:100]} ...")
+            sys.stderr.flush()
+
+
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number of seconds above 0")
+    return value
+
+
+def _positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return value

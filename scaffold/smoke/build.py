@@ -1,0 +1,223 @@
+"""Building packages with colcon."""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+import shutil
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from scaffold.model.package import Package as Source
+from scaffold.smoke import output, process
+from scaffold.smoke.environment import Environment
+from scaffold.smoke.result import Build
+
+_COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")
+"""What needs a compiler, or is made into something that does."""
+
+_JOB = re.compile(
+    r"\[(?P<time>[\d.]+)\] \((?P<name>[^)]*)\) "
+    r"Job(?P<what>Queued|Started|Ended|Skipped)(?P<rest>.*)"
+)
+_WRITTEN_TWICE = re.compile(r"^--- stderr: .*?^---$", re.MULTILINE | re.DOTALL)
+"""What colcon repeats on the console from the logs of the packages."""
+_SUCCESS = re.compile(r"'rc': 0\b")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where colcon puts what it makes."""
+
+    build: Path
+    install: Path
+    log: Path
+
+    @classmethod
+    def below(cls, root: Path) -> Layout:
+        """Return the layout of a workspace."""
+        return cls(root / "build", root / "install", root / "log")
+
+
+async def build(
+    environment: Environment,
+    packages: Sequence[Source],
+    layout: Layout,
+    scratch: Path,
+    *,
+    mark: str,
+    timeout: float,
+) -> dict[str, Build]:
+    """Build packages; return what became of each, by name.
+
+    Args:
+        environment: The ROS 2 to build with.
+        packages: They are built where they are; nothing is written to them.
+        layout: The directories for build, install and log.
+        scratch: A directory for the output of colcon itself.
+        mark: Marks the processes of this run.
+        timeout: Seconds after which the build is given up.
+    """
+    deadline = time.monotonic() + timeout
+    done: dict[str, Build] = {}
+    left = list(packages)
+    while left:
+        run = await process.start(
+            command(environment, left, layout),
+            variables(environment, scratch),
+            scratch / "colcon",
+            mark,
+        )
+        try:
+            in_time = await run.ended_within(deadline - time.monotonic())
+        finally:
+            await run.kill()
+            process.sweep(mark)
+        said = output.read(run.out) + output.read(run.err)
+        if not in_time:
+            said += f"\nthe build did not end within {timeout:g} s\n"
+        log = _Log.read(layout.log / "latest_build", said, succeeded=run.exit_code == 0)
+        # A package that makes colcon itself fail ends the build also of those that come later.
+        later = [one for one in left if log.had_no_turn(one.name)] if in_time else []
+        if len(later) == len(left):
+            later = []
+        done.update({one.name: log.result(one.name) for one in left if one not in later})
+        left = later
+    return done
+
+
+def command(environment: Environment, packages: Sequence[Source], layout: Layout) -> list[str]:
+    """Return the command line of colcon."""
+    merged = layout.install / ".colcon_install_layout"
+    is_merged = merged.is_file() and merged.read_text(encoding="utf-8").strip() == "merged"
+    return [
+        environment.colcon,
+        "--log-base",
+        str(layout.log),
+        "build",
+        "--paths",
+        *(glob.escape(os.path.realpath(package.directory)) for package in packages),
+        "--build-base",
+        str(layout.build),
+        "--install-base",
+        str(layout.install),
+        *(["--merge-install"] if is_merged else []),
+        "--continue-on-error",
+        "--cmake-args",
+        "-DBUILD_TESTING=OFF",
+        *_cmake_arguments(environment, packages),
+    ]
+
+
+def variables(environment: Environment, scratch: Path) -> dict[str, str]:
+    """Return the variables of the build."""
+    made = {
+        **environment.variables,
+        # Defaults and mixins of the user would make it another build.
+        "COLCON_HOME": str(scratch / "colcon"),
+        # setup.py may import modules that stand beside it: nothing is written to the sources.
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    path = environment.variables.get("PATH")
+    if not shutil.which("make", path=path) and shutil.which("ninja", path=path):
+        made.setdefault("CMAKE_GENERATOR", "Ninja")
+    return made
+
+
+def _cmake_arguments(environment: Environment, packages: Sequence[Source]) -> Iterator[str]:
+    if environment.kind == "wheels":
+        # Their CMake is newer than Jazzy's and would warn of what Jazzy's accepts.
+        yield "-DCMAKE_WARN_DEPRECATED=OFF"
+    if any(path.endswith(_COMPILED) for package in packages for path in package.files):
+        return
+    # `project(name)` asks for two compilers that a package of Python never calls.
+    stand_in = shutil.which("true") or "true"
+    for language, variable, names in (
+        ("C", "CC", ("cc", "gcc", "clang")),
+        ("CXX", "CXX", ("c++", "g++", "clang++")),
+    ):
+        if not _has_compiler(environment.variables, variable, names):
+            yield f"-DCMAKE_{language}_COMPILER={stand_in}"
+            yield f"-DCMAKE_{language}_COMPILER_FORCED=1"
+
+
+def _has_compiler(variables: Mapping[str, str], variable: str, names: tuple[str, ...]) -> bool:
+    if variables.get(variable):
+        return True
+    path = variables.get("PATH")
+    return any(shutil.which(name, path=path) for name in names)
+
+
+@dataclass
+class _Job:
+    queued: str = ""
+    """What colcon says about it at first; names its dependencies in quotes."""
+    started: float = 0.0
+    ended: float | None = None
+    succeeded: bool = False
+    skipped: bool = False
+
+
+@dataclass(frozen=True)
+class _Log:
+    """What one run of colcon has written."""
+
+    directory: Path
+    jobs: Mapping[str, _Job]
+    """By package; empty with a colcon that lacks colcon-output."""
+    said: str
+    """On its own stdout and stderr."""
+    succeeded: bool
+
+    @classmethod
+    def read(cls, directory: Path, said: str, *, succeeded: bool) -> _Log:
+        jobs: dict[str, _Job] = {}
+        for line in output.read(directory / "events.log").splitlines():
+            event = _JOB.match(line)
+            if event is None:
+                continue
+            job = jobs.setdefault(event["name"], _Job())
+            if event["what"] == "Queued":
+                job.queued = event["rest"]
+            elif event["what"] == "Started":
+                job.started = float(event["time"])
+            elif event["what"] == "Ended":
+                job.ended = float(event["time"])
+                job.succeeded = bool(_SUCCESS.search(event["rest"]))
+            else:
+                job.skipped = True
+        return cls(directory, jobs, _WRITTEN_TWICE.sub("", said), succeeded)
+
+    def had_no_turn(self, name: str) -> bool:
+        """Tell whether the build ended early, for no reason that concerns this package."""
+        job = self.jobs.get(name)
+        return job is not None and job.skipped and not self._failed_dependencies(name)
+
+    def result(self, name: str) -> Build:
+        job = self.jobs.get(name, _Job())
+        written = output.read(self.directory / name / "stdout_stderr.log")
+        warnings = tuple(output.warnings(written))
+        seconds = 0.0 if job.ended is None else job.ended - job.started
+        if job.succeeded or (self.succeeded and not self.jobs):
+            return Build(ok=True, seconds=seconds, warnings=warnings)
+        failed = self._failed_dependencies(name)
+        if failed:
+            errors = [f"not built: it depends on {', '.join(failed)}, which failed"]
+        elif self.jobs and name not in self.jobs:
+            errors = ["not built: colcon does not find it"]
+        else:
+            # A setup.py that cannot be run fails in colcon itself, which then has the reason.
+            has_reason = written.strip() and job.ended and output.PASSED_ON not in written
+            errors = output.errors(written if has_reason else self.said)
+        return Build(ok=False, seconds=seconds, errors=tuple(errors), warnings=warnings)
+
+    def _failed_dependencies(self, name: str) -> list[str]:
+        queued = self.jobs[name].queued if name in self.jobs else ""
+        return [
+            other
+            for other, job in self.jobs.items()
+            if other != name and not job.succeeded and f"'{other}'" in queued
+        ]

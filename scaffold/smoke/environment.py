@@ -1,0 +1,270 @@
+"""Which ROS 2 to build and run with, and the variables that make it work.
+
+The first of these is taken: the environment that the user has sourced, an installation below
+``/opt/ros``, and the ROS wheels in the Python environment of this tool.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from glob import escape, glob
+from pathlib import Path
+
+from scaffold.errors import EnvironmentMissingError
+
+INSTALLED = Path("/opt/ros")
+PREFERRED_DISTRO = "jazzy"
+DEFAULT_RMW = "rmw_fastrtps_cpp"
+HINT = (
+    "source the setup file of a ROS 2 installation, install ROS 2 Jazzy, "
+    "or run: pip install 'ros2-scaffold[ros]'"
+)
+
+_PASSED_ON = frozenset(
+    {
+        "HOME", "USER", "LOGNAME", "SHELL", "LANG", "LANGUAGE", "TZ", "TMPDIR",
+        "DISPLAY", "WAYLAND_DISPLAY", "XAUTHORITY", "XDG_RUNTIME_DIR", "CC", "CXX",
+    }
+)  # fmt: skip
+"""What of the user's variables an environment made from nothing needs, besides ``LC_*``."""
+
+_ROS_PREFIXES = ("ROS_", "RMW_", "RCUTILS_", "AMENT_", "COLCON_", "FASTRTPS_", "FASTDDS_")
+_ROS_VARIABLES = frozenset({"CMAKE_PREFIX_PATH", "PYTHONPATH", "CYCLONEDDS_URI"})
+"""With the prefixes above: what sourcing another installation may have left behind."""
+
+_FROM_OUTSIDE = frozenset(
+    {
+        "ROS_DISCOVERY_SERVER", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY", "ROS_SUPER_CLIENT",
+        "ROS_NAMESPACE", "ROS_SECURITY_ENABLE", "ROS_SECURITY_STRATEGY", "ROS_SECURITY_KEYSTORE",
+        "ROS_SECURITY_ENCLAVE_OVERRIDE", "CYCLONEDDS_URI", "FASTRTPS_DEFAULT_PROFILES_FILE",
+        "FASTDDS_DEFAULT_PROFILES_FILE", "COLCON_DEFAULTS_FILE",
+    }
+)  # fmt: skip
+"""What would let an executable under test reach other machines, or change how it is built."""
+
+_BOOTSTRAPPED = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+"""Set by the ROS wheels once LD_LIBRARY_PATH names their libraries."""
+
+
+@dataclass(frozen=True)
+class Environment:
+    """A ROS 2 that can build packages and run them."""
+
+    kind: str
+    """``sourced``, ``installed`` or ``wheels``."""
+    prefix: str
+    rmw: str
+    python: str
+    """The interpreter that has rclpy."""
+    colcon: str
+    variables: Mapping[str, str]
+    """The whole environment of a child process."""
+    notes: tuple[str, ...] = ()
+    """Why an environment that the user may have expected was not taken."""
+
+
+class _UnusableError(Exception):
+    """This one cannot be used; the text says why."""
+
+
+def select(
+    variables: Mapping[str, str],
+    *,
+    installed: Path = INSTALLED,
+    own_prefix: str = sys.prefix,
+) -> Environment:
+    """Return the first environment that can be used.
+
+    Args:
+        variables: The environment variables of this process.
+        installed: Where installations are, one directory for each distribution.
+        own_prefix: The Python environment that may hold the ROS wheels.
+
+    Raises:
+        EnvironmentMissingError: there is none.
+    """
+    reasons: list[str] = []
+    for find in _candidates(_without_bootstrap(variables), installed, own_prefix):
+        try:
+            return replace(find(), notes=tuple(reasons))
+        except _UnusableError as reason:
+            reasons.append(str(reason))
+    why = f" ({'; '.join(reasons)})" if reasons else ""
+    raise EnvironmentMissingError(f"no ROS 2 environment found{why}: {HINT}")
+
+
+def source(setup: Path, variables: Mapping[str, str]) -> dict[str, str]:
+    """Return the variables as they are after a shell has read a setup file.
+
+    Raises:
+        EnvironmentMissingError: the shell gave up.
+    """
+    shell = "bash" if setup.suffix == ".bash" else "sh"
+    done = subprocess.run(
+        [shell, "-c", '. "$1" && exec env -0', shell, str(setup)],
+        env=dict(variables),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="surrogateescape",
+        check=False,
+    )
+    if done.returncode:
+        last = done.stderr.strip().rpartition("\n")[2] or f"exit code {done.returncode}"
+        raise EnvironmentMissingError(f"{setup} cannot be sourced: {last}")
+    pairs = (entry.partition("=") for entry in done.stdout.split("\0") if entry)
+    return {name: value for name, _, value in pairs if name not in {"_", "SHLVL"}}
+
+
+def _candidates(
+    variables: Mapping[str, str], installed: Path, own_prefix: str
+) -> Iterator[Callable[[], Environment]]:
+    if variables.get("AMENT_PREFIX_PATH"):
+        yield partial(_sourced, variables)
+    for setup in sorted(installed.glob("*/setup.bash"), key=_preference):
+        yield partial(_installed, variables, setup, own_prefix)
+    if _has_package(own_prefix, "rclpy"):
+        yield partial(_wheels, variables, own_prefix)
+
+
+def _preference(setup: Path) -> tuple[bool, str]:
+    return setup.parent.name != PREFERRED_DISTRO, setup.parent.name
+
+
+def _sourced(variables: Mapping[str, str]) -> Environment:
+    kept = {name: value for name, value in variables.items() if name not in _FROM_OUTSIDE}
+    return _from_variables("sourced", kept, "the sourced environment (AMENT_PREFIX_PATH is set)")
+
+
+def _installed(variables: Mapping[str, str], setup: Path, own_prefix: str) -> Environment:
+    base = {
+        name: value
+        for name, value in variables.items()
+        if not name.startswith(_ROS_PREFIXES) and name not in _ROS_VARIABLES
+    }
+    if own_prefix != sys.base_prefix:
+        # `#!/usr/bin/env python3` has to find the Python that this ROS was built for.
+        own = os.path.join(own_prefix, "bin")
+        parts = base.get("PATH", os.defpath).split(os.pathsep)
+        base["PATH"] = os.pathsep.join(part for part in parts if os.path.normpath(part) != own)
+        base.pop("VIRTUAL_ENV", None)
+    try:
+        sourced = source(setup, base)
+    except EnvironmentMissingError as error:
+        raise _UnusableError(str(error)) from error
+    return _from_variables("installed", sourced, str(setup.parent))
+
+
+def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
+    binaries = os.path.join(prefix, "bin")
+    for needed in ("bin/colcon", "bin/python3", "share/ament_cmake"):
+        if not os.path.exists(os.path.join(prefix, needed)):
+            raise _UnusableError(f"{prefix} has rclpy but no {needed}")
+    passed = {
+        name: value
+        for name, value in variables.items()
+        if name in _PASSED_ON or name.startswith("LC_")
+    }
+    rmw = _rmw([prefix], None)
+    libraries = f"{escape(prefix)}/lib/python*/site-packages/ros_*.libs"
+    made = {
+        **passed,
+        "PATH": os.pathsep.join((binaries, variables.get("PATH") or os.defpath)),
+        "AMENT_PREFIX_PATH": prefix,
+        "RMW_IMPLEMENTATION": rmw,
+        "ROS_DISTRO": PREFERRED_DISTRO,
+        "ROS_VERSION": "2",
+        "ROS_PYTHON_VERSION": "3",
+        # What the wheels would set themselves, by starting every Python twice; programs that are
+        # not Python need it as well.
+        "LD_LIBRARY_PATH": os.pathsep.join((f"{prefix}/lib", *sorted(glob(libraries)))),
+        _BOOTSTRAPPED: "1",
+        # The wheels come without local_setup files. This keeps colcon from looking for them and
+        # from warning about it; writing them would change the user's Python environment.
+        "COLCON_EXTENSION_BLOCKLIST": "colcon_core.prefix_path.ament",
+    }
+    return Environment(
+        kind="wheels",
+        prefix=prefix,
+        rmw=rmw,
+        python=os.path.join(binaries, "python3"),
+        colcon=os.path.join(binaries, "colcon"),
+        variables=made,
+    )
+
+
+def _from_variables(kind: str, variables: Mapping[str, str], what: str) -> Environment:
+    """Return the environment that these variables make.
+
+    Raises:
+        _UnusableError: it cannot build or cannot run.
+    """
+    path = variables.get("PATH") or os.defpath
+    python = shutil.which("python3", path=path)
+    colcon = shutil.which("colcon", path=path)
+    if python is None:
+        raise _UnusableError(f"{what} has no python3 on PATH")
+    if colcon is None:
+        raise _UnusableError(f"{what} has no colcon on PATH (python3-colcon-common-extensions)")
+    done = subprocess.run(
+        [python, "-c", "import rclpy"],
+        env=dict(variables),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    if done.returncode:
+        last = done.stderr.strip().rpartition("\n")[2]
+        raise _UnusableError(f"{what} cannot be used: {python} does not import rclpy: {last}")
+    prefixes = [part for part in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
+    rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
+    return Environment(
+        kind=kind,
+        prefix=next((p for p in prefixes if _has_package(p, "rclpy")), "".join(prefixes[-1:])),
+        rmw=rmw,
+        python=python,
+        colcon=colcon,
+        variables={**variables, "RMW_IMPLEMENTATION": rmw},
+    )
+
+
+def _rmw(prefixes: list[str], wanted: str | None) -> str:
+    """Return the middleware: the wanted one if it is there and works without a router."""
+    found: set[str] = set()
+    for prefix in prefixes:
+        index = os.path.join(prefix, "share/ament_index/resource_index/rmw_typesupport")
+        if os.path.isdir(index):
+            found.update(os.listdir(index))
+    # The index also names the package that chooses between them.
+    usable = sorted(n for n in found if n != "rmw_implementation" and "zenoh" not in n)
+    if wanted in usable:
+        return str(wanted)
+    return usable[0] if usable and DEFAULT_RMW not in usable else DEFAULT_RMW
+
+
+def _has_package(prefix: str, name: str) -> bool:
+    index = os.path.join(prefix, "share/ament_index/resource_index/packages", name)
+    return os.path.exists(index)
+
+
+def _without_bootstrap(variables: Mapping[str, str]) -> dict[str, str]:
+    """Take back what ROS wheels have set for this process: it misleads those of another Python."""
+    clean = dict(variables)
+    if clean.pop(_BOOTSTRAPPED, None) is None:
+        return clean
+    parts = [part for part in clean.pop("LD_LIBRARY_PATH", "").split(os.pathsep) if part]
+    added = {part for part in parts if part.endswith(".libs") and "/site-packages/ros_" in part}
+    added |= {part.partition("/lib/python")[0] + "/lib" for part in added}
+    added.add(os.path.join(sys.prefix, "lib"))
+    kept = [part for part in parts if part not in added]
+    if kept:
+        clean["LD_LIBRARY_PATH"] = os.pathsep.join(kept)
+    return clean

@@ -1,0 +1,136 @@
+"""What the source of an executable says it does, against what was seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scaffold.smoke.result import Observation, Problem, Topic
+
+TOLERANCE = 0.05
+TOLERANCE_FAST = 0.15
+"""Of rates above ``FAST`` Hz: timers of Python drift, and a busy machine is late."""
+FAST = 100.0
+
+ENOUGH_MESSAGES = 5
+ENOUGH_SECONDS = 1.0
+ENOUGH_SECONDS_SLOW = 3.0
+"""A rate is judged over the first two, or, for slow topics, over the last."""
+PATIENCE = 2
+"""Periods that have to pass before silence means something."""
+
+
+@dataclass(frozen=True)
+class Publication:
+    """A topic that the source publishes."""
+
+    topic: str
+    """Resolved: with its leading slash."""
+    type: str | None = None
+    """Such as ``std_msgs/msg/String``."""
+    rate_hz: float | None = None
+    """``None``: how often cannot be told."""
+    certain: bool = False
+    """Whether silence is a mistake: it publishes without anything having to happen before."""
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """What the source of an executable says."""
+
+    publications: tuple[Publication, ...] = ()
+    is_node: bool | None = None
+    """Whether it uses rclpy; ``None``: the source is not known."""
+    runs_nothing: bool = False
+    """It is a script that defines nodes and makes none."""
+    source: str | None = None
+    """The file that says so."""
+
+
+def compare(
+    expectation: Expectation, observation: Observation, seconds: float, *, finished: bool = False
+) -> tuple[list[Problem], list[str]]:
+    """Return the problems, and what is worth a note.
+
+    Args:
+        expectation: What the source says.
+        observation: What was seen.
+        seconds: How long it ran until the end of the observation.
+        finished: Whether it has ended by itself, without a complaint.
+    """
+    problems = [
+        *(
+            Problem(f"{t.name} has several types: {', '.join(t.types)}")
+            for t in observation.topics
+            if len(t.types) > 1
+        ),
+        *(Problem(f"{t.name} cannot be read: {t.error}") for t in observation.topics if t.error),
+    ]
+    notes: list[str] = []
+    if finished:
+        return [*_finished_early(expectation, observation, seconds), *problems], notes
+    for publication in expectation.publications:
+        topic = observation.topic(publication.topic)
+        said = _said(publication, expectation)
+        if topic is None or not topic.publishers:
+            problems.append(Problem(f"nothing publishes {publication.topic}: {said}"))
+        elif publication.type and publication.type not in topic.types:
+            problems.append(Problem(f"{topic.name} has the type {', '.join(topic.types)}: {said}"))
+        elif not topic.count:
+            problem, note = _silent(publication, topic, seconds, said)
+            problems += problem
+            notes += note
+        elif publication.rate_hz:
+            problems += _wrong_rate(publication.rate_hz, topic, said)
+    return problems, notes
+
+
+def _finished_early(
+    expectation: Expectation, observation: Observation, seconds: float
+) -> list[Problem]:
+    """Return the problem of a program that should have gone on."""
+    if expectation.runs_nothing:
+        return [Problem(f"finished by itself: nothing in {expectation.source} runs its node")]
+    for publication in expectation.publications:
+        topic = observation.topic(publication.topic)
+        if publication.certain and (topic is None or not topic.count):
+            said = _said(publication, expectation)
+            return [
+                Problem(
+                    f"finished by itself after {seconds:.1f} s, before any message came on "
+                    f"{publication.topic}: {said}"
+                )
+            ]
+    return []
+
+
+def _said(publication: Publication, expectation: Expectation) -> str:
+    what = publication.type or "it"
+    rate = f" at {publication.rate_hz:g} Hz" if publication.rate_hz else ""
+    return f"{expectation.source or 'the source'} publishes {what}{rate}"
+
+
+def _silent(
+    publication: Publication, topic: Topic, seconds: float, said: str
+) -> tuple[list[Problem], list[str]]:
+    rate = publication.rate_hz
+    if rate and seconds < PATIENCE / rate:
+        return [], [f"no message on {topic.name} yet: its period is {1 / rate:g} s"]
+    if not publication.certain:
+        return [], [f"no message on {topic.name}: something has to happen first"]
+    return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {said}")], []
+
+
+def _wrong_rate(rate: float, topic: Topic, said: str) -> list[Problem]:
+    expected = rate * topic.watched
+    if expected >= ENOUGH_MESSAGES and topic.count < expected / 2:
+        many = "message" if topic.count == 1 else "messages"
+        return [
+            Problem(f"only {topic.count} {many} on {topic.name} in {topic.watched:.1f} s: {said}")
+        ]
+    enough = topic.count >= ENOUGH_MESSAGES or topic.span >= ENOUGH_SECONDS_SLOW
+    if topic.rate_hz is None or topic.span < ENOUGH_SECONDS or not enough:
+        return []
+    tolerance = TOLERANCE_FAST if rate > FAST else TOLERANCE
+    if abs(topic.rate_hz - rate) <= tolerance * rate:
+        return []
+    return [Problem(f"{topic.name} comes at {topic.rate_hz:g} Hz: {said}")]

@@ -1,0 +1,267 @@
+"""Watching an executable from another process."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any, cast
+
+from scaffold.smoke import output, process
+from scaffold.smoke.result import Observation, Topic
+
+PROBE = Path(__file__).with_name("probe.py")
+START_TIMEOUT = 30.0
+"""Seconds for the start of an interpreter and the import of rclpy, on a machine that is busy."""
+ANSWER_TIMEOUT = 5.0
+END_TIMEOUT = 5.0
+LONGEST_LINE = 2**24
+"""Bytes of one event: the report holds several messages of every topic."""
+
+_OF_EVERY_NODE = (
+    "/describe_parameters",
+    "/get_parameter_types",
+    "/get_parameters",
+    "/list_parameters",
+    "/set_parameters",
+    "/set_parameters_atomically",
+    "/get_type_description",
+)
+_ACTION_SERVICE = "/_action/send_goal"
+_ACTION_TYPE = "_SendGoal"
+_ACTION = "/_action/"
+
+
+class ObserverError(Exception):
+    """The observer itself has failed; the text says how."""
+
+
+@asynccontextmanager
+async def observing(
+    python: str, variables: Mapping[str, str], directory: Path, mark: str
+) -> AsyncIterator[Observer]:
+    """Run the probe; it is ready when the block begins, and gone when it ends.
+
+    Args:
+        python: The interpreter that has rclpy.
+        variables: The environment variables: they choose the domain.
+        directory: For the files of the probe.
+        mark: Marks the process.
+
+    Raises:
+        ObserverError: the probe does not start.
+    """
+    # A copy: beside the original stand modules that would shadow those of ROS.
+    script = directory / PROBE.name
+    with process.writing(script) as copy, process.writing(directory / "stderr.log") as errors:
+        copy.write(PROBE.read_bytes())
+        copy.flush()
+        probe = await asyncio.create_subprocess_exec(
+            python,
+            str(script),
+            env={**variables, process.MARK: mark},
+            cwd=directory,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=errors,
+            start_new_session=True,
+            limit=LONGEST_LINE,
+        )
+    observer = Observer(probe, directory / "stderr.log")
+    reader = asyncio.create_task(observer.read())
+    try:
+        await observer.get_ready()
+        yield observer
+    finally:
+        await _close(probe)
+        reader.cancel()
+
+
+async def _close(probe: asyncio.subprocess.Process) -> None:
+    cast("asyncio.StreamWriter", probe.stdin).close()
+    try:
+        await asyncio.wait_for(probe.wait(), END_TIMEOUT)
+    except asyncio.TimeoutError:
+        probe.kill()
+        await probe.wait()
+
+
+class Observer:
+    """What the probe has told so far."""
+
+    def __init__(self, probe: asyncio.subprocess.Process, errors: Path) -> None:
+        self._probe = probe
+        self._stdin = cast("asyncio.StreamWriter", probe.stdin)
+        self._stdout = cast("asyncio.StreamReader", probe.stdout)
+        self._errors = errors
+        self._changed = asyncio.Event()
+        self._ready = False
+        self._ended = False
+        self._nodes: set[str] = set()
+        self._topics: dict[str, dict[str, Any]] = {}
+        self._services: dict[str, str] = {}
+        self._counts: dict[str, int] = {}
+        self._reports: list[dict[str, dict[str, Any]]] = []
+
+    @property
+    def pid(self) -> int:
+        """The process of the probe."""
+        return self._probe.pid
+
+    def has_seen_anything(self) -> bool:
+        """Tell whether a node or a publisher has appeared."""
+        return bool(self._nodes) or any(one["publishers"] for one in self._topics.values())
+
+    def count(self, topic: str) -> int:
+        """Return how many messages of a topic have come, counting the first few only."""
+        return self._counts.get(topic, 0)
+
+    async def wait_for(
+        self, condition: Callable[[], bool], timeout: float, running: process.Running
+    ) -> bool:
+        """Wait until the condition holds after an event, the executable ends, or time is up.
+
+        Raises:
+            ObserverError: the probe has ended.
+        """
+        deadline = time.monotonic() + timeout
+        ended = asyncio.ensure_future(running.process.wait())
+        try:
+            while not condition():
+                left = deadline - time.monotonic()
+                if left <= 0 or ended.done():
+                    return condition()
+                await self._event_or(ended, left)
+        finally:
+            ended.cancel()
+        return True
+
+    async def pause(self, seconds: float, running: process.Running) -> None:
+        """Go on observing for a while, or until the executable ends."""
+        await self.wait_for(lambda: False, seconds, running)
+
+    def guard(self, group: int) -> None:
+        """Have the process group killed if this process goes away without a word."""
+        self._tell(f"guard {group}")
+
+    def dismiss(self, group: int) -> None:
+        """End the guard, and let the probe go: nothing more is to be seen."""
+        self._tell(f"release {group}")
+        self._stdin.close()
+
+    async def observation(self) -> Observation:
+        """Return all that was seen so far.
+
+        Raises:
+            ObserverError: the probe has ended or does not answer.
+        """
+        asked = time.monotonic()
+        self._tell("report")
+        while not self._reports:
+            left = asked + ANSWER_TIMEOUT - time.monotonic()
+            if left <= 0:
+                raise ObserverError(f"the observer did not answer within {ANSWER_TIMEOUT:g} s")
+            await self._event_or(None, left)
+        return self._as_observation(self._reports.pop(), asked)
+
+    async def get_ready(self) -> None:
+        """Wait until the probe watches.
+
+        Raises:
+            ObserverError: it does not.
+        """
+        deadline = time.monotonic() + START_TIMEOUT
+        while not self._ready:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                raise ObserverError(f"the observer did not start within {START_TIMEOUT:g} s")
+            await self._event_or(None, left)
+
+    async def read(self) -> None:
+        """Take in what the probe tells until it ends."""
+        async for line in self._stdout:
+            self._take(json.loads(line))
+            self._changed.set()
+        self._ended = True
+        self._changed.set()
+
+    # -- inside
+
+    async def _event_or(self, other: asyncio.Future[int] | None, timeout: float) -> None:
+        """Wait for an event of the probe, for something else, or for the time to pass."""
+        if self._ended:
+            last = "".join(output.tail(output.read(self._errors), 1))
+            raise ObserverError(f"the observer has ended: {last or 'no message'}")
+        self._changed.clear()
+        event = asyncio.ensure_future(self._changed.wait())
+        futures: set[asyncio.Future[Any]] = {event} if other is None else {event, other}
+        try:
+            await asyncio.wait(futures, timeout=timeout, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            event.cancel()
+
+    def _tell(self, command: str) -> None:
+        if not self._ended and not self._stdin.is_closing():
+            self._stdin.write(command.encode() + b"\n")
+
+    def _take(self, event: Mapping[str, Any]) -> None:
+        kind = event["event"]
+        if kind == "ready":
+            self._ready = True
+        elif kind == "message":
+            self._counts[event["topic"]] = event["count"]
+        elif kind == "report":
+            self._reports.append(event["topics"])
+        else:
+            self._take_graph(event)
+
+    def _take_graph(self, graph: Mapping[str, Any]) -> None:
+        """Keep the most that was ever seen: an executable that has ended takes all away."""
+        self._nodes.update(graph["nodes"])
+        self._services.update(graph["services"])
+        for topic in graph["topics"]:
+            known = self._topics.setdefault(topic["name"], topic)
+            for key in ("publishers", "subscribers"):
+                known[key] = max(known[key], topic[key])
+            known["types"] = sorted({*known["types"], *topic["types"]})
+
+    def _as_observation(self, report: Mapping[str, Mapping[str, Any]], until: float) -> Observation:
+        return Observation(
+            nodes=tuple(sorted(self._nodes)),
+            topics=tuple(
+                _as_topic(seen, report.get(name, {}), until)
+                for name, seen in sorted(self._topics.items())
+                if _ACTION not in name
+            ),
+            services=tuple(
+                (name, kind)
+                for name, kind in sorted(self._services.items())
+                if not name.endswith(_OF_EVERY_NODE) and _ACTION not in name
+            ),
+            actions=tuple(
+                (name.removesuffix(_ACTION_SERVICE), kind.removesuffix(_ACTION_TYPE))
+                for name, kind in sorted(self._services.items())
+                if name.endswith(_ACTION_SERVICE)
+            ),
+        )
+
+
+def _as_topic(seen: Mapping[str, Any], received: Mapping[str, Any], until: float) -> Topic:
+    count = received.get("count", 0)
+    span = received["last"] - received["first"] if count else 0.0
+    return Topic(
+        name=seen["name"],
+        type=seen["type"],
+        publishers=seen["publishers"],
+        subscribers=seen["subscribers"],
+        count=count,
+        rate_hz=round((count - 1) / span, 3) if count > 1 and span > 0 else None,
+        span=span,
+        watched=until - received["first"] if count else 0.0,
+        messages=tuple(received.get("messages", ())),
+        types=tuple(seen["types"]),
+        error=received.get("error"),
+    )

@@ -1,0 +1,141 @@
+"""The relevant lines of what a build or an executable has written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+SHOWN_LINES = 24
+"""Lines of one problem that are shown at most."""
+READ_BYTES = 1_000_000
+
+TRACEBACK = "Traceback (most recent call last):"
+
+_FRAMES = 2
+"""Frames of a traceback that are shown: where it happened and who called."""
+_LIBRARY = re.compile(
+    r"/rclpy/|/colcon_|/setuptools/|/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
+)
+PASSED_ON = "CalledProcessError"
+"""An exception that only says that another program has failed, and has told why itself."""
+_CMAKE_ERROR = re.compile(r"CMake Error")
+_CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
+_ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
+_WARNING_LINE = re.compile(r"\bwarning: |\w+Warning: ")
+_OWN_DOING = "byte-compiling is disabled"
+"""setuptools says so because the build is told to write nothing into the sources."""
+_ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+
+
+def read(path: Path, start: int = 0) -> str:
+    """Return what was written to a file, without terminal colours; empty if there is none.
+
+    Args:
+        path: The file; of a large one, the end is read.
+        start: Bytes to leave out at its beginning.
+    """
+    try:
+        with path.open("rb") as file:
+            file.seek(0, os.SEEK_END)
+            file.seek(max(start, file.tell() - READ_BYTES))
+            data = file.read()
+    except OSError:
+        return ""
+    return _ESCAPE.sub("", data.decode("utf-8", "replace")).replace("\r", "\n")
+
+
+def traceback(text: str) -> str | None:
+    """Return the last Python traceback that tells a cause."""
+    for part in reversed(text.split(TRACEBACK)[1:]):
+        lines = part.splitlines()
+        end = 1
+        while end < len(lines) and (not lines[end].strip() or lines[end][0].isspace()):
+            end += 1
+        found = "\n".join((TRACEBACK, *lines[1 : end + 1])).rstrip()
+        if PASSED_ON not in exception(found):
+            return found
+    return None
+
+
+def exception(trace: str) -> str:
+    """Return the line of a traceback that says what happened."""
+    return trace.rpartition("\n")[2].strip()
+
+
+def short(trace: str) -> list[str]:
+    """Return the header of a traceback, its last frames in code of the user, and the exception."""
+    frames: list[list[str]] = []
+    ending: list[str] = []
+    for line in trace.splitlines()[1:]:
+        if line.startswith('  File "'):
+            frames.append([line])
+        elif line.startswith("    ") and frames:
+            frames[-1].append(line)
+        else:
+            ending.append(line)
+    own = [frame for frame in frames if not _LIBRARY.search("".join(frame))] or frames
+    shown = own[-_FRAMES:]
+    left_out = ["  ..."] if len(shown) < len(frames) else []
+    lines = [line for frame in shown for line in frame]
+    return _limited([TRACEBACK, *left_out, *lines, *ending])
+
+
+def relative(lines: Iterable[str], install: Path) -> list[str]:
+    """Return lines with the names of installed files as the sources have them."""
+    place = rf"{re.escape(str(install))}/(?:[^/\"]+/)?lib/(?:python[\d.]+/[a-z]+-packages/)?"
+    return [re.sub(place, "", line) for line in lines]
+
+
+def tail(text: str, count: int = 10) -> list[str]:
+    """Return the last lines that are not empty."""
+    return [line for line in text.splitlines() if line.strip()][-count:]
+
+
+def errors(text: str) -> list[str]:
+    """Return the lines of a build's output that tell why it failed."""
+    blocks = [line for block in _cmake_blocks(text, _CMAKE_ERROR) for line in block]
+    trace = traceback(text)
+    if trace is not None:
+        blocks += short(trace)
+    if not blocks:
+        blocks = [line for line in text.splitlines() if _ERROR_LINE.search(line)]
+    return _limited(blocks or tail(text))
+
+
+def warnings(text: str) -> list[str]:
+    """Return the warnings of a build's output."""
+    found = [line for block in _cmake_blocks(text, _CMAKE_WARNING) for line in block]
+    in_blocks = set(found)
+    found += [
+        line
+        for line in text.splitlines()
+        if _WARNING_LINE.search(line) and _OWN_DOING not in line and line not in in_blocks
+    ]
+    return _limited(found)
+
+
+def _cmake_blocks(text: str, start: re.Pattern[str]) -> Iterator[list[str]]:
+    """Yield the messages of CMake: a head line and what is indented below it."""
+    block: list[str] = []
+    for line in text.splitlines():
+        if start.match(line):
+            if block:
+                yield block
+            block = [line]
+        elif block and (not line.strip() or line[0].isspace()):
+            if line.strip():
+                block.append(line)
+        elif block:
+            yield block
+            block = []
+    if block:
+        yield block
+
+
+def _limited(lines: list[str]) -> list[str]:
+    if len(lines) <= SHOWN_LINES:
+        return lines
+    half = SHOWN_LINES // 2
+    return [*lines[:half], "...", *lines[-half:]]

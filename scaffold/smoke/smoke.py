@@ -1,0 +1,320 @@
+"""Builds packages, runs and observes every executable, and says what is wrong."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import tempfile
+import threading
+import time
+import uuid
+from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from scaffold.errors import InputError
+from scaffold.model.discovery import Target
+from scaffold.model.package import Package as Source
+from scaffold.model.tree import MANIFEST
+from scaffold.smoke import environment as environments
+from scaffold.smoke import process, trial
+from scaffold.smoke.build import Layout, build
+from scaffold.smoke.declared import expectations
+from scaffold.smoke.environment import Environment
+from scaffold.smoke.expectation import Expectation, compare
+from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
+from scaffold.smoke.station import Stations
+from scaffold.smoke.trial import Plan, Trial
+
+Result = TypeVar("Result")
+
+Progress = Callable[[str], None]
+"""Is told what goes on, in a few words."""
+
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
+_EARLY_STATIONS = 2
+"""Observers that are started during the build; more of them would slow it down."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a run is done; times are in seconds."""
+
+    duration: float = 5.0
+    """Observation after the first sign of life."""
+    timeout: float = 10.0
+    """From the start of an executable to its first sign of life and to its first messages."""
+    build_timeout: float = 900.0
+    signals: tuple[signal.Signals, ...] = (signal.SIGINT,)
+    workspace: Path | None = None
+    """Where build, install and log go; ``None``: into the scratch directory."""
+    keep: bool = False
+    jobs: int = 4
+    """Executables that run at the same time, each in its own domain."""
+
+
+class InterruptedBySignalError(BaseException):
+    """The run was asked to end; all it had started is gone. ``number`` is the signal."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def smoke(
+    sources: Sequence[Source],
+    options: Options,
+    *,
+    variables: Mapping[str, str] | None = None,
+    progress: Progress | None = None,
+) -> Smoke:
+    """Build packages, run what they install, and compare it with what the sources say.
+
+    Args:
+        sources: The packages; they are not changed.
+        options: How it is done.
+        variables: The environment variables to start from; those of this process.
+        progress: Is told what goes on.
+
+    Raises:
+        EnvironmentMissingError: there is no ROS 2 to do it with.
+        InterruptedBySignalError: a signal asked for the end.
+    """
+    begun = time.monotonic()
+    found = environments.select(os.environ if variables is None else variables)
+    mark = uuid.uuid4().hex
+    with _scratch(keep=options.keep) as scratch:
+        try:
+            packages = _interruptible(_Session(found, scratch, mark, options, progress), sources)
+        finally:
+            process.sweep(mark)
+    return Smoke(
+        environment={"kind": found.kind, "prefix": found.prefix, "rmw": found.rmw},
+        packages=packages,
+        notes=found.notes,
+        scratch=str(scratch) if options.keep else None,
+        seconds=time.monotonic() - begun,
+    )
+
+
+def packages_of(targets: Sequence[Target]) -> list[Source]:
+    """Return the packages that can be built; of a single file, the package that it is in.
+
+    Raises:
+        InputError: a file belongs to no package.
+    """
+    for target in targets:
+        if not target.package.has(MANIFEST):
+            raise InputError(f"{target.package.directory}: no {MANIFEST}; nothing to build")
+    return [target.package for target in targets]
+
+
+@contextmanager
+def _scratch(*, keep: bool) -> Iterator[Path]:
+    prefix = "ros2-scaffold-smoke-"
+    if keep:
+        yield Path(tempfile.mkdtemp(prefix=prefix))
+        return
+    with tempfile.TemporaryDirectory(prefix=prefix, ignore_cleanup_errors=True) as directory:
+        yield Path(directory)
+
+
+def _interruptible(session: _Session, sources: Sequence[Source]) -> tuple[Package, ...]:
+    """Run a session so that the first of some signals ends it in good order."""
+    received: list[int] = []
+
+    async def main() -> tuple[Package, ...]:
+        task = asyncio.current_task()
+        loop = asyncio.get_running_loop()
+
+        def on_signal(number: int) -> None:
+            # Once is enough: a second ^C must not cut the cleaning up short.
+            if not received and task is not None:
+                received.append(number)
+                task.cancel()
+
+        if threading.current_thread() is threading.main_thread():
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                loop.add_signal_handler(number, on_signal, number)
+        return await session.run(sources)
+
+    try:
+        return asyncio.run(main())
+    except asyncio.CancelledError:
+        if received:
+            raise InterruptedBySignalError(received[0]) from None
+        raise
+
+
+class _Session:
+    def __init__(
+        self,
+        environment: Environment,
+        scratch: Path,
+        mark: str,
+        options: Options,
+        progress: Progress | None,
+    ) -> None:
+        self._environment = environment
+        self._scratch = scratch
+        self._mark = mark
+        self._options = options
+        self._progress = progress
+        self._layout = Layout.below(options.workspace or scratch)
+        self._stations = Stations(environment.python, scratch, mark)
+        self._slots = asyncio.Semaphore(options.jobs)
+        self._running: set[str] = set()
+        self._expected: dict[str, dict[str, Expectation]] = {}
+
+    async def run(self, sources: Sequence[Source]) -> tuple[Package, ...]:
+        try:
+            builds = await self._build(sources)
+            built = [source for source in sources if builds[source.name].ok]
+            executables = await self._run_all(built) if built else {}
+        finally:
+            await self._stations.close()
+        return tuple(
+            Package(source.name, builds[source.name], executables.get(source.name, ()))
+            for source in sources
+        )
+
+    async def _build(self, sources: Sequence[Source]) -> dict[str, Build]:
+        """Build; meanwhile read the sources and get ready for what they are likely to have."""
+        self._tell(f"building {', '.join(source.name for source in sources)}")
+        building = asyncio.create_task(
+            build(
+                self._environment,
+                sources,
+                self._layout,
+                self._scratch,
+                mark=f"{self._mark}/build",
+                timeout=self._options.build_timeout,
+            )
+        )
+        await asyncio.sleep(0)  # the build begins first
+        self._expected = {source.name: expectations(source) for source in sources}
+        if not any(path.endswith(_INTERFACES) for source in sources for path in source.files):
+            # Observers have to know the messages: these come with the environment.
+            likely = sum(len(of_package) for of_package in self._expected.values())
+            count = min(likely, self._options.jobs, _EARLY_STATIONS)
+            self._stations.open_early(self._environment.variables, count)
+        return await building
+
+    async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
+        plan = Plan(
+            variables=self._sourced(),
+            stations=self._stations,
+            install=self._layout.install,
+            scratch=self._scratch,
+            mark=self._mark,
+            duration=self._options.duration,
+            timeout=self._options.timeout,
+        )
+        runs = [
+            (source.name, one) for source in sources for one in self._of_package(plan, source.name)
+        ]
+        done = await _together([one for _, one in runs])
+        found: dict[str, list[Executable]] = {}
+        for (name, _), executable in zip(runs, done, strict=True):
+            found.setdefault(name, []).append(executable)
+        return {name: tuple(executables) for name, executables in found.items()}
+
+    def _sourced(self) -> dict[str, str]:
+        """Return the variables with the built packages in them."""
+        install = self._layout.install
+        begin = {**self._environment.variables, "COLCON_CURRENT_PREFIX": str(install)}
+        sourced = environments.source(install / "local_setup.sh", begin)
+        sourced.pop("COLCON_CURRENT_PREFIX", None)
+        return sourced
+
+    def _of_package(self, plan: Plan, package: str) -> list[Coroutine[Any, Any, Executable]]:
+        expected = self._expected[package]
+        found = {path.name: path for path in installed(package, plan.variables)}
+        return [
+            self._one(plan, package, name, found.get(name), expected.get(name, Expectation()))
+            for name in sorted({*found, *expected})
+        ]
+
+    async def _one(
+        self, plan: Plan, package: str, name: str, path: Path | None, expectation: Expectation
+    ) -> Executable:
+        if path is None:
+            message = f"ros2 run does not find it: it is declared, but not in lib/{package}"
+            return Executable(name, problems=(Problem(message),))
+        async with self._slots:
+            self._tell_running(f"{package}/{name}", started=True)
+            trials: list[Trial] = []
+            for number in self._options.signals:
+                label = f"{package}/{name}/{number.name}"
+                brief = bool(trials)
+                if brief and not trials[0].joined:
+                    break
+                trials.append(await trial.run(plan, path, expectation, label, number, brief=brief))
+            self._tell_running(f"{package}/{name}", started=False)
+        return _judge(name, trials, expectation)
+
+    def _tell_running(self, label: str, *, started: bool) -> None:
+        (self._running.add if started else self._running.discard)(label)
+        if self._running:
+            self._tell(f"running {', '.join(sorted(self._running))}")
+
+    def _tell(self, text: str) -> None:
+        if self._progress is not None:
+            self._progress(text)
+
+
+async def _together(runs: Sequence[Coroutine[Any, Any, Result]]) -> list[Result]:
+    """Run coroutines at the same time; all have ended when this ends, in whatever way.
+
+    ``asyncio.gather`` would go on as soon as the first of them is cancelled.
+    """
+    tasks = [asyncio.create_task(run) for run in runs]
+    if not tasks:
+        return []
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.wait(tasks)
+    return [task.result() for task in tasks]
+
+
+def installed(package: str, variables: Mapping[str, str]) -> list[Path]:
+    """Return the executables of a package as ``ros2 run`` finds them."""
+    for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        if not os.path.exists(f"{prefix}/share/ament_index/resource_index/packages/{package}"):
+            continue
+        found: list[Path] = []
+        for parent, directories, names in os.walk(os.path.join(prefix, "lib", package)):
+            directories[:] = sorted(name for name in directories if not name.startswith("."))
+            paths = (Path(parent, name) for name in sorted(names))
+            found += [path for path in paths if os.access(path, os.X_OK)]
+        return found
+    return []
+
+
+def _judge(name: str, trials: Sequence[Trial], expectation: Expectation) -> Executable:
+    """Put the runs of an executable together; the first one is the one that was observed."""
+    first = trials[0]
+    problems = list(first.problems)
+    notes = list(first.notes)
+    finished = first.stop.signal is None and not first.problems
+    if first.joined or finished:
+        seen, said = compare(expectation, first.observation, first.seconds, finished=finished)
+        problems += seen
+        notes += said
+    if finished and not problems:
+        notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
+    for other in trials[1:]:
+        problems += [problem for problem in other.problems if problem not in problems]
+    return Executable(
+        name=name,
+        observation=first.observation,
+        stops=tuple(one.stop for one in trials),
+        problems=tuple(problems),
+        notes=tuple(notes),
+    )
