@@ -1,0 +1,57 @@
+"""PX051: an XML file fits the schema that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+HEAD = '<launch xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
+USE = HEAD + '        xsi:noNamespaceSchemaLocation="a.xsd">\n'
+SCHEMA = """\
+<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema">
+  <xs:element name="launch">
+    <xs:complexType>
+      <xs:sequence><xs:element name="node" maxOccurs="unbounded"/></xs:sequence>
+    </xs:complexType>
+  </xs:element>
+</xs:schema>
+"""
+
+
+class XmlSchemaNotMet(Rule):
+    """An XML file other than package.xml does not fit the schema that it names.
+
+    **Why.** ``ament_xmllint`` validates every file that names a schema, and fails under
+    ``colcon test``; also when the schema is not there.
+
+    **Fix.** Correct the file, or the place of the schema. A schema on the network is not looked
+    at.
+
+    **Source.** ``ament_xmllint/main.py``.
+    """
+
+    code = "PX051"
+    name = "xml-schema-not-met"
+    severity = Severity.WARNING
+    examples = (
+        Example("fits", {"a.xsd": SCHEMA, "a.launch.xml": f"{USE}  <node/>\n</launch>\n"}),
+        Example("on the network", {"a.xml": USE.replace("a.xsd", "http://a.org/a") + "</launch>"}),
+        Example(
+            "does not fit",
+            {"a.xsd": SCHEMA, "a.launch.xml": f"{USE}  <nod/>\n</launch>\n"},
+            at=("a.launch.xml:3",),
+        ),
+        Example("no such schema", {"a.launch.xml": f"{USE}</launch>\n"}, at=("a.launch.xml:1",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        from scaffold.model import xml_files
+
+        for path in xml_files.of_package(package):
+            if path == "package.xml":
+                continue
+            found = xml_files.schema_complaint(package, path)
+            if found is not None:
+                at, message = found
+                yield self.report(at, message)
