@@ -1,0 +1,45 @@
+"""NM001: names of topics, services and actions are accepted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.ros_names import topic_problem
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher(String, '{}', 10)\n"
+)
+
+
+class TopicNameInvalid(Rule):
+    """A topic, service or action has a name that ROS 2 does not accept.
+
+    **Why.** ``rclpy.exceptions.InvalidTopicNameException`` at start.
+
+    **Fix.** Use letters, digits, ``_`` and ``/``; no digit behind a ``/``, no ``/`` at the end.
+
+    **Source.** design.ros2.org, "Topic and service name mapping"; ``rcl/validate_topic_name.c``.
+    """
+
+    code = "NM001"
+    name = "topic-name-invalid"
+    examples = (
+        Example("accepted", {"talker.py": _NODE.format("~/scan_2d/front")}),
+        Example("a dash", {"talker.py": _NODE.format("front-scan")}, at=("talker.py:8",)),
+        Example("a digit first", {"talker.py": _NODE.format("scan/2d")}, at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for entity in facts.endpoints:
+                argument = entity.name_argument
+                if argument is None or not isinstance(entity.name, str):
+                    continue
+                problem = topic_problem(entity.name)
+                if problem:
+                    yield self.report(argument, f"ROS 2 refuses the name {entity.name!r}: {problem}")

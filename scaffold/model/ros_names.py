@@ -1,0 +1,69 @@
+"""What ROS 2 accepts as names of topics, services, nodes and namespaces."""
+
+from __future__ import annotations
+
+import re
+
+MAX_NODE_NAME = 255
+"""``RMW_NODE_NAME_MAX_NAME_LENGTH`` of ``rmw/validate_node_name.h``."""
+MAX_TOPIC_NAME = 247
+"""``RMW_TOPIC_MAX_NAME_LENGTH`` of ``rmw/validate_full_topic_name.h``."""
+SUBSTITUTIONS = frozenset({"node", "ns", "namespace"})
+"""``{node}``, ``{ns}``, ``{namespace}``: what rcl expands."""
+
+
+def topic_problem(name: str) -> str | None:
+    """Return what is wrong with the name of a topic, service or action, as it may be written.
+
+    ``rcl/validate_topic_name.c`` before expansion, ``rmw/validate_full_topic_name.c`` after it.
+    """
+    if not name:
+        return "it is empty"
+    if name.startswith("~") and len(name) > 1 and name[1] != "/":
+        return "'~' must be followed by '/'"
+    plain = re.sub(r"\{[^{}]*\}", "x", name)
+    wrong = re.search(r"[^A-Za-z0-9_/~]", plain)
+    if wrong:
+        shown = "a blank" if wrong[0].isspace() else repr(wrong[0])
+        return f"{shown} is not allowed"
+    if "~" in name[1:]:
+        return "'~' may stand at the beginning only"
+    for substitution in re.findall(r"\{([^{}]*)\}", name):
+        if substitution not in SUBSTITUTIONS:
+            return f"'{{{substitution}}}' is not one of {{node}}, {{ns}} and {{namespace}}"
+    if "//" in name:
+        return "'//' is not allowed"
+    if len(name) > 1 and name.endswith("/"):
+        return "it ends with '/'"
+    if name == "/":
+        return "it is nothing but '/'"
+    for token in plain.lstrip("~").split("/"):
+        if token[:1].isdigit():
+            return f"{token!r} begins with a digit"
+    if len(name) > MAX_TOPIC_NAME:
+        return f"it has {len(name)} characters; {MAX_TOPIC_NAME} are allowed"
+    return None
+
+
+def node_problem(name: str) -> str | None:
+    """Return what is wrong with the name of a node (``rmw/validate_node_name.c``)."""
+    if not name:
+        return "it is empty"
+    wrong = re.search(r"[^A-Za-z0-9_]", name)
+    if wrong:
+        shown = "a blank" if wrong[0].isspace() else repr(wrong[0])
+        return f"{shown} is not allowed"
+    if name[0].isdigit():
+        return "it begins with a digit"
+    if len(name) > MAX_NODE_NAME:
+        return f"it has {len(name)} characters; {MAX_NODE_NAME} are allowed"
+    return None
+
+
+def namespace_problem(name: str) -> str | None:
+    """Return what is wrong with a namespace given to a node (``rmw/validate_namespace.c``)."""
+    if name in {"", "/"}:
+        return None
+    if "~" in name or "{" in name:
+        return "'~' and '{' are not allowed"
+    return topic_problem(name if name.startswith("/") else f"/{name}")
