@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import posixpath
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from scaffold.model import manifest_schema
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from lxml import etree
 
 XML_SCHEMA = "http://www.w3.org/2001/XMLSchema"
@@ -68,17 +70,19 @@ def _check(
     return _validate(root, kind, href, (content, base))
 
 
-def _validate(root: etree._Element, kind: str, href: str, content: bytes) -> tuple[int, str] | None:
+def _validate(
+    root: etree._Element, kind: str, href: str, file: tuple[bytes, str]
+) -> tuple[int, str] | None:
     from lxml import etree
 
     parser = etree.XMLParser(resolve_entities=False, no_network=True)
     try:
-        document = etree.fromstring(schema_file[0], parser, base_url=schema_file[1])
+        document = etree.fromstring(file[0], parser, base_url=file[1])
         schema = etree.RelaxNG(document) if kind == RELAX_NG else etree.XMLSchema(document)
     except etree.LxmlError as error:
         return 1, f"names the schema {href}, which cannot be used: {_shown(str(error))}"
     schema.validate(root.getroottree())
-    for entry in schema.error_log:
+    for entry in cast("Iterable[etree._LogEntry]", schema.error_log):
         return entry.line, f"does not fit {href}: {_shown(entry.message)}"
     return None
 
