@@ -88,7 +88,7 @@ def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     from scaffold.errors import ConflictError
     from scaffold.plan import WritePlan
 
-    directory = os.path.join(options.destination_directory, made.name)
+    directory = os.path.normpath(os.path.join(options.destination_directory, made.name))
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import socket
-from functools import cache
+from functools import cached_property
 from typing import NamedTuple
 
 from scaffold.config import Config
@@ -34,12 +34,32 @@ class User:
         key = _GIT_KEYS.get(question)
         if key is None:
             return None
-        value = _git(self._directory).get(key)
+        value = self._git.get(key)
         if value:
             return Given(value, f"git config {key}")
         self.guessed.append(question)
         login = _login()
         return Given(login.name if question == "maintainer_name" else login.address, "login")
+
+    @cached_property
+    def _git(self) -> dict[str, str]:
+        """``user.name`` and ``user.email``, as far as git has them."""
+        import subprocess
+
+        directory = os.path.abspath(self._directory)
+        while not os.path.isdir(directory):
+            directory = os.path.dirname(directory)
+        command = ["git", "-C", directory, "config", "-z", "--get-regexp", r"^user\.(name|email)$"]
+        try:
+            done = subprocess.run(command, capture_output=True, timeout=10, check=False)
+        except (OSError, subprocess.TimeoutExpired):
+            return {}
+        found: dict[str, str] = {}
+        for entry in done.stdout.decode(errors="replace").split("\0"):
+            key, _, value = entry.partition("\n")
+            if value.strip():
+                found[key] = value
+        return found
 
 
 def configured(config: Config) -> dict[str, Given]:
@@ -50,26 +70,6 @@ def configured(config: Config) -> dict[str, Given]:
         for key, value in config.values.items()
         if key.startswith(prefix)
     }
-
-
-@cache
-def _git(directory: str) -> dict[str, str]:
-    """Return ``user.name`` and ``user.email``, as far as git has them."""
-    import subprocess
-
-    while not os.path.isdir(directory):
-        directory = os.path.dirname(directory)
-    command = ["git", "-C", directory, "config", "-z", "--get-regexp", r"^user\.(name|email)$"]
-    try:
-        done = subprocess.run(command, capture_output=True, timeout=10, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return {}
-    found: dict[str, str] = {}
-    for entry in done.stdout.decode(errors="replace").split("\0"):
-        key, _, value = entry.partition("\n")
-        if value.strip():
-            found[key] = value
-    return found
 
 
 class _Login(NamedTuple):

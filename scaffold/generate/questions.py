@@ -184,7 +184,14 @@ def parse(question: Question, given: Given) -> Any:  # noqa: ANN401  as its type
 
 
 def _no_choice(word: str, choices: Sequence[str]) -> str:
+    """Name the choices, and those that the word probably means."""
     by_lower = {choice.lower(): choice for choice in choices}
-    near = [by_lower[one] for one in get_close_matches(word.lower(), by_lower, n=3, cutoff=0.5)]
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    near = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
+    if not near and len(word) >= _TELLING:
+        near = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
+    hint = f"; did you mean {' or '.join(by_lower[one] for one in near)}?" if near else ""
     return f"{word!r} is not one of {', '.join(choices)}{hint}"
+
+
+_TELLING = 3
+"""Letters at the start of a word that tell what is meant: ``GPLv3``, ``BSD``."""
