@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import warnings
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
@@ -15,7 +16,7 @@ from scaffold.style.tokens import COMMENT, NEWLINE, NL
 MODULE, CLASS, FUNCTION, METHOD = range(4)
 
 _LITERAL = (
-    r"[rRuU]?"
+    r"(?:[rRuU]|[bB][rR]?|[rR][bB])?"
     r"(?:\"\"\"(?:[^\\\"]|\\.|\"(?!\"\"))*\"\"\"|'''(?:[^\\']|\\.|'(?!''))*'''"
     r"|\"(?:[^\\\"\n]|\\.)*\"|'(?:[^\\'\n]|\\.)*')"
 )
@@ -52,6 +53,11 @@ class Definition:
         return self.kind in (FUNCTION, METHOD)
 
     @property
+    def is_bytes(self) -> bool:
+        """Whether the literal is not text at all."""
+        return "b" in self.docstring[:2].lower().partition(self.docstring[-1])[0]
+
+    @property
     def name(self) -> str:
         """The name in the source; empty for a module."""
         return "" if isinstance(self.node, ast.Module) else self.node.name
@@ -59,7 +65,13 @@ class Definition:
     @cached_property
     def value(self) -> str:
         """The docstring without its quotes, escapes read."""
-        return str(ast.literal_eval(self.docstring))
+        literal = self.docstring
+        if "\\" not in literal:
+            quote = 3 if literal[-3:] in ('"""', "'''") and len(literal) > 5 else 1
+            return literal[literal.index(literal[-1]) + quote : -quote]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return str(ast.literal_eval(literal))
 
     @cached_property
     def source(self) -> str:
@@ -173,10 +185,7 @@ def _blocks(node: ast.stmt) -> Iterator[Sequence[ast.stmt]]:
 
 
 def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
-    """Return the literal that a body starts with, whatever is done with it.
-
-    pydocstyle fails on bytes; nothing is said about them here.
-    """
+    """Return the literal that a body starts with, whatever is done with it."""
     if not body or not isinstance(body[0], (ast.Expr, ast.Assign, ast.AugAssign, ast.AnnAssign)):
         return None
     node = body[0]
@@ -184,7 +193,7 @@ def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
         return None
     line = text.lines[node.lineno - 1]
     column = text.column(node.lineno, node.col_offset)
-    if line[column - 1 : column] not in "\"'rRuU":
+    if line[column - 1 : column] not in "\"'rRuUbB":
         return None
     start = text.line_starts[node.lineno - 1] + column - 1
     found = re.compile(_LITERAL, re.DOTALL).match(text.text, start)

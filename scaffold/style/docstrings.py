@@ -50,6 +50,9 @@ def check(text: PythonText) -> Iterator[Finding]:
 
 
 def _judge(definition: Definition) -> Said:
+    if definition.is_bytes:
+        yield "D300", "the docstring is bytes, on which both ament linters fail"
+        return
     if not definition.value.strip():
         yield "D419", "the docstring is empty"
         return

@@ -11,8 +11,9 @@ from scaffold.style.text import PythonText
 
 
 def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
-    """Yield what pyflakes would say, given what ruff says; F811 is judged elsewhere."""
-    has_star_use = any(one.code == "F405" for one in said)
+    """Yield what pyflakes would say, given what ruff says."""
+    codes = {(one.line, one.code) for one in said}
+    has_star_use = any(code == "F405" for _, code in codes)
     for one in said:
         finding = plain(one)
         if one.code == "F401":
@@ -21,7 +22,9 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
             finding = _at_exports(text, finding)
             if one.code == "F822" and text.name == "__init__.py":
                 continue
-        if one.code != "F811":
+        elif one.code == "F841":
+            finding = _at_handler(text, finding)
+        if one.code not in OWN and not _is_stricter(text, one, codes):
             yield finding
         if one.code == "F403" and not has_star_use:
             unused = "nothing of the star import is used"
@@ -46,6 +49,33 @@ def worded(message: str) -> str:
     """Return a message of ruff in the form of ours: lower case start, no full stop."""
     message = message.rstrip(".")
     return message[:1].lower() + message[1:] if message[1:2].islower() else message
+
+
+OWN = frozenset({"F541", "F601", "F602", "F811"})
+"""Judged in ``literals`` and ``redefinitions``."""
+
+
+def _is_stricter(text: PythonText, said: Said, codes: set[tuple[int, str]]) -> bool:
+    """Tell whether ruff goes further with a format than pyflakes does."""
+    if said.code == "F507":
+        return not any(
+            isinstance(node, ast.BinOp)
+            and isinstance(node.op, ast.Mod)
+            and isinstance(node.right, ast.Tuple)
+            for node in text.nodes
+            if getattr(node, "lineno", 0) == said.line
+        )
+    rival = {"F502": "F506", "F523": "F525"}.get(said.code)
+    return (said.line, rival) in codes
+
+
+def _at_handler(text: PythonText, finding: Finding) -> Finding:
+    """Move a finding about ``except ... as name`` to the start of the handler."""
+    for node in text.nodes:
+        if isinstance(node, ast.ExceptHandler) and node.name:
+            if node.lineno < finding.line < node.body[0].lineno:
+                return _moved(text, finding, node)
+    return finding
 
 
 def _at_statement(text: PythonText, finding: Finding) -> Finding:
@@ -78,6 +108,6 @@ def _covers(node: ast.stmt, line: int) -> bool:
     return node.lineno <= line <= (node.end_lineno or node.lineno)
 
 
-def _moved(text: PythonText, finding: Finding, node: ast.stmt) -> Finding:
+def _moved(text: PythonText, finding: Finding, node: ast.stmt | ast.ExceptHandler) -> Finding:
     column = text.column(node.lineno, node.col_offset)
     return finding._replace(line=node.lineno, column=column, end_line=0, end_column=0)

@@ -39,6 +39,11 @@ class LogicalLine:
         """The text of the first token; empty for a comment."""
         return "" if self.is_comment else self._first.string
 
+    @property
+    def last(self) -> str:
+        """The text of the last token that is not a comment; empty for a comment."""
+        return next((one.string for one in reversed(self.tokens) if one.type not in SILENT), "")
+
     @cached_property
     def is_comment(self) -> bool:
         """Whether there is nothing but a comment."""

@@ -35,6 +35,9 @@ _NEEDED = frozenset(
 CODES = frozenset("E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274".split())
 """Codes of ruff that make a line worth a look."""
 
+CANDIDATES = r"[,;:]\\\n|\{[^{}\n]*:[^{}\n]*\{"
+"""What ruff passes over: a comma before a backslash, a format within a format."""
+
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
 

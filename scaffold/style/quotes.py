@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.style.finding import Finding, Replacement
@@ -48,7 +49,10 @@ def check(text: PythonText) -> Iterator[Finding]:
 
 def _may_fail(text: str) -> bool:
     rest = text.replace('"""', "")
-    return '"' in rest or "\\'" in rest or "''" in rest or "'\"" in rest
+    if '"' in rest or "\\'" in rest or "''" in rest:
+        return True
+    # What stands where a docstring may stand.
+    return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None
 
 
 def _literals(tokens: list[Token]) -> Iterator[tuple[str, Position, Position, Token]]:

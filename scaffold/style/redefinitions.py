@@ -14,7 +14,8 @@ from collections.abc import Callable, Iterator, Sequence
 from scaffold.style.finding import Finding
 from scaffold.style.text import PythonText
 
-ASSIGNED, DEFINED, IMPORTED, SUBMODULE, ANNOTATED, ARGUMENT = range(6)
+ASSIGNED, DEFINED, IMPORTED, SUBMODULE, ANNOTATED, BOUND = range(6)
+"""BOUND: an argument, a loop variable, an element of a tuple that is unpacked."""
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
@@ -22,14 +23,21 @@ _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the definitions, imports and assignments that replace something unused."""
-    if text.tree is not None and _is_worth_a_walk(text.nodes):
+    if text.tree is None:
+        return
+    aliased = _repeated_aliases(text.nodes)
+    if aliased or _is_worth_a_walk(text.nodes):
         walk = _Walk(text.tree)
         for node, name, line in walk.run():
             message = f"'{name}' is defined again; its definition in line {line} was never used"
             yield Finding("F811", node.lineno, text.column(node.lineno, node.col_offset), message)
+        for name, node in walk.unused_imports():
+            if (name, node) in aliased:
+                column = text.column(node.lineno, node.col_offset)
+                yield Finding("F401", node.lineno, column, f"`{name}` imported but unused")
 
 
-Place = ast.stmt | ast.ExceptHandler | ast.arg
+Place = ast.stmt | ast.ExceptHandler | ast.arg | ast.Name
 
 
 class _Binding:
@@ -51,8 +59,8 @@ class _Binding:
 
     def redefines(self, other: _Binding) -> bool:
         """Tell whether this binding makes an unused other one pointless."""
-        if self.kind in (ANNOTATED, ARGUMENT):
-            return self.kind == ARGUMENT and other.is_definition
+        if self.kind == ANNOTATED:
+            return False
         if self.kind == SUBMODULE and other.kind in (IMPORTED, SUBMODULE):
             return self.full_name == other.full_name
         if self.kind == IMPORTED and other.kind == SUBMODULE:
@@ -78,6 +86,8 @@ class _Walk:
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
         self.scopes = [_Scope()]
+        self.ended = list(self.scopes)
+        """The scopes of the module and of functions."""
         self.parents: dict[ast.AST, ast.AST] = {}
         self.deferred: list[tuple[Callable[[], None], list[_Scope]]] = []
         self.found: list[Said] = []
@@ -106,6 +116,15 @@ class _Walk:
                 line = binding.node.lineno
                 self.found.extend((place, name, line) for place in binding.hidden_by)
         return self.found
+
+    def unused_imports(self) -> Iterator[tuple[str, Place]]:
+        """Yield the imports that nothing used, after ``run``."""
+        exported = _exported(self.tree)
+        for scope in self.ended:
+            for name, binding in scope.names.items():
+                is_import = binding.kind in (IMPORTED, SUBMODULE)
+                if is_import and not binding.used and name not in exported:
+                    yield name, binding.node
 
     def defer(self, action: Callable[[], None]) -> None:
         self.deferred.append((action, list(self.scopes)))
@@ -142,6 +161,7 @@ class _Walk:
 
     def function_body(self, node: ast.FunctionDef) -> None:
         self.scopes = [*self.scopes, _Scope()]
+        self.ended.append(self.scopes[-1])
         self.arguments(node.args)
         self.statements(node.body)
 
@@ -165,7 +185,7 @@ class _Walk:
 
     def arguments(self, arguments: ast.arguments) -> None:
         for argument in _all_arguments(arguments):
-            self.bind(argument.arg, _Binding(ARGUMENT, argument))
+            self.bind(argument.arg, _Binding(BOUND, argument))
 
     def on_ClassDef(self, node: ast.ClassDef) -> None:  # noqa: N802  as ast names it
         for part in (*node.decorator_list, *node.bases, *node.keywords):
@@ -195,11 +215,11 @@ class _Walk:
     def on_Global(self, node: ast.Global | ast.Nonlocal) -> None:  # noqa: N802  as ast names it
         if len(self.scopes) > 1:
             for name in node.names:
-                binding = _Binding(ARGUMENT, node)
+                binding = _Binding(ASSIGNED, node)
                 binding.used = True
-                for scope in self.scopes:
-                    scope.names.setdefault(name, binding).used = True
-                self.scopes[-1].names[name] = binding
+                self.scopes[0].names.setdefault(name, binding)
+                for scope in self.scopes[1:]:
+                    scope.names[name] = binding
 
     on_Nonlocal = on_Global  # noqa: N815  as ast names it
 
@@ -243,9 +263,9 @@ class _Walk:
             self.statements(node.body)
             return
         names = self.scopes[-1].names
+        if node.name in names:
+            self.bind(node.name, _Binding(ASSIGNED, node))
         before = names.pop(node.name, None)
-        if before is not None:
-            names[node.name] = before
         self.bind(node.name, _Binding(ASSIGNED, node))
         self.statements(node.body)
         names.pop(node.name, None)
@@ -274,23 +294,18 @@ class _Walk:
         if isinstance(node.ctx, ast.Load):
             self.use(node.id)
         elif isinstance(node.ctx, ast.Store):
-            statement = self.statement_of(node)
-            if statement is not None:
-                self.bind(node.id, _Binding(ASSIGNED, statement), self.for_target(node))
+            kind, for_loop = self.kind_of(node)
+            self.bind(node.id, _Binding(kind, node), for_loop=for_loop)
         else:
             self.delete(node)
 
     def delete(self, node: ast.Name) -> None:
-        names = self.scopes[-1].names
-        if node.id not in names:
-            return
         parent = self.parents.get(node)
-        while parent is not None and not isinstance(parent, (*_Function, ast.ClassDef, ast.Module)):
-            if isinstance(parent, (ast.If, ast.While, ast.Try)):
-                names[node.id].used = True
+        while parent is not None:
+            if isinstance(parent, (ast.If, ast.While, ast.IfExp)):
                 return
             parent = self.parents.get(parent)
-        del names[node.id]
+        self.scopes[-1].names.pop(node.id, None)
 
     def annotation(self, node: ast.expr) -> None:
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -325,7 +340,7 @@ class _Walk:
                 if binding.kind != ANNOTATED:
                     return
 
-    def bind(self, name: str, value: _Binding, for_loop: bool = False) -> None:
+    def bind(self, name: str, value: _Binding, *, for_loop: bool = False) -> None:
         """Bind a name in the innermost scope and report what is lost."""
         scope = self.scopes[-1]
         existing = scope.names.get(name)
@@ -361,17 +376,17 @@ class _Walk:
                 self.hidden.append((name, existing))
             existing.hidden_by.append(value.node)
 
-    def statement_of(self, node: ast.AST) -> ast.stmt | ast.ExceptHandler | None:
-        parent = self.parents.get(node)
-        while parent is not None and not isinstance(parent, (ast.stmt, ast.ExceptHandler)):
-            parent = self.parents.get(parent)
-        return parent
-
-    def for_target(self, node: ast.AST) -> bool:
-        parent = self.parents.get(node)
+    def kind_of(self, node: ast.Name) -> tuple[int, bool]:
+        """Return how a stored name is bound, and whether by a ``for`` statement."""
+        direct = parent = self.parents.get(node)
         while isinstance(parent, (ast.Tuple, ast.List, ast.Starred)):
             parent = self.parents.get(parent)
-        return isinstance(parent, (ast.For, ast.AsyncFor, ast.comprehension))
+        for_loop = isinstance(parent, (ast.For, ast.AsyncFor))
+        if for_loop or isinstance(parent, ast.comprehension):
+            return BOUND, for_loop
+        if parent is not direct and not _unpacks_literal(parent):
+            return BOUND, False
+        return ASSIGNED, False
 
     def in_other_fork(self, node: ast.AST, other: ast.AST) -> bool:
         """Tell whether two nodes are on different branches of their innermost common statement."""
@@ -393,6 +408,13 @@ class _Walk:
 
     def is_below(self, node: ast.AST, part: Sequence[ast.AST]) -> bool:
         return any(one in part for one in self.path(node))
+
+
+def _unpacks_literal(node: ast.AST | None) -> bool:
+    """Tell whether a tuple is assigned to a tuple, element by element."""
+    return isinstance(node, ast.Assign) and all(
+        isinstance(one, (ast.Tuple, ast.List, ast.Set)) for one in (*node.targets, node.value)
+    )
 
 
 def _exported(tree: ast.Module) -> set[str]:
@@ -427,6 +449,17 @@ def _last_name(node: ast.expr) -> str:
     if isinstance(node, ast.Attribute):
         return node.attr
     return node.id if isinstance(node, ast.Name) else ""
+
+
+def _repeated_aliases(nodes: Sequence[ast.AST]) -> set[tuple[str, ast.AST]]:
+    """Return the imports of the form ``import x as x``, which ruff takes for exports."""
+    return {
+        (alias.name, node)
+        for node in nodes
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+        for alias in node.names
+        if alias.asname == alias.name
+    }
 
 
 def _is_worth_a_walk(nodes: Sequence[ast.AST]) -> bool:

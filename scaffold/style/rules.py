@@ -7,10 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold.style import (
     blank_lines,
+    comprehensions,
     continuation,
+    defaults,
     docstrings,
     flakes,
     imports,
+    indentation,
+    literals,
     noqa,
     operators,
     physical,
@@ -25,21 +29,23 @@ from scaffold.style.text import PythonText, decode
 
 TAKEN = frozenset(
     """
-    C400 C401 C402 C403 C404 C405 C406 C408 C409 C410 C411 C413 C414 C415 C416 C417 C418 C419
-    E111 E112 E113 E114 E115 E116 E117 E211 E251 E252 E261 E262 E265 E266 E275 E401 E502 W605
+    E211 E261 E262 E265 E266 E401 E502 W605
     """.split()
 )
-"""Codes on which ruff's verdict is pycodestyle's and flake8-comprehensions'."""
+"""Codes on which ruff's verdict is pycodestyle's."""
 
 _OWN = (
     physical,
     blank_lines,
+    indentation,
     continuation,
     statements,
     quotes,
     redefinitions,
     imports,
     shadowing,
+    comprehensions,
+    literals,
     docstrings,
 )
 
@@ -113,14 +119,15 @@ def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
 
 def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
-    rows = [one.line for one in said if one.code in operators.CODES]
-    rows += [text.line_of(found.start()) for found in re.finditer(r"[,;:]\\\n", text.text)]
-    done: set[int] = set()
-    for row in rows:
-        logical = text.logical_line_at(row)
-        if logical is not None and logical.row not in done:
-            done.add(logical.row)
-            yield from operators.check(logical)
+    for module in (operators, defaults):
+        rows = [one.line for one in said if one.code in module.CODES]
+        rows += [
+            text.line_of(found.start())
+            for found in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
+        ]
+        logical_lines = {row: text.logical_line_at(row) for row in sorted(set(rows))}
+        for logical in dict.fromkeys(one for one in logical_lines.values() if one):
+            yield from module.check(logical)
     for one in said:
         if one.code in TAKEN:
             yield flakes.plain(one)

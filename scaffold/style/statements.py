@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
-from scaffold.style.tokens import SILENT
 
 _BLOCK_KEYWORDS = frozenset(
     "def async for if elif else try except finally with class while".split()
@@ -46,7 +45,7 @@ def check(text: PythonText) -> Iterator[Finding]:
                 row, column = logical.position(offset)
                 yield Finding(code, row, column + 1, message)
     for logical in text.logical_lines:
-        if logical.first in _BLOCK_KEYWORDS and _last(logical) != ":":
+        if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
             for offset, code, message in compounds(logical.text):
                 row, column = logical.position(offset)
                 yield Finding(code, row, column + 1, message)
@@ -67,10 +66,6 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
             seen = logical.end_row
             if not logical.is_comment:
                 yield logical
-
-
-def _last(logical: LogicalLine) -> str:
-    return next((t.string for t in reversed(logical.tokens) if t.type not in SILENT), "")
 
 
 def spaces(line: str) -> Said:
