@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import posixpath
 import re
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from scaffold.model import manifest_schema
 from scaffold.model.package import Package
@@ -82,7 +82,7 @@ def _validate(
     except etree.LxmlError as error:
         return 1, f"names the schema {href}, which cannot be used: {_shown(str(error))}"
     schema.validate(root.getroottree())
-    for entry in cast("Iterable[etree._LogEntry]", schema.error_log):
+    for entry in cast("Iterable[Any]", schema.error_log):
         return entry.line, f"does not fit {href}: {_shown(entry.message)}"
     return None
 
