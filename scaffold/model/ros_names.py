@@ -19,8 +19,6 @@ def topic_problem(name: str) -> str | None:
     """
     if not name:
         return "it is empty"
-    if name.startswith("~") and len(name) > 1 and name[1] != "/":
-        return "'~' must be followed by '/'"
     plain = re.sub(r"\{[^{}]*\}", "x", name)
     wrong = re.search(r"[^A-Za-z0-9_/~]", plain)
     if wrong:
@@ -31,8 +29,8 @@ def topic_problem(name: str) -> str | None:
     for substitution in re.findall(r"\{([^{}]*)\}", name):
         if substitution not in SUBSTITUTIONS:
             return f"'{{{substitution}}}' is not one of {{node}}, {{ns}} and {{namespace}}"
-    if "//" in name:
-        return "'//' is not allowed"
+    if "//" in re.sub(r"\{(?:ns|namespace)\}", "/x", name):
+        return "'//' is not allowed" + (" (a namespace begins with '/')" if "{" in name else "")
     if len(name) > 1 and name.endswith("/"):
         return "it ends with '/'"
     if name == "/":
