@@ -19,6 +19,8 @@ def topic_problem(name: str) -> str | None:
     """
     if not name:
         return "it is empty"
+    if name.startswith("~") and name[1:2] != "/" and len(name) > 2:  # noqa: PLR2004  rcl takes ~a
+        return "'~' must be followed by '/'"
     plain = re.sub(r"\{[^{}]*\}", "x", name)
     wrong = re.search(r"[^A-Za-z0-9_/~]", plain)
     if wrong:
