@@ -212,9 +212,13 @@ def _from_variables(kind: str, variables: Mapping[str, str], what: str) -> Envir
         raise _UnusableError(f"{what} has no python3 on PATH")
     if colcon is None:
         raise _UnusableError(f"{what} has no colcon on PATH (python3-colcon-common-extensions)")
+    prefixes = [part for part in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
+    rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
+    # One that is not installed would keep rclpy from being imported.
+    usable = {**variables, "RMW_IMPLEMENTATION": rmw}
     done = subprocess.run(
         [python, "-c", "import rclpy"],
-        env=dict(variables),
+        env=usable,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
@@ -224,15 +228,13 @@ def _from_variables(kind: str, variables: Mapping[str, str], what: str) -> Envir
     if done.returncode:
         last = done.stderr.strip().rpartition("\n")[2]
         raise _UnusableError(f"{what} cannot be used: {python} does not import rclpy: {last}")
-    prefixes = [part for part in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
-    rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
     return Environment(
         kind=kind,
         prefix=next((p for p in prefixes if _has_package(p, "rclpy")), "".join(prefixes[-1:])),
         rmw=rmw,
         python=python,
         colcon=colcon,
-        variables={**variables, "RMW_IMPLEMENTATION": rmw},
+        variables=usable,
     )
 
 

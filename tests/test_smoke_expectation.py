@@ -1,0 +1,275 @@
+"""What ``smoke`` reads in a source, and how it compares that with what it has seen."""
+
+from __future__ import annotations
+
+from textwrap import dedent, indent
+
+import pytest
+
+from scaffold.model.package import Package
+from scaffold.smoke.declared import expectations
+from scaffold.smoke.expectation import Expectation, Publication, compare
+from scaffold.smoke.result import Observation, Topic
+from tests.smoke_packages import LISTENER, MANIFEST, ONCE, SETUP, talker
+
+STRING = "std_msgs/msg/String"
+
+
+def python(module: str, **more: str) -> Package:
+    """Return an ament_python package ``demo`` with the executable ``run``."""
+    scripts = "            'run = demo.run:main',"
+    return Package.of(
+        {
+            "package.xml": MANIFEST.format(name="demo", build_type="ament_python", buildtool=""),
+            "setup.py": SETUP.format(name="demo", scripts=scripts),
+            "demo/__init__.py": "",
+            "demo/run.py": module,
+            **{f"demo/{name}.py": text for name, text in more.items()},
+        }
+    )
+
+
+def node(init: str, methods: str = "", main: str = "rclpy.spin(Talker())") -> Package:
+    """Return a package whose node has this in its constructor and these methods."""
+    return python(
+        "import rclpy\n"
+        "from rclpy.node import Node\n"
+        "from std_msgs.msg import String\n\n\n"
+        "class Talker(Node):\n"
+        "    def __init__(self):\n"
+        "        super().__init__('talker')\n"
+        "        self.pub = self.create_publisher(String, 'words', 10)\n"
+        f"{indent(dedent(init), ' ' * 8)}\n\n"
+        f"{indent(dedent(methods), ' ' * 4)}\n\n"
+        "def main():\n"
+        "    rclpy.init()\n"
+        f"{indent(dedent(main), ' ' * 4)}\n"
+    )
+
+
+TICK = """\
+def tick(self):
+    self.pub.publish(String())
+"""
+
+
+@pytest.mark.parametrize(
+    ("init", "methods", "rate", "certain"),
+    [
+        pytest.param("self.create_timer(0.5, self.tick)", TICK, 2.0, True, id="timer"),
+        pytest.param(
+            "self.declare_parameter('rate', 20.0)\n"
+            "rate = self.get_parameter('rate').value\n"
+            "self.create_timer(1.0 / rate, self.tick)",
+            TICK, 20.0, True, id="parameter",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.tick)\nself.create_timer(0.25, self.tick)",
+            TICK, 6.0, True, id="two timers",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.outer)",
+            TICK + "\ndef outer(self):\n    self.tick()\n    self.tick()\n",
+            4.0, True, id="twice through another method",
+        ),
+        pytest.param(
+            "self.timer = self.create_timer(0.5, self.tick)",
+            TICK + "    self.timer.cancel()\n", None, False, id="cancelled",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.tick)",
+            "def tick(self):\n    if self.ready:\n        self.pub.publish(String())\n",
+            None, False, id="condition",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.tick)",
+            "def tick(self):\n    if not self.ready:\n        return\n"
+            "    self.pub.publish(String())\n",
+            None, False, id="early return",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.tick)",
+            "def tick(self):\n    return\n    self.pub.publish(String())\n",
+            None, True, id="never gets there",
+        ),
+        pytest.param("", TICK, None, True, id="no timer"),
+        pytest.param("", "", None, True, id="no publish"),
+        pytest.param("self.pub.publish(String())", "", None, True, id="once"),
+        pytest.param(
+            "self.create_subscription(String, 'heard', self.hear, 10)",
+            "def hear(self, msg):\n    self.pub.publish(msg)\n",
+            None, False, id="relay",
+        ),
+        pytest.param(
+            "self.create_subscription(String, 'heard', self.pub.publish, 10)",
+            "", None, False, id="relay without a method",
+        ),
+        pytest.param("helper(self.pub)", "", None, False, id="handed on"),
+        pytest.param(
+            "threading.Thread(target=self.tick).start()", TICK, None, False, id="thread"
+        ),
+        pytest.param(
+            "self.create_timer(period(), self.tick)", TICK, None, True, id="unknown period"
+        ),
+    ],
+)  # fmt: skip
+def test_rate_and_certainty(init: str, methods: str, rate: float | None, *, certain: bool) -> None:
+    found = expectations(node(init, methods))["run"]
+    assert found.publications == (Publication("/words", STRING, rate, certain=certain),)
+    assert (found.is_node, found.source) == (True, "demo/run.py")
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "topic"),
+    [
+        ("words", "", "/words"),
+        ("/words", "", "/words"),
+        ("~/words", "", "/talker/words"),
+        ("words", ", namespace='deep/er'", "/deep/er/words"),
+        ("~/words", ", namespace='/deep'", "/deep/talker/words"),
+        ("/words", ", namespace='/deep'", "/words"),
+    ],
+)
+def test_full_name(name: str, arguments: str, topic: str) -> None:
+    source = talker(name).replace("('talker')", f"('talker'{arguments})")
+    assert [one.topic for one in expectations(python(source))["run"].publications] == [topic]
+
+
+@pytest.mark.parametrize("arguments", [", namespace=unknown()", ", cli_args=[]", ", **options"])
+def test_name_that_cannot_be_told(arguments: str) -> None:
+    source = talker("words").replace("('talker')", f"('talker'{arguments})")
+    assert expectations(python(source))["run"].publications == ()
+
+
+def test_only_nodes_that_are_made_count() -> None:
+    package = node("", main="rclpy.spin(Other())")
+    assert expectations(package)["run"].publications == ()
+
+
+def test_node_of_another_module() -> None:
+    main = (
+        "import rclpy\nfrom demo.nodes import Talker\n\n\ndef main():\n    rclpy.spin(Talker())\n"
+    )
+    found = expectations(python(main, nodes=talker("/words")))["run"]
+    assert [(one.topic, one.type) for one in found.publications] == [("/words", STRING)]
+
+
+def test_relay_and_latched_message() -> None:
+    assert expectations(python(LISTENER))["run"].publications == (
+        Publication("/deep/relayed", STRING, None, certain=False),
+        Publication("/deep/listener/kept", "std_msgs/msg/Float32MultiArray", None, certain=True),
+    )
+
+
+def test_program_without_rclpy_is_no_node() -> None:
+    assert expectations(python(ONCE))["run"].is_node is False
+
+
+@pytest.mark.parametrize(("guard", "runs_nothing"), [(True, False), (False, True)])
+def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:  # noqa: FBT001
+    source = talker("/words")
+    script = source if guard else source.partition("\n\nif __name__")[0] + "\n"
+    package = Package.of(
+        {
+            "package.xml": MANIFEST.format(name="demo", build_type="ament_cmake", buildtool=""),
+            "CMakeLists.txt": "project(demo)\n"
+            "install(PROGRAMS scripts/run.py DESTINATION lib/${PROJECT_NAME} RENAME run)\n",
+            "scripts/run.py": script,
+        },
+        executable=("scripts/run.py",),
+    )
+    found = expectations(package)["run"]
+    assert found.runs_nothing is runs_nothing
+    assert len(found.publications) == (1 if guard else 0)
+
+
+# -- comparison
+
+
+def seen(count: int, rate: float | None, span: float, watched: float | None = None) -> Observation:
+    """Return an observation of ``/words``."""
+    topic = Topic(
+        "/words", STRING, 1, count=count, rate_hz=rate, span=span,
+        watched=span if watched is None else watched, types=(STRING,),
+    )  # fmt: skip
+    return Observation(nodes=("/talker",), topics=(topic,))
+
+
+def expecting(rate: float | None, *, certain: bool = True, kind: str = STRING) -> Expectation:
+    publication = Publication("/words", kind, rate, certain=certain)
+    return Expectation((publication,), is_node=True, source="talker.py")
+
+
+@pytest.mark.parametrize(
+    ("rate", "observation", "problem"),
+    [
+        (10.0, seen(50, 10.4, 4.9), None),
+        (10.0, seen(50, 9.6, 4.9), None),
+        (10.0, seen(50, 10.6, 4.9), "/words comes at 10.6 Hz"),
+        (200.0, seen(900, 180.0, 4.9), None),
+        (200.0, seen(900, 160.0, 4.9), "/words comes at 160 Hz"),
+        (1000.0, seen(5, 1.0, 0.9, 0.9), "only 5 messages on /words in 0.9 s"),
+        (10.0, seen(4, 7.0, 0.5, 0.5), None),
+        (0.5, seen(3, 0.5, 4.0), None),
+        (0.5, seen(2, 0.25, 4.0), "/words comes at 0.25 Hz"),
+        (10.0, seen(3, 10.0, 0.2, 5.0), "only 3 messages on /words in 5.0 s"),
+        (10.0, seen(1, None, 0.0, 5.0), "only 1 message on /words in 5.0 s"),
+        (None, seen(1, None, 0.0, 5.0), None),
+    ],
+)
+def test_rate(rate: float | None, observation: Observation, problem: str | None) -> None:
+    problems, notes = compare(expecting(rate), observation, 5.5)
+    said = f"talker.py publishes {STRING}" + (f" at {rate:g} Hz" if rate else "")
+    assert list(map(str, problems)) == ([f"{problem}: {said}"] if problem else [])
+    assert notes == []
+
+
+def test_silence() -> None:
+    problems, notes = compare(expecting(10.0), seen(0, None, 0.0), 9.0)
+    assert list(map(str, problems)) == [
+        f"no message on /words within 9.0 s: talker.py publishes {STRING} at 10 Hz"
+    ]
+    assert notes == []
+    assert compare(expecting(None, certain=False), seen(0, None, 0.0), 9.0) == (
+        [],
+        ["no message on /words: something has to happen first"],
+    )
+    assert compare(expecting(0.2), seen(0, None, 0.0), 9.0) == (
+        [],
+        ["no message on /words yet: its period is 5 s"],
+    )
+
+
+def test_missing_topic_and_wrong_type() -> None:
+    problems, _ = compare(expecting(10.0), Observation(nodes=("/talker",)), 5.0)
+    assert list(map(str, problems)) == [
+        f"nothing publishes /words: talker.py publishes {STRING} at 10 Hz"
+    ]
+    problems, _ = compare(expecting(10.0, kind="std_msgs/msg/Bool"), seen(50, 10.0, 4.9), 5.0)
+    assert list(map(str, problems)) == [
+        f"/words has the type {STRING}: talker.py publishes std_msgs/msg/Bool at 10 Hz"
+    ]
+
+
+def test_several_types_and_unreadable_messages() -> None:
+    topic = Topic("/words", "a/msg/A", 2, types=("a/msg/A", "b/msg/B"), error="no module 'a'")
+    problems, _ = compare(Expectation(), Observation(topics=(topic,)), 5.0)
+    assert list(map(str, problems)) == [
+        "/words has several types: a/msg/A, b/msg/B",
+        "/words cannot be read: no module 'a'",
+    ]
+
+
+def test_finished_program() -> None:
+    problems, _ = compare(expecting(10.0), seen(20, 10.0, 1.9), 2.0, finished=True)
+    assert problems == []
+    problems, _ = compare(expecting(10.0), Observation(), 0.3, finished=True)
+    assert list(map(str, problems)) == [
+        (
+            "finished by itself after 0.3 s, before any message came on /words: "
+            f"talker.py publishes {STRING} at 10 Hz"
+        )
+    ]
+    script = Expectation(is_node=True, runs_nothing=True, source="talker.py")
+    problems, _ = compare(script, Observation(), 0.3, finished=True)
+    assert list(map(str, problems)) == ["finished by itself: nothing in talker.py runs its node"]
