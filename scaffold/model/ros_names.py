@@ -37,7 +37,7 @@ def topic_problem(name: str) -> str | None:
         return "it ends with '/'"
     if name == "/":
         return "it is nothing but '/'"
-    for token in plain.lstrip("~").split("/"):
+    for token in plain.split("/"):
         if token[:1].isdigit():
             return f"{token!r} begins with a digit"
     if len(name) > MAX_TOPIC_NAME:
