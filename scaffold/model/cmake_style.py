@@ -62,13 +62,16 @@ class Finding(NamedTuple):
 
 def findings(package: Package, name: str) -> Iterator[Finding]:
     """Yield what one filter says about the CMake files of a package."""
-    for path in lintable(package):
-        if _is_cmake(path):
-            try:
-                found = _of_file(package, path)
-            except ViewError:
-                continue
-            yield from found.get(name, ())
+    for path in package.remember("cmake_files", lambda: _cmake_files(package)):
+        try:
+            found = _of_file(package, path)
+        except ViewError:
+            continue
+        yield from found.get(name, ())
+
+
+def _cmake_files(package: Package) -> list[str]:
+    return [path for path in lintable(package) if _is_cmake(path)]
 
 
 def _is_cmake(path: str) -> bool:

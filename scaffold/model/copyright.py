@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from scaffold.model.ament_files import lintable
 from scaffold.model.package import Package
-from scaffold.model.source import Location, Source
+from scaffold.model.source import Location
 
 EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cmake", ".py"})
 REPOSITORY_FILES = ("CONTRIBUTING.md", "LICENSE")
@@ -82,7 +82,9 @@ def read(path: str, data: bytes) -> Header:
         if notices:
             first = notices[0].split("\n", 1)[0]
             offset = max(text.find(first), 0)
-            at = Source(path, text).location(offset, offset + len(first))
+            line = text.count("\n", 0, offset) + 1
+            column = offset - text.rfind("\n", 0, offset)
+            at = Location(path, line, column, line, column + len(first))
             holders = tuple(_holder(notice) for notice in notices)
             said = " ".join(rest.split())
             return Header(path, at, holders, identify(said), said)
