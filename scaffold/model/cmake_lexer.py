@@ -8,7 +8,8 @@ along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` st
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, overload
 
 BOM = "\ufeff"
 
@@ -21,9 +22,11 @@ _COMMON = re.compile(
 _RUN = re.compile(r'[^ \0\t\r\n()#"\[=\\]+')
 _QUOTED_RUN = re.compile(r'[^\0\r\n()#"\\]+')
 _MAKE_VARIABLE = re.compile(r"\$\([A-Za-z0-9_]*\)")
+_NUL = re.compile(r"\0+")
 _EQUALS = re.compile("=*")
 _SPECIAL = re.compile(r'["\\]')
 _CALL = re.compile(r"\n[ \t]*([A-Za-z_]\w*)[ \t]*\(")
+MOST_ERRORS = 100
 _ATTEMPTS = 16  # at guessing which quote is missing
 
 
@@ -47,7 +50,31 @@ class LexicalError(NamedTuple):
     message: str
 
 
-def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
+class Tokens(Sequence[Token]):
+    """The tokens of a file; a million of them must not cost a million objects."""
+
+    def __init__(self) -> None:
+        self.kinds: list[str] = []
+        self.starts: list[int] = []
+        """Where each token starts; one more stands for the end of the file."""
+
+    def __len__(self) -> int:
+        return len(self.kinds)
+
+    @overload
+    def __getitem__(self, number: int) -> Token: ...
+
+    @overload
+    def __getitem__(self, number: slice) -> list[Token]: ...
+
+    def __getitem__(self, number: int | slice) -> Token | list[Token]:
+        if isinstance(number, slice):
+            return [self[one] for one in range(*number.indices(len(self)))]
+        number = range(len(self.kinds))[number]
+        return Token(self.kinds[number], self.starts[number], self.starts[number + 1])
+
+
+def tokenize(text: str) -> tuple[Tokens, list[LexicalError]]:
     """Split a file into tokens; after an error it goes on where that makes sense."""
     lexer = _Lexer(text)
     lexer.run()
@@ -57,16 +84,17 @@ def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
 class _Lexer:
     def __init__(self, text: str) -> None:
         self.text = text
-        self.tokens: list[Token] = []
+        self.tokens = Tokens()
         self.errors: list[LexicalError] = []
         self.attempts = 0
         self.blamed = -1
 
     def run(self) -> None:
-        text, tokens, common = self.text, self.tokens, _COMMON.match
+        text, common = self.text, _COMMON.match
+        add_kind, add_start = self.tokens.kinds.append, self.tokens.starts.append
         at, end = 0, len(text)
         if text.startswith(BOM):
-            tokens.append(Token("space", 0, 1))
+            self._add("space", 0)
             at = 1
         while at < end:
             match = common(text, at)
@@ -76,26 +104,35 @@ class _Lexer:
             elif kind == "bracket":
                 at = self._bracket(at, match.end())
             else:
-                stop = match.end()
-                tokens.append(Token(kind, at, stop))
-                at = stop
+                add_kind(kind)
+                add_start(at)
+                at = match.end()
+        add_start(end)
+
+    def _add(self, kind: str, start: int) -> None:
+        self.tokens.kinds.append(kind)
+        self.tokens.starts.append(start)
+
+    def _complain(self, start: int, end: int, message: str) -> None:
+        if len(self.errors) < MOST_ERRORS:
+            self.errors.append(LexicalError(start, end, message))
 
     def _unquoted(self, start: int, end: int) -> int:
         text = self.text
         after = text[end : end + 1]
         if end > start and after not in {"=", "[", "\\", '"', "("}:
-            self.tokens.append(Token("unquoted", start, end))
+            self._add("unquoted", start)
             return end
         if end == start and after == '"':
             return self._quoted(start)
         end = unquoted_end(text, start)
-        if end == start:
-            end = start + 1
-            self.tokens.append(Token("bad", start, end))
-            self.errors.append(LexicalError(start, end, _bad_character(text[start])))
-        else:
-            self.tokens.append(Token("unquoted", start, end))
-        return end
+        if end > start:
+            self._add("unquoted", start)
+            return end
+        self._add("bad", start)
+        self._complain(start, start + 1, _bad_character(text[start]))
+        nul = _NUL.match(text, start)
+        return nul.end() if nul else start + 1
 
     def _quoted(self, start: int) -> int:
         """Read a string that holds a backslash, or that does not end."""
@@ -105,7 +142,7 @@ class _Lexer:
             if match is None:
                 return self._unterminated(start)
             if match[0] == '"':
-                self.tokens.append(Token("quoted", start, match.end()))
+                self._add("quoted", start)
                 return match.end()
             at = match.end() + 1
 
@@ -116,14 +153,11 @@ class _Lexer:
         end = self.text.find(closing, opened)
         if end < 0:
             what = "bracket comment" if is_comment else "bracket argument"
-            message = f'"{closing}" expected: this {what} is not closed'
-            self.errors.append(LexicalError(start, opened, message))
-            end = len(self.text)
-            self.tokens.append(Token("bad", start, end))
-            return end
-        end += len(closing)
-        self.tokens.append(Token("bracket_comment" if is_comment else "bracket", start, end))
-        return end
+            self._complain(start, opened, f'"{closing}" expected: this {what} is not closed')
+            self._add("bad", start)
+            return len(self.text)
+        self._add("bracket_comment" if is_comment else "bracket", start)
+        return end + len(closing)
 
     def _unterminated(self, start: int) -> int:
         """Find the quote that is to blame, end its string on its line and go on from there.
@@ -134,25 +168,29 @@ class _Lexer:
         text = self.text
         self.attempts += 1
         if self.attempts > _ATTEMPTS:
-            self.tokens.append(Token("bad", start, len(text)))
+            self._add("bad", start)
             return len(text)
-        for number, token in enumerate(self.tokens):
-            if token.kind != "quoted" or token.start <= self.blamed:
-                continue
-            match = _CALL.search(text, token.start, token.end)
-            if match is not None and match[1].lower() in KNOWN_COMMANDS:
-                start = token.start
-                del self.tokens[number:]
-                break
+        start = self._blame(start)
         self.blamed = start
         line_end = text.find("\n", start)
-        line_end = len(text) if line_end < 0 else line_end
-        end = start + len(text[start:line_end].rstrip(" \t\r)")) or line_end
-        end = max(end, start + 1)
-        message = 'a second " expected: this string is not closed'
-        self.errors.append(LexicalError(start, start + 1, message))
-        self.tokens.append(Token("bad", start, end))
-        return end
+        line = text[start : len(text) if line_end < 0 else line_end]
+        self._complain(start, start + 1, 'a second " expected: this string is not closed')
+        self._add("bad", start)
+        return start + max(len(line.rstrip(" \t\r)")), 1)
+
+    def _blame(self, last: int) -> int:
+        """Return where the first string starts that swallowed a command; forget what follows."""
+        kinds, starts = self.tokens.kinds, self.tokens.starts
+        for number, kind in enumerate(kinds):
+            if kind != "quoted" or starts[number] <= self.blamed:
+                continue
+            end = starts[number + 1] if number + 1 < len(starts) else last
+            match = _CALL.search(self.text, starts[number], end)
+            if match is not None and match[1].lower() in KNOWN_COMMANDS:
+                start = starts[number]
+                del kinds[number:], starts[number:]
+                return start
+        return last
 
 
 def unquoted_end(text: str, start: int) -> int:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
-from scaffold.model.cmake_lexer import KNOWN_COMMANDS, LexicalError, Token, tokenize
+from scaffold.model.cmake_lexer import KNOWN_COMMANDS, MOST_ERRORS, LexicalError, Tokens, tokenize
 from scaffold.model.source import Location, Source
 
 _ENDINGS = {
@@ -20,7 +20,20 @@ _ENDINGS = {
 _OPENERS = frozenset(_ENDINGS.values())
 _BRANCHES = frozenset({"elseif", "else"})
 _BLANK = frozenset({"space", "newline", "comment"})
-_ARGUMENT_KINDS = frozenset({"identifier", "unquoted", "quoted", "bracket"})
+_WORDS = frozenset({"identifier", "unquoted", "quoted"})
+_ARGUMENT_KINDS = _WORDS | {"bracket", "open", "close"}
+# What the next argument is joined to without a blank: to a word CMake warns, to a bracket it stops.
+_JOINED = {
+    "space": "",
+    "newline": "",
+    "open": "",
+    "close": "word",
+    "identifier": "word",
+    "unquoted": "word",
+    "quoted": "word",
+    "bracket": "bracket",
+    "bracket_comment": "bracket",
+}
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r"}
 
 
@@ -29,11 +42,11 @@ class Argument:
 
     __slots__ = ("_source", "end", "kind", "start")
 
-    def __init__(self, source: Source, token: Token) -> None:
+    def __init__(self, source: Source, kind: str, start: int, end: int) -> None:
         self._source = source
-        self.start = token.start
-        self.end = token.end
-        self.kind = "unquoted" if token.kind == "identifier" else token.kind
+        self.start = start
+        self.end = end
+        self.kind = "unquoted" if kind == "identifier" else kind
         """``unquoted``, ``quoted`` or ``bracket``; ``open`` and ``close`` for parentheses."""
 
     def __repr__(self) -> str:
@@ -81,8 +94,11 @@ class Command:
     """A call of a command."""
 
     __slots__ = (
+        "_arguments",
+        "_first",
+        "_last",
         "_source",
-        "arguments",
+        "_tokens",
         "branch",
         "closed",
         "depth",
@@ -95,16 +111,17 @@ class Command:
         "written_name",
     )
 
-    def __init__(self, source: Source, name: Token) -> None:
+    def __init__(self, source: Source, tokens: Tokens, name: int, opening: int) -> None:
         self._source = source
-        self.written_name = source.text[name.start : name.end]
+        self._tokens = tokens
+        self._first = self._last = opening + 1
+        self._arguments: list[Argument] | None = None
+        self.start = tokens.starts[name]
+        self.written_name = source.text[self.start : tokens.starts[name + 1]]
         self.name = self.written_name.lower()
         """In lower case: CMake does not tell them apart."""
-        self.arguments: list[Argument] = []
-        self.start = name.start
-        self.open_end = name.end
+        self.open_end = self.end = tokens.starts[opening + 1]
         """The offset behind ``(``."""
-        self.end = name.end
         self.closed = False
         """Whether ``)`` is there."""
         self.index = 0
@@ -118,6 +135,35 @@ class Command:
 
     def __repr__(self) -> str:
         return f"{self.written_name}({' '.join(map(repr, self.arguments))})"
+
+    def close(self, last: int, *, closed: bool) -> None:
+        """Note where the command ends; for the reader.
+
+        Args:
+            last: The number of the token behind the last argument, which ``)`` is if it is there.
+            closed: Whether it is there.
+        """
+        self._last = last
+        self.closed = closed
+        kinds, starts = self._tokens.kinds, self._tokens.starts
+        if closed:
+            self.end = starts[last + 1]
+            return
+        while last > self._first and kinds[last - 1] not in _ARGUMENT_KINDS:
+            last -= 1
+        self.end = starts[last]
+
+    @property
+    def arguments(self) -> list[Argument]:
+        """The arguments; parentheses inside of them are arguments too."""
+        if self._arguments is None:
+            kinds, starts = self._tokens.kinds, self._tokens.starts
+            self._arguments = [
+                Argument(self._source, kinds[number], starts[number], starts[number + 1])
+                for number in range(self._first, self._last)
+                if kinds[number] in _ARGUMENT_KINDS
+            ]
+        return self._arguments
 
     @property
     def location(self) -> Location:
@@ -177,7 +223,7 @@ class Command:
 class Parsed(NamedTuple):
     """A file as commands."""
 
-    tokens: list[Token]
+    tokens: Tokens
     commands: list[Command]
     errors: list[tuple[Location, str]]
 
@@ -185,10 +231,12 @@ class Parsed(NamedTuple):
 def parse(source: Source) -> Parsed:
     """Read a file; what is wrong is in ``errors``, in the order of the file."""
     tokens, lexical = tokenize(source.text)
-    parser = _Parser(source, tokens, lexical)
+    parser = _Parser(source, tokens, broken=bool(lexical))
     parser.run()
-    _Nesting(source, parser.errors).run(parser.commands)
-    errors = sorted({*lexical, *parser.errors})
+    nesting = _Nesting(source)
+    nesting.run(parser.commands)
+    # Where a parenthesis is missing, what is said of blocks would only mislead.
+    errors = sorted({*lexical, *parser.errors} or nesting.errors)
     return Parsed(
         tokens,
         parser.commands,
@@ -218,132 +266,127 @@ def _without_continuations(text: str) -> str:
 class _Parser:
     """Reads what CMake's parser reads; after the first error it also looks for new beginnings."""
 
-    def __init__(self, source: Source, tokens: list[Token], lexical: list[LexicalError]) -> None:
+    def __init__(self, source: Source, tokens: Tokens, *, broken: bool) -> None:
         self.source = source
         self.tokens = tokens
+        self.kinds = tokens.kinds
         self.commands: list[Command] = []
         self.errors: list[LexicalError] = []
-        self.recovering = bool(lexical)
+        self.recovering = broken
         self.at = 0
 
     def run(self) -> None:
-        tokens = self.tokens
+        kinds = self.kinds
         fresh_line = True
-        while self.at < len(tokens):
-            token = tokens[self.at]
+        while self.at < len(kinds):
+            number = self.at
+            kind = kinds[number]
             self.at += 1
-            if token.kind == "newline":
+            if kind == "newline":
                 fresh_line = True
-            elif token.kind == "bracket_comment":
+            elif kind == "bracket_comment":
                 fresh_line = False
-            elif token.kind == "identifier":
+            elif kind == "identifier":
                 if not fresh_line:
-                    self._complain(token, "a new line expected before this command")
+                    self._complain(number, "a new line expected before this command")
                 fresh_line = False
-                self._command(token)
-            elif token.kind not in _BLANK:
-                self._stray(token)
+                self._command(number)
+            elif kind not in _BLANK:
+                self._stray(number)
                 fresh_line = True
 
-    def _stray(self, token: Token) -> None:
+    def _stray(self, number: int) -> None:
         """Skip what cannot begin a command, and the rest of its line."""
-        if token.kind == "close":
-            self._complain(token, 'no "(" belongs to this ")"')
+        if self.kinds[number] == "close":
+            self._complain(number, 'no "(" belongs to this ")"')
             return
-        if token.kind != "bad":
-            self._complain(token, "the name of a command expected")
+        if self.kinds[number] != "bad":
+            self._complain(number, "the name of a command expected")
         self._skip_line()
 
     def _skip_line(self) -> None:
-        while self.at < len(self.tokens) and self.tokens[self.at].kind != "newline":
+        while self.at < len(self.kinds) and self.kinds[self.at] != "newline":
             self.at += 1
 
-    def _command(self, name: Token) -> None:
-        command = Command(self.source, name)
-        while self.at < len(self.tokens) and self.tokens[self.at].kind == "space":
-            self.at += 1
-        if self.at == len(self.tokens) or self.tokens[self.at].kind != "open":
-            self._complain(name, f'"(" expected behind {command.written_name}')
+    def _command(self, name: int) -> None:
+        opening = self.at = self._behind_space(self.at)
+        if opening >= len(self.kinds) or self.kinds[opening] != "open":
+            written = self.source.text[self.tokens.starts[name] : self.tokens.starts[name + 1]]
+            self._complain(name, f'"(" expected behind {written}')
             self._skip_line()
             return
-        command.open_end = command.end = self.tokens[self.at].end
         self.at += 1
+        command = Command(self.source, self.tokens, name, opening)
         command.index = len(self.commands)
         self.commands.append(command)
         self._arguments(command)
 
     def _arguments(self, command: Command) -> None:
-        tokens, first = self.tokens, self.at
+        kinds, first, at = self.kinds, self.at, self.at
         depth = 0
-        joined = ""  # to the token before: "word" is a warning for CMake, "bracket" an error
-        while self.at < len(tokens):
-            token = tokens[self.at]
-            kind = token.kind
-            if self.recovering and kind == "newline" and self._command_follows(self.at + 1):
-                break
-            self.at += 1
-            if kind in {"space", "newline"}:
-                joined = ""
-            elif kind == "close" and depth == 0:
-                command.end = token.end
-                command.closed = True
-                return
-            elif kind in {"open", "close"}:
-                depth += 1 if kind == "open" else -1
-                command.arguments.append(Argument(self.source, token))
-                command.end = token.end
-                joined = "" if kind == "open" else "word"
-            elif kind in _ARGUMENT_KINDS:
-                if joined and (joined == "bracket" or kind == "bracket"):
-                    self._complain(token, "a blank expected before this argument")
-                command.arguments.append(Argument(self.source, token))
-                command.end = token.end
-                joined = "bracket" if kind == "bracket" else "word"
-            elif kind == "bracket_comment":
-                joined = "bracket"
-            elif kind == "bad":
-                self.recovering = True
-        self._unclosed(command, first)
+        joined = ""
+        while at < len(kinds):
+            kind = kinds[at]
+            if kind == "close":
+                if not depth:
+                    command.close(at, closed=True)
+                    self.at = at + 1
+                    return
+                depth -= 1
+            elif kind == "open":
+                depth += 1
+            elif kind == "newline":
+                if self.recovering and self._command_follows(at + 1):
+                    break
+            elif (joined == "bracket" and kind in _WORDS) or (joined and kind == "bracket"):
+                self._complain(at, "a blank expected before this argument")
+            joined = _JOINED.get(kind, joined)
+            at += 1
+        self._unclosed(command, first, at)
 
-    def _unclosed(self, command: Command, first: int) -> None:
+    def _unclosed(self, command: Command, first: int, end: int) -> None:
         """Complain that ``)`` is missing; a command that was swallowed gets its turn."""
-        name = Token("identifier", command.start, command.open_end)
-        self._complain(name, f'")" expected: {command.written_name}( is not closed')
-        for number in range(first, self.at):
-            if self.tokens[number].kind == "newline" and self._command_follows(number + 1):
-                start = self.tokens[number].start
-                command.arguments = [item for item in command.arguments if item.end <= start]
-                ends = [item.end for item in command.arguments]
-                command.end = ends[-1] if ends else command.open_end
-                self.at = number
-                return
+        start, stop = command.start, command.open_end
+        self._note(start, stop, f'")" expected: {command.written_name}( is not closed')
+        kinds = self.kinds
+        for number in range(first, end):
+            if kinds[number] == "newline" and self._command_follows(number + 1):
+                end = number
+                break
+        command.close(end, closed=False)
+        self.at = end
 
     def _command_follows(self, number: int) -> bool:
         """Tell whether a known command begins at a token, the first of its line."""
-        tokens = self.tokens
+        kinds, starts = self.kinds, self.tokens.starts
         number = self._behind_space(number)
-        if number >= len(tokens) or tokens[number].kind != "identifier":
+        if number >= len(kinds) or kinds[number] != "identifier":
             return False
-        name = self.source.text[tokens[number].start : tokens[number].end].lower()
+        name = self.source.text[starts[number] : starts[number + 1]].lower()
         number = self._behind_space(number + 1)
-        return name in KNOWN_COMMANDS and number < len(tokens) and tokens[number].kind == "open"
+        return name in KNOWN_COMMANDS and number < len(kinds) and kinds[number] == "open"
 
     def _behind_space(self, number: int) -> int:
-        if number < len(self.tokens) and self.tokens[number].kind == "space":
+        if number < len(self.kinds) and self.kinds[number] == "space":
             return number + 1
         return number
 
-    def _complain(self, at: Token, message: str) -> None:
+    def _complain(self, number: int, message: str) -> None:
+        starts = self.tokens.starts
+        self._note(starts[number], starts[number + 1], message)
+
+    def _note(self, start: int, end: int, message: str) -> None:
         self.recovering = True
-        self.errors.append(LexicalError(at.start, at.end, message))
+        if len(self.errors) < MOST_ERRORS:
+            self.errors.append(LexicalError(start, end, message))
 
 
 class _Nesting:
     """Tells the commands what blocks they stand in; complains of blocks that do not fit."""
 
-    def __init__(self, source: Source, errors: list[LexicalError]) -> None:
+    def __init__(self, source: Source) -> None:
         self.source = source
-        self.errors = errors
+        self.errors: list[LexicalError] = []
         self.blocks: list[Command] = []
         self.branches: list[Command] = []
         self.open_names: dict[str, int] = dict.fromkeys(_OPENERS, 0)
@@ -392,4 +435,5 @@ class _Nesting:
         return block
 
     def _complain(self, command: Command, message: str) -> None:
-        self.errors.append(LexicalError(command.start, command.end, message))
+        if len(self.errors) < MOST_ERRORS:
+            self.errors.append(LexicalError(command.start, command.end, message))

@@ -12,12 +12,12 @@ from scaffold.model.cmake_parser import Argument, Command
 ROOT = "\0"
 """Stands for the directory of the package; no file can contain it."""
 
-_NAME = re.compile(r"[A-Za-z0-9_./+-]+\Z")
 _PIECE = re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
 _SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r", ";": "\\;"}
-_MOST_COMBINATIONS = 10_000  # of the variables of loops, in all loops of a file
-_LONGEST_VALUE = 100_000
+_MOST_TURNS = 20_000  # of loops that are followed in a file
+_LONGEST_VALUE = 20_000
+_MOST_ENTRIES = 16  # that are looked at for one value
 _DEEPEST = 200  # blocks around a command; a deeper one is taken for unknown
 
 _HARMLESS = frozenset(
@@ -68,8 +68,15 @@ class Variables:
             ),
             here,
         )
-        self._budget = _MOST_COMBINATIONS
+        self._turns = _MOST_TURNS
         self._history: dict[str, list[_Entry]] = {}
+        self._names = {
+            argument.value
+            for command in commands
+            if command.name in {"set", "list", "unset"}
+            for argument in command.arguments[:2]
+        }
+        """All variables that a value could be known of."""
         if project is not None:
             if "$" in project:
                 self._follow_all(commands)
@@ -137,10 +144,11 @@ class Variables:
         for loop in loops:
             longer: list[dict[str, str]] = []
             for bindings in combinations:
-                found = self._loop(loop, bindings)
-                if found is None or len(found[1]) > self._budget:
+                self._turns -= len(loop.arguments)
+                found = self._loop(loop, bindings) if self._turns > 0 else None
+                if found is None:
                     return None
-                self._budget -= len(found[1])
+                self._turns -= len(found[1])
                 longer.extend({**bindings, found[0]: value} for value in found[1])
             combinations = longer
         return iter(combinations)
@@ -179,6 +187,9 @@ class Variables:
         before = len(history)
         if at is not None:
             before = bisect_left(history, at.index, key=_index)
+        if before > _MOST_ENTRIES:
+            history = history[before - _MOST_ENTRIES : before]
+            before = _MOST_ENTRIES
         for number in range(before - 1, -1, -1):
             entry = history[number]
             seen = _reaches(entry.command, at)
@@ -186,7 +197,7 @@ class Variables:
                 return entry.value
             if seen == "perhaps":
                 return None
-        return self._fixed.get(name)
+        return None if before == _MOST_ENTRIES else self._fixed.get(name)
 
     # -- following
 
@@ -251,7 +262,7 @@ class Variables:
     def _forget(self, command: Command, arguments: Iterable[Argument]) -> None:
         """Take a variable for unknown that a command may have written to."""
         for argument in arguments:
-            if argument.kind == "unquoted" and _NAME.match(argument.raw):
+            if argument.kind == "unquoted" and argument.raw in self._names:
                 self._note(command, argument.raw, None)
 
     def _note(self, command: Command, name: str, value: str | None) -> None:
@@ -259,6 +270,8 @@ class Variables:
             value is not None and any(block.name in _LOOPS for block in command.blocks)
         ):
             value = None  # every turn of the loop may set another one
+        if value is not None and len(value) > _LONGEST_VALUE:
+            value = None
         self._history.setdefault(name, []).append(_Entry(command, value))
 
 
