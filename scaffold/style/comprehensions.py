@@ -42,23 +42,33 @@ def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
     if not node.args:
         return _empty_call(node, name)
     first = node.args[0]
-    code = ""
-    if len(node.args) == 1:
-        code = _of_one(node, name, first)
-    if not code and isinstance(first, ast.Call) and isinstance(first.func, ast.Name):
-        if name in ("list", "reversed") and first.func.id == "sorted":
-            return "C413"
-        if first.func.id in _CASTS.get(name, ()):
-            return "C414"
-    if not code and name in ("reversed", "set", "sorted") and _is_reversal(first):
+    code = _of_one(node, name, first) if len(node.args) == 1 else ""
+    return code or _nested_call(name, first) or _map_call(node, name, first, inner_maps)
+
+
+def _nested_call(name: str, first: ast.expr) -> str:
+    """Return the code for what is done twice: sorting, copying, reversing."""
+    if name in ("reversed", "set", "sorted") and _is_reversal(first):
         return "C415"
-    if not code and name == "map" and node not in inner_maps and _maps_lambda(node):
-        return "C417"
-    if not code and name in ("list", "set", "dict") and len(node.args) == 1:
-        if isinstance(first, ast.Call) and _is_name(first.func, "map") and _maps_lambda(first):
-            inner_maps.add(first)
-            return "C417" if name != "dict" or _returns_pair(first.args[0]) else ""
-    return code
+    if not isinstance(first, ast.Call) or not isinstance(first.func, ast.Name):
+        return ""
+    if name in ("list", "reversed") and first.func.id == "sorted":
+        return "C413"
+    return "C414" if first.func.id in _CASTS.get(name, ()) else ""
+
+
+def _map_call(node: ast.Call, name: str, first: ast.expr, inner_maps: set[ast.AST]) -> str:
+    """Return the code for ``map`` with a lambda, alone or inside a call that collects it."""
+    if name == "map":
+        return "C417" if node not in inner_maps and _maps_lambda(node) else ""
+    if name not in ("list", "set", "dict") or len(node.args) != 1:
+        return ""
+    if not isinstance(first, ast.Call) or not _is_name(first.func, "map"):
+        return ""
+    if not _maps_lambda(first):
+        return ""
+    inner_maps.add(first)
+    return "C417" if name != "dict" or _returns_pair(first.args[0]) else ""
 
 
 def _empty_call(node: ast.Call, name: str) -> str:

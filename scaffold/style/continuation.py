@@ -101,7 +101,7 @@ class _Walk:
             last = token
         yield from self._block_start(last)
 
-    def _line_start(self, token: Token) -> Iterator[Fault]:
+    def _line_start(self, token: Token) -> Iterator[Fault]:  # noqa: C901  PEP 8's cases in order
         """Judge the first token of a continuation line."""
         bracket = self.stack[-1]
         column = token.start[1]
@@ -157,9 +157,10 @@ class _Walk:
             self.chances[column] = True
         elif token.type in (STRING, COMMENT, FSTRING_START):
             self.chances[column] = str
-        elif at_start and token.string in ("assert", "raise", "with"):
-            self.chances[token.end[1] + 1] = True
-        elif at_start and not self.chances and token.string == "if":
+        elif at_start and (
+            token.string in ("assert", "raise", "with")
+            or (token.string == "if" and not self.chances)
+        ):
             self.chances[token.end[1] + 1] = True
         elif token.string == ":" and self._rest(token).isspace():
             bracket.rows.append(self.row)

@@ -51,33 +51,24 @@ def _needs_blank(word: str, following: str) -> bool:
 def _around_equals(logical: LogicalLine) -> Iterator[tuple[Position, str]]:
     depth = 0
     end: Position = logical.tokens[0].start
-    forbidden = required = annotated = False
+    code = ""
+    annotated = False
     in_def = re.match(r"(async\s+def|def)\b", logical.text) is not None
     for token in logical.tokens:
         if token.type == NL:
             continue
-        if forbidden and token.start != end:
-            yield end, "E251"
-        if required and token.start == end:
-            yield end, "E252"
-        forbidden = required = False
-        if token.type == OP:
-            text = token.string
-            if text in "([":
-                depth += 1
-            elif text in ")]":
-                depth -= 1
-            elif in_def and text == ":" and depth == 1:
-                annotated = True
-            elif depth == 1 and text == ",":
-                annotated = False
-            elif depth and text == "=":
-                required = annotated and depth == 1
-                forbidden = not required
-                if forbidden and token.start != end:
-                    yield end, "E251"
-                if required and token.start == end:
-                    yield end, "E252"
-            if not depth:
-                annotated = False
+        if code and (token.start == end) == (code == "E252"):
+            yield end, code
+        code = ""
+        text = token.string if token.type == OP else ""
+        depth += (text in ("(", "[")) - (text in (")", "]"))
+        if text == "=" and depth:
+            code = "E252" if annotated and depth == 1 else "E251"
+            if (token.start == end) == (code == "E252"):
+                yield end, code
+        elif text == ":" and in_def and depth == 1:
+            annotated = True
+        elif text == "," and depth == 1:
+            annotated = False
+        annotated = annotated and depth > 0
         end = token.end

@@ -67,8 +67,9 @@ class Definition:
         """The docstring without its quotes, escapes read."""
         literal = self.docstring
         if "\\" not in literal:
-            quote = 3 if literal[-3:] in ('"""', "'''") and len(literal) > 5 else 1
-            return literal[literal.index(literal[-1]) + quote : -quote]
+            body = literal[literal.index(literal[-1]) :]
+            quote = 3 if body[:3] in ('"""', "'''") else 1
+            return body[quote:-quote]
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return str(ast.literal_eval(literal))
@@ -164,10 +165,15 @@ def definitions(text: PythonText) -> Iterator[Definition]:
 
 
 def _is_misread(text: PythonText, node: _Definition) -> bool:
-    """Tell whether pydocstyle takes a colon in type parameters for the end of the header.
+    """Tell whether pydocstyle takes an earlier colon for the end of the header.
 
-    It does not know ``def f[T](x: T)`` and goes on from the first colon.
+    It does not know ``def f[T](x: T)`` nor ``-> a[b:c]`` and goes on from the first colon.
     """
+    returns = getattr(node, "returns", None)
+    if returns and any(
+        isinstance(part, (ast.Slice, ast.Lambda, ast.Dict)) for part in ast.walk(returns)
+    ):
+        return True
     if not getattr(node, "type_params", None):
         return False
     header = "".join(text.lines[node.lineno - 1 : node.body[0].lineno - 1])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from textwrap import dedent
 from typing import NamedTuple
 
@@ -16,7 +17,9 @@ from scaffold.style.definitions import METHOD, Definition
 
 Said = Iterator[tuple[str, str]]
 
-NUMPY = (
+Names = tuple[str, ...]
+
+NUMPY: Names = (
     "Short Summary",
     "Extended Summary",
     "Parameters",
@@ -32,7 +35,7 @@ NUMPY = (
     "Methods",
 )
 
-GOOGLE = (
+GOOGLE: Names = (
     "Args",
     "Arguments",
     "Attention",
@@ -94,7 +97,7 @@ def check(definition: Definition) -> Said:
             yield from _google(section, definition)
 
 
-def _sections(lines: Sequence[str], names: tuple[str, ...]) -> list[Section]:
+def _sections(lines: Sequence[str], names: Names) -> list[Section]:
     known = _LOWER[names]
     rows = [
         row
@@ -110,7 +113,7 @@ def _sections(lines: Sequence[str], names: tuple[str, ...]) -> list[Section]:
             lines[row + 1 : end],
             is_last=row == rows[-1],
         )
-        for row, end in zip(rows, ends)
+        for row, end in zip(rows, ends, strict=False)
     ]
 
 
@@ -146,7 +149,7 @@ def _google(section: Section, definition: Definition) -> Said:
         yield from _undocumented(_google_arguments(section), definition)
 
 
-def _common(section: Section, definition: Definition, names: tuple[str, ...]) -> Said:
+def _common(section: Section, definition: Definition, names: Names) -> Said:
     title = section.title
     if section.name not in names and title in names:
         yield "D405", f"the section name is {section.name!r}, not {title!r}"
@@ -194,7 +197,7 @@ def _numpy_parameters(section: Section) -> set[str]:
     found: set[str] = set()
     level = _leading_space(section.line)
     content = "\n".join(section.after).replace("\\\n", "").split("\n")
-    for line, below in zip(content, content[1:], strict=False):
+    for line, below in pairwise(content):
         deeper = len(_leading_space(below)) > len(_leading_space(line))
         if _leading_space(line) == level and deeper and below.strip():
             names = line.partition(":")[0] if ":" in line else line.strip()

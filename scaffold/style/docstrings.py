@@ -17,10 +17,12 @@ from scaffold.style.text import PythonText
 
 Said = Iterator[tuple[str, str]]
 
-IN_FLAKE8 = frozenset(
-    "D200 D201 D202 D204 D205 D206 D207 D208 D209 D210 D211 D300 D301 D302 D400 D401 D402 D403 "
-    "D412 D414 D419".split()
-)
+_PEP257 = """
+    D200 D201 D202 D204 D205 D206 D207 D208 D209 D210 D211 D300 D301 D302 D400 D401 D402 D403
+    D412 D414 D419
+"""
+
+IN_FLAKE8 = frozenset(_PEP257.split())
 """flake8-docstrings follows the convention ``pep257``; ament_pep257 reports all codes here."""
 
 PROPERTIES = frozenset({"property", "cached_property", "functools.cached_property"})

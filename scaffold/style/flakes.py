@@ -72,9 +72,10 @@ def _is_stricter(text: PythonText, said: Said, codes: set[tuple[int, str]]) -> b
 def _at_handler(text: PythonText, finding: Finding) -> Finding:
     """Move a finding about ``except ... as name`` to the start of the handler."""
     for node in text.nodes:
-        if isinstance(node, ast.ExceptHandler) and node.name:
-            if node.lineno < finding.line < node.body[0].lineno:
-                return _moved(text, finding, node)
+        if not isinstance(node, ast.ExceptHandler) or not node.name:
+            continue
+        if node.lineno < finding.line < node.body[0].lineno:
+            return _moved(text, finding, node)
     return finding
 
 

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import io
 import tokenize
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from tokenize import TokenInfo
 
 from scaffold.style.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START, Position
+
+Cut = Generator[TokenInfo, None, int]
+"""Tokens, and then the offset behind them."""
 
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _NOISE = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
@@ -67,7 +70,7 @@ class _Opened:
         shown = self._text[start:end] if text is None else text
         return TokenInfo(kind, shown, self._place(start), self._place(end), self._line)
 
-    def _literal(self, at: int, end: int, *, in_spec: bool) -> Iterator[TokenInfo]:
+    def _literal(self, at: int, end: int, *, in_spec: bool) -> Cut:
         """Yield text and fields up to ``end``, or to the brace that closes a format; its offset."""
         text = self._text
         start = at
@@ -91,7 +94,7 @@ class _Opened:
             yield self._token(FSTRING_MIDDLE, start, at)
         return at
 
-    def _field(self, at: int, end: int) -> Iterator[TokenInfo]:
+    def _field(self, at: int, end: int) -> Cut:
         """Yield a replacement field; its end is returned."""
         yield self._token(tokenize.OP, at, at + 1)
         stop = self._end_of_expression(at + 1, end)

@@ -18,6 +18,9 @@ from scaffold.style.text import PythonText
 MIXED, FUTURE, STANDARD, THIRD_PARTY, RELATIVE = range(5)
 GROUPS = ("mixed", "__future__", "standard library", "third-party", "relative")
 
+SHOWN = 60
+"""Characters of a statement in a message."""
+
 Folded = tuple[str, str]
 
 
@@ -82,7 +85,7 @@ def _describe(node: ast.Import | ast.ImportFrom) -> Statement:
         level,
         tuple(map(fold, modules)),
         tuple(map(fold, imported)),
-        shown if len(shown) <= 60 else f"{shown[:57]}...",
+        shown if len(shown) <= SHOWN else f"{shown[: SHOWN - 3]}...",
     )
 
 

@@ -10,6 +10,7 @@ import os
 import sys
 from collections.abc import Iterator
 from functools import lru_cache
+from typing import Protocol
 
 
 @lru_cache(maxsize=4096)
@@ -21,8 +22,13 @@ def correct(word: str) -> str | None:
     forms = _imperatives().get(_stem(lowered))
     if not forms or lowered in forms:
         return None
-    best = max(sorted(forms), key=lambda form: len(os.path.commonprefix([lowered, form])))
-    return best.capitalize()
+    return max(sorted(forms), key=lambda form: _common(lowered, form)).capitalize()
+
+
+def _common(one: str, two: str) -> int:
+    """Return how many letters two words have in common at their start."""
+    pairs = zip(one, two, strict=False)
+    return next((at for at, (a, b) in enumerate(pairs) if a != b), min(len(one), len(two)))
 
 
 @lru_cache(maxsize=1)
@@ -40,14 +46,20 @@ def _imperatives() -> dict[str, set[str]]:
 
 @lru_cache(maxsize=4096)
 def _stem(word: str) -> str:
-    return str(_stemmer().stemWord(word))
+    return _stemmer().stemWord(word)
+
+
+class _Stemmer(Protocol):
+    def stemWord(self, word: str) -> str:  # noqa: N802  snowballstemmer's name
+        """Return the stem of a word."""
 
 
 @lru_cache(maxsize=1)
-def _stemmer() -> object:
-    import snowballstemmer
+def _stemmer() -> _Stemmer:
+    from importlib import import_module
 
-    return snowballstemmer.stemmer("english")
+    stemmer: _Stemmer = import_module("snowballstemmer").stemmer("english")
+    return stemmer
 
 
 def _words(name: str) -> Iterator[str]:

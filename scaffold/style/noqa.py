@@ -25,7 +25,7 @@ def skips_file(text: PythonText) -> bool:
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
     """Take flake8's name off the findings that a comment silences; drop what nobody reports."""
     if skips_file(text):
-        return _without(findings, lambda finding: True)
+        return _without(findings, lambda _: True)
     if "noqa" not in text.text.lower():
         return list(findings)
     silenced = _Silenced(text)

@@ -28,11 +28,14 @@ _SOFT_KEYWORDS = frozenset({"_", "case", "match", "type"})
 _UNARY = frozenset({">>", "**", "*", "+", "-"})
 _ARITHMETIC = frozenset({"**", "*", "/", "//", "+", "-", "@"})
 _OPTIONAL = _ARITHMETIC | {"^", "&", "|", "<<", ">>", "%"}
-_NEEDED = frozenset(
-    "**= *= /= //= += -= != < > %= ^= &= |= == <= >= <<= >>= = and in is or -> :=".split()
-)
+_SPACED = """
+    **= *= /= //= += -= != < > %= ^= &= |= == <= >= <<= >>= = and in is or -> :=
+"""
 
-CODES = frozenset("E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274".split())
+_NEEDED = frozenset(_SPACED.split())
+
+_CODES = "E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274"
+CODES = frozenset(_CODES.split())
 """Codes of ruff that make a line worth a look."""
 
 CANDIDATES = r"[,;:]\\\n|\{[^{}\n]*:[^{}\n]*\{"

@@ -90,16 +90,11 @@ def _too_long(text: PythonText) -> Iterator[Finding]:
 def _is_excused(text: PythonText, number: int, line: str) -> bool:
     """Tell whether the line is one long word, such as a URL, in a comment or a string."""
     words = line.split()
-    if length_before(line, words[-1]) >= MAX_LENGTH - 7:
+    if len(line) - len(words[-1]) >= MAX_LENGTH - 7:
         return False
-    if len(words) == 2 and words[0] == "#":
+    if words[:-1] == ["#"]:
         return True
     return len(words) == 1 and number in multiline_rows(text)
-
-
-def length_before(line: str, word: str) -> int:
-    """Return how much of the line stands before its last word."""
-    return len(line) - len(word)
 
 
 def multiline_rows(text: PythonText) -> set[int]:

@@ -392,7 +392,7 @@ class _Walk:
         """Tell whether two nodes are on different branches of their innermost common statement."""
         path, other_path = self.path(node), self.path(other)
         common = None
-        for one, two in zip(path, other_path):
+        for one, two in zip(path, other_path, strict=False):
             if one is not two:
                 break
             common = one

@@ -12,9 +12,8 @@ from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
 
-_BLOCK_KEYWORDS = frozenset(
-    "def async for if elif else try except finally with class while".split()
-)
+_BLOCK_WORDS = "def async for if elif else try except finally with class while"
+_BLOCK_KEYWORDS = frozenset(_BLOCK_WORDS.split())
 _BLOCK = (
     r"\s*(def|async\s+def|for|async\s+for|if|elif|else|try|except|finally|with|async\s+with"
     r"|class|while)\b"
@@ -108,7 +107,7 @@ def bare_except(line: str) -> Said:
         yield 0, "E722", "bare 'except:' catches SystemExit and KeyboardInterrupt, too"
 
 
-def compounds(line: str) -> Said:
+def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
     """E701, E702, E703, E731: several statements on one line."""
     last = len(line) - 1
     depth = dict.fromkeys("([{", 0)
@@ -141,7 +140,7 @@ def compounds(line: str) -> Said:
         found = line.find(";", found + 1)
 
 
-def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:
+def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:  # noqa: C901  one scan for all
     """E741, E742, E743: names that look like digits."""
     tokens = logical.tokens
     depth = 0
@@ -192,9 +191,9 @@ def late_imports(text: PythonText) -> Iterator[Finding]:
             if seen_code:
                 row, column = logical.position(0)
                 yield Finding("E402", row, column + 1, "import below other code of the module")
-        elif first.startswith("__") and re.match(_DUNDER, logical.text):
-            continue
-        elif first.startswith(_BEFORE_IMPORTS):
+        elif (first.startswith("__") and re.match(_DUNDER, logical.text)) or first.startswith(
+            _BEFORE_IMPORTS
+        ):
             continue
         elif _is_plain_string(first) and not seen_docstring:
             seen_docstring = True

@@ -7,8 +7,7 @@ every module of Python 2.7 and 3.6 to 3.13.
 
 from __future__ import annotations
 
-STDLIB = frozenset(
-    """
+_NAMES = """
     BaseHTTPServer Bastion CGIHTTPServer ColorPicker ConfigParser Cookie DocXMLRPCServer
     EasyDialogs FrameWork HTMLParser MacOS MimeWriter Queue SUNAUDIODEV SimpleHTTPServer
     SimpleXMLRPCServer SocketServer StringIO Tix Tkinter UserDict UserList UserString
@@ -37,5 +36,6 @@ STDLIB = frozenset(
     unicodedata unittest urllib urllib2 urlparse user uu uuid venv warnings wave weakref
     webbrowser whichdb winsound wsgiref xdrlib xml xmlrpc xmlrpclib zipapp zipfile zipimport
     zlib zoneinfo
-    """.split()
-)
+"""
+
+STDLIB = frozenset(_NAMES.split())

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 import tokenize
-from tokenize import TokenInfo as Token
 
 NAME = tokenize.NAME
 NUMBER = tokenize.NUMBER
@@ -25,6 +23,7 @@ NEWLINES = frozenset({NL, NEWLINE})
 LAYOUT = frozenset({NL, NEWLINE, INDENT, DEDENT})
 SILENT = LAYOUT | {COMMENT}
 
+Token = tokenize.TokenInfo
 Position = tuple[int, int]
 """Row from 1, column from 0."""
 
@@ -36,7 +35,7 @@ def read(lines: list[str]) -> list[Token]:
         cut = list(tokenize.generate_tokens(feed))
     except (tokenize.TokenError, SyntaxError, StopIteration):
         return []
-    if sys.version_info < (3, 12):
+    if FSTRING_START < 0:
         from scaffold.style.fstrings import open_up
 
         return open_up(cut)
