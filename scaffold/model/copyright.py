@@ -171,11 +171,17 @@ def _notices(block: str) -> tuple[list[str], str]:
 def _begins_line(block: str, at: int, floor: int) -> bool:
     r"""Tell whether only blanks, one other character or ``\copyright`` stand before ``at``."""
     before = _back(block, at, floor)
+    if _is_near_start(block, before, at, floor):
+        return True
     command = "\\copyright"
-    begin = before - len(command)
-    if begin >= floor and block[begin:before].lower() == command:
-        at = begin
-        before = _back(block, at, floor)
+    at = before - len(command)
+    if at < floor or block[at:before].lower() != command:
+        return False
+    return _is_near_start(block, _back(block, at, floor), at, floor)
+
+
+def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
+    """Tell whether the blanks from ``before`` to ``at`` begin a line, or its second character."""
     if before == floor or "\n" in block[before:at]:
         return True
     return before - 1 == floor or block[before - 2] == "\n"
