@@ -35,9 +35,18 @@ def page(rule: type[Rule]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def style_page(code: str, style: StyleCode) -> str:
+def style_page(style: StyleCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
-    return f"# {code} {style.name}\n\nReported by {style.linter}.\n\n{style.text}\n"
+    from scaffold.style.codes import FLAKE8, PEP257  # noqa: PLC0415  only for this
+
+    names = [
+        name
+        for flag, name in ((FLAKE8, "ament_flake8"), (PEP257, "ament_pep257"))
+        if style.linters & flag
+    ]
+    text = style.summary[0].upper() + style.summary[1:]
+    facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
+    return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n"
 
 
 def as_data(rule: type[Rule]) -> dict[str, object]:

@@ -113,11 +113,15 @@ def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int
     from scaffold.cli.main import CLEAN, FOUND
 
     if options.diff:
-        sys.stderr.write(f"{count} fixes, nothing written\n")
+        sys.stderr.write(f"{_fixes(count)}, nothing written\n")
         return FOUND if count else CLEAN
-    sys.stderr.write(f"{count} fixes applied\n")
+    sys.stderr.write(f"{_fixes(count)} applied\n")
     reporters.get(options.format)(results, sys.stdout)
     return exit_code(results)
+
+
+def _fixes(count: int) -> str:
+    return "1 fix" if count == 1 else f"{count} fixes"
 
 
 def exit_code(results: list[Result]) -> int:

@@ -68,6 +68,6 @@ def _page(word: str, rules: list[type[Rule]]) -> str:
             return docs.page(rule)
     style = CODES.get(word.upper())
     if style is not None:
-        return docs.style_page(word.upper(), style)
+        return docs.style_page(style)
     known = [*(rule.code for rule in rules), *(rule.name for rule in rules), *CODES]
     raise InputError(f"there is no rule {word!r}{nearest(word, known)}")

@@ -1,0 +1,216 @@
+"""What a user types and sees: exit codes, reports, fixes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+
+MANIFEST = """\
+<?xml version="1.0"?>
+<?xml-model href="http://download.ros.org/schema/package_format3.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
+<package format="3">
+  <name>talker</name>
+  <version>0.1.0</version>
+  <description>{description}</description>
+  <maintainer email="ada@example.com">Ada Lovelace</maintainer>
+  <license>Apache-2.0</license>
+
+  <buildtool_depend>ament_cmake</buildtool_depend>
+
+  <export>
+    <build_type>ament_cmake</build_type>
+  </export>
+</package>
+"""
+CMAKE_LISTS = """\
+cmake_minimum_required(VERSION 3.8)
+project({project})
+find_package(ament_cmake REQUIRED)
+ament_package()
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a clean package below the current directory, for a user without configuration."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    root = tmp_path / "talker"
+    root.mkdir()
+    (root / "package.xml").write_text(MANIFEST.format(description="Talks."))
+    (root / "CMakeLists.txt").write_text(CMAKE_LISTS.format(project="talker"))
+    return root
+
+
+@pytest.fixture
+def flawed(package: Path) -> Path:
+    """Return the package with one flaw that can be mended and one that cannot."""
+    (package / "package.xml").write_text(MANIFEST.format(description="TODO: Package description"))
+    (package / "CMakeLists.txt").write_text(CMAKE_LISTS.format(project="listener"))
+    return package
+
+
+def test_clean(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "talker"]) == 0
+    assert capsys.readouterr().out == "1 package, 2 files: nothing to report\n"
+
+
+def test_found(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check"]) == 1
+    assert capsys.readouterr().out.splitlines() == [
+        "talker/CMakeLists.txt:2:9: error CM001 the project is 'listener', the package 'talker' "
+        "(package.xml, line 4) [project-name-differs]",
+        "talker/package.xml:6:3: error PX002 the description is a placeholder, "
+        "'TODO: Package description' [description-placeholder]",
+        "1 package, 2 files: 2 errors; 1 can be mended with --fix",
+    ]
+
+
+def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--format", "json", str(flawed)]) == 1
+    report = json.loads(capsys.readouterr().out)
+    assert report["diagnostics"][0] == {
+        "code": "CM001",
+        "name": "project-name-differs",
+        "severity": "error",
+        "path": "talker/CMakeLists.txt",
+        "line": 2,
+        "column": 9,
+        "end_line": 2,
+        "end_column": 17,
+        "message": "the project is 'listener', the package 'talker' (package.xml, line 4)",
+        "fixable": True,
+    }
+    assert report["summary"] == {
+        "packages": 1,
+        "files": 2,
+        "errors": 2,
+        "warnings": 0,
+        "infos": 0,
+    }
+
+
+def test_select_and_ignore(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--select", "CM"]) == 1
+    assert "PX002" not in capsys.readouterr().out
+    assert main(["check", "--ignore", "CM001,PX"]) == 0
+
+
+def test_one_file_of_a_package(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "talker/package.xml"]) == 1
+    assert "CM001" not in capsys.readouterr().out
+
+
+def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    loose = package.parent / "node.py"
+    loose.write_text("import os\n")
+    assert main(["check", "node.py"]) == 1
+    assert "node.py:1:1: warning F401" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["check", "nowhere"], "nowhere: no such file or directory"),
+        (["check", "--select", "CN001"], "--select: no rule has the code 'CN001'"),
+        (["rules", "CN001"], "there is no rule 'CN001'; did you mean"),
+    ],
+)
+def test_at_fault(
+    package: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"ros2-scaffold: error: {message}")
+    assert error.count("\n") == 1
+
+
+def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
+    assert main(["check"]) == 1
+    assert "PX002" not in capsys.readouterr().out
+    assert main(["check", "--ignore", "CM"]) == 1
+    assert "PX002" in capsys.readouterr().out
+
+
+def test_per_path_ignores(flawed: Path) -> None:
+    (flawed.parent / "ros2-scaffold.toml").write_text(
+        '[check.per-path-ignores]\n"package.xml" = ["PX"]\n"CMake*" = ["CM"]\n'
+    )
+    assert main(["check"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[check]\nselekt = []\n", "[check] has no key 'selekt'"),
+        ("[check]\nselect = 'PX'\n", "check.select must be a list of strings"),
+        ("[check\n", "not TOML"),
+    ],
+)
+def test_broken_configuration(
+    package: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
+) -> None:
+    (package.parent / "ros2-scaffold.toml").write_text(text)
+    assert main(["check"]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_diff_writes_nothing(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = (flawed / "CMakeLists.txt").read_text()
+    assert main(["check", "--diff"]) == 1
+    assert "-project(listener)\n+project(talker)\n" in capsys.readouterr().out
+    assert (flawed / "CMakeLists.txt").read_text() == before
+
+
+def test_fix(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--fix"]) == 1
+    assert (flawed / "CMakeLists.txt").read_text() == CMAKE_LISTS.format(project="talker")
+    captured = capsys.readouterr()
+    assert captured.err == "1 fix applied\n"
+    assert "PX002" in captured.out
+    assert "CM001" not in captured.out
+
+
+def test_fix_style(package: Path) -> None:
+    node = package / "test" / "test_node.py"
+    node.parent.mkdir()
+    node.write_text('"""A test."""\n\nimport sys\nimport os\n\nprint("a", os, sys)\n')
+    main(["check", "--fix"])
+    assert node.read_text() == "\"\"\"A test.\"\"\"\n\nimport os\nimport sys\n\nprint('a', os, sys)\n"
+
+
+def test_a_crashing_rule_of_the_user(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rule = package.parent / "mine" / "rules" / "cmake" / "crash.py"
+    rule.parent.mkdir(parents=True)
+    rule.write_text(
+        "from scaffold.api import Rule\n\n\nclass Crash(Rule):\n"
+        "    code = 'CM999'\n    name = 'crash'\n    examples = ()\n\n"
+        "    def check(self, package):\n        raise ValueError('on purpose')\n"
+    )
+    assert main(["check", "--content", "mine", "talker"]) == 3
+    assert "the rule CM999 crash failed: ValueError: on purpose" in capsys.readouterr().out
+
+
+def test_rules_explained(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules", "cm001", "E501"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("# CM001 project-name-differs\n")
+    assert "\n# E501 " in out
+
+
+def test_rules_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert sum(line.startswith(("CM", "PX", "SP", "LY", "ND", "SC")) for line in lines) > 50
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        main(["--version"])
+    assert capsys.readouterr().out.startswith("ros2-scaffold 0.")
