@@ -91,7 +91,8 @@ class _Reader:
             raise _Limit(f"more than {MAX_TEXT} characters in one piece: no reader goes on")
 
     def _declare(self, version: str, _encoding: str | None, _standalone: int) -> None:
-        if not version.startswith("1."):
+        major, _, minor = version.partition(".")
+        if major != "1" or not (minor.isascii() and minor.isdigit()):
             raise _Limit(f"XML has no version {version}: write 1.0")
 
 
