@@ -78,7 +78,7 @@ def cmake_findings(package: Package, _said: list[Diagnostic]) -> set[Finding]:
 
 def xml_files(_package: Package, said: list[Diagnostic]) -> set[Finding]:
     """Return the XML files that a rule complains about."""
-    return {(d.location.path, 0, "xmllint") for d in said if d.location.path.endswith(".xml")}
+    return {(d.location.path, 0, "xmllint") for d in said if d.code != NESTED}
 
 
 LINTERS = (
