@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from scaffold.model import condition as conditions
 from scaffold.model import xml_tree
 from scaffold.model.source import Location, Source
 from scaffold.model.xml_tree import Comment, Document, Element, Instruction, decode
@@ -281,6 +280,8 @@ class Manifest:
 def _is_active(condition: str | None) -> bool:
     if condition is None:
         return True
+    from scaffold.model import condition as conditions  # few manifests have one
+
     try:
         return conditions.holds(condition)
     except conditions.ConditionError:

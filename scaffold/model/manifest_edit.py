@@ -69,14 +69,15 @@ def insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
 
 
 def remove(manifest: Manifest, element: Element) -> Edit:
-    """Remove an element, with its line when it is alone there."""
+    """Remove an element, with its line and the comment behind it when it is alone there."""
     text = manifest.source.text
-    start, end = element.start, element.end
+    start, end = element.start, _rest_of_line(manifest, element) or element.end
     line_start = text.rfind("\n", 0, start) + 1
     line_end = text.find("\n", end)
     line_end = len(text) if line_end < 0 else line_end + 1
     if not text[line_start:start].strip() and not text[end:line_end].strip():
         return Edit(manifest.source.path, line_start, line_end, "")
+    end = element.end
     while start > line_start and text[start - 1] in " \t" and text[end : end + 1] in {" ", "\t"}:
         start -= 1
     return Edit(manifest.source.path, start, end, "")
