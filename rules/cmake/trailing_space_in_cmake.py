@@ -31,8 +31,8 @@ class TrailingSpaceInCmake(Rule):
         ),
         Example(
             "in a string",
-            {"CMakeLists.txt": 'set(TEXT "one \ntwo")\n'},
-            at=("CMakeLists.txt:1",),
+            {"cmake/text.cmake": 'set(TEXT "one \ntwo")\n'},
+            at=("cmake/text.cmake:1",),
         ),
     )
 
