@@ -104,6 +104,8 @@ class _Opened:
             yield self._token(tokenize.OP, at, at + 1)
             yield self._token(tokenize.NAME, at + 1, at + 2)
             at += 2
+            while at < end and self._text[at].isspace():
+                at += 1
         if self._text[at : at + 1] == ":":
             yield self._token(tokenize.OP, at, at + 1)
             at = yield from self._literal(at + 1, end, in_spec=True)

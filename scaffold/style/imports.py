@@ -44,18 +44,19 @@ class Statement(NamedTuple):
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the import statements that stand in the wrong place."""
+    found: list[Finding] = []
     before: Statement | None = None
-    for statement in statements(text):
-        yield from _judge(statement)
-        if before is not None:
-            yield from _compare(before, statement, text.lines)
-        before = statement
-
-
-def statements(text: PythonText) -> Iterator[Statement]:
-    """Yield the import statements that start in the first column."""
     for node in _nodes(text.tree):
-        yield _describe(node)
+        statement = describe(node)
+        found.extend(_judge(statement))
+        if before is not None:
+            found.extend(_compare(before, statement, text.lines))
+        before = statement
+    if found and text.tree is not None:
+        from scaffold.style.import_fixes import attach
+
+        found = attach(text, text.tree, found)
+    yield from found
 
 
 def _nodes(tree: ast.Module | None) -> Iterator[ast.Import | ast.ImportFrom]:
@@ -64,7 +65,8 @@ def _nodes(tree: ast.Module | None) -> Iterator[ast.Import | ast.ImportFrom]:
             yield node
 
 
-def _describe(node: ast.Import | ast.ImportFrom) -> Statement:
+def describe(node: ast.Import | ast.ImportFrom) -> Statement:
+    """Return what an import statement is judged by."""
     names = [alias.name for alias in node.names]
     if isinstance(node, ast.Import):
         groups = {_group(name) for name in names}

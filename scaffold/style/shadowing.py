@@ -57,7 +57,11 @@ Named = Iterator[tuple[str, int, int]]
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the names that hide a builtin."""
     in_class = {
-        id(child) for node in text.nodes if isinstance(node, ast.ClassDef) for child in node.body
+        id(child)
+        for node in text.nodes
+        if isinstance(node, ast.ClassDef)
+        for child in node.body
+        if isinstance(child, (ast.Assign, ast.AnnAssign, *_Function))
     }
     for node in text.nodes:
         if not isinstance(node, _BINDING):
