@@ -372,6 +372,19 @@ def test_any_bytes_can_be_read_as_xml(data: bytes) -> None:
     assert found is None or found[0].path == "a.xml"
 
 
+@needs_system_linter("ament_copyright")
+@needs_system_linter("ament_xmllint")
+def test_links_to_nothing_are_reported(tmp_path: Path) -> None:
+    package = write(tmp_path, {"package.xml": MANIFESTS[2]})
+    (tmp_path / "a.py").symlink_to("gone.py")
+    (tmp_path / "b.xml").symlink_to("gone.xml")
+    assert {found.path for found in oracles.ament_copyright(tmp_path)} == {"a.py"}
+    with pytest.raises(AssertionError, match="ament_xmllint failed"):
+        oracles.files_rejected_by_xmllint(tmp_path)
+    said = runner.check(package, [*COPYRIGHT, RULES["PX050"]])
+    assert [d.location.path for d in said] == ["a.py", "b.xml"]
+
+
 # -- ament_xmllint: package.xml
 
 HEAD = """\

@@ -77,8 +77,7 @@ class CopyrightNoticeMissing(Rule):
         for header in found:
             if use.covers(header.path):
                 said = header.unreadable or "no copyright notice in the first comment of this file"
-                end = "ends in a traceback" if header.unreadable else "fails"
-                yield self.report(header, f"{said}: ament_copyright {end}")
+                yield self.report(header, f"{said}: ament_copyright fails")
         if passed_over:
             why = use.why_not or "it is told to exclude them"
             number = len(passed_over) - 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from scaffold.model.package import Package
 
 IGNORE_MARKER = "AMENT_IGNORE"
@@ -13,10 +15,15 @@ def lintable(package: Package) -> tuple[str, ...]:
     They leave out directories that begin with ``_`` or ``.``, and directories with a file or a
     directory named AMENT_IGNORE and all that is below.
     """
-    return package.remember("ament_files", lambda: tuple(_visited(package)))
+    return package.remember("ament_files", lambda: tuple(_visited(package, package.files)))
 
 
-def _visited(package: Package) -> list[str]:
+def broken_links(package: Package) -> list[str]:
+    """Return the links to nothing that the linters stop at: they see a name, and no file."""
+    return _visited(package, getattr(package.tree, "broken_links", ()))
+
+
+def _visited(package: Package, paths: Iterable[str]) -> list[str]:
     marked = [
         path[: -len(IGNORE_MARKER)]
         for path in (*package.files, *package.tree.directories)
@@ -27,6 +34,6 @@ def _visited(package: Package) -> list[str]:
     ignored = tuple(marked)
     return [
         path
-        for path in package.files
+        for path in paths
         if not path.startswith(ignored) and "/_" not in f"/{path.rpartition('/')[0]}"
     ]

@@ -7,7 +7,7 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from scaffold.model.ament_files import lintable
+from scaffold.model.ament_files import broken_links, lintable
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 
@@ -61,6 +61,10 @@ def _headers(package: Package) -> list[Header]:
             continue  # SC001 of whoever needs the file
         if data:
             found.append(read(path, data))
+    for path in broken_links(package):
+        if os.path.splitext(path)[1] in EXTENSIONS:
+            at = Location.start_of(path)
+            found.append(Header(path, at, unreadable="this link leads to no file"))
     return found
 
 

@@ -39,6 +39,7 @@ class DiskTree:
     def __init__(self, root: str | os.PathLike[str]) -> None:
         self.root = os.fspath(root)
         self._nested: list[str] = []
+        self._broken: list[str] = []
 
     @cached_property
     def _listing(self) -> tuple[tuple[str, ...], frozenset[str]]:
@@ -47,11 +48,12 @@ class DiskTree:
         pending = [""]
         while pending:
             parent = pending.pop()
-            names, children = _list(os.path.join(self.root, parent))
+            names, children, broken = _list(os.path.join(self.root, parent))
             if parent and MANIFEST in names:
                 self._nested.append(parent.rstrip("/"))
                 continue
             files.extend(parent + name for name in names)
+            self._broken.extend(parent + name for name in broken)
             for name in children:
                 path = parent + name
                 if _is_skipped(os.path.join(self.root, path), name, at_root=not parent):
@@ -75,10 +77,16 @@ class DiskTree:
         """The directories that hold a package of their own."""
         return sorted(self._nested) if self._listing else ()
 
+    @property
+    def broken_links(self) -> Sequence[str]:
+        """The links to files that are not there; they are not among the files."""
+        return sorted(self._broken) if self._listing else ()
+
     def forget(self) -> None:
         """Drop the listing."""
         self.__dict__.pop("_listing", None)
         self._nested.clear()
+        self._broken.clear()
 
     def read(self, path: str) -> bytes:
         """Return what is in a file; raises OSError."""
@@ -141,10 +149,11 @@ class MemoryTree:
         return path in self._executable
 
 
-def _list(directory: str) -> tuple[list[str], list[str]]:
-    """Return names of files and of directories; an unreadable directory has none."""
+def _list(directory: str) -> tuple[list[str], list[str], list[str]]:
+    """Return names of files, directories and broken links; an unreadable directory has none."""
     files: list[str] = []
     directories: list[str] = []
+    broken: list[str] = []
     try:
         with os.scandir(directory) as entries:
             for entry in entries:
@@ -152,9 +161,11 @@ def _list(directory: str) -> tuple[list[str], list[str]]:
                     directories.append(entry.name)
                 elif not entry.is_symlink() or entry.is_file():
                     files.append(entry.name)
+                elif not os.path.exists(entry.path):
+                    broken.append(entry.name)
     except OSError:
-        return [], []
-    return files, directories
+        return [], [], []
+    return files, directories, broken
 
 
 def _is_skipped(path: str, name: str, *, at_root: bool) -> bool:

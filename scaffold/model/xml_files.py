@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.parsers import expat
 
 from scaffold.errors import ParseError
-from scaffold.model.ament_files import lintable
+from scaffold.model.ament_files import broken_links, lintable
 from scaffold.model.package import Package
 from scaffold.model.source import Location, Source
 
@@ -16,8 +16,8 @@ MAX_TEXT = 10_000_000
 
 
 def of_package(package: Package) -> list[str]:
-    """Return the paths that ament_xmllint looks at."""
-    return [path for path in lintable(package) if _is_xml(path)]
+    """Return the paths that ament_xmllint looks at, links that lead nowhere among them."""
+    return [path for path in (*lintable(package), *broken_links(package)) if _is_xml(path)]
 
 
 def mistake(package: Package, path: str) -> tuple[Location, str] | None:
