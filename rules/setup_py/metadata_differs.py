@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.licences import spdx_of
 from scaffold.model.manifest import Manifest
 
 _MANIFEST = (
@@ -63,6 +64,8 @@ class MetadataDiffers(Rule):
                 continue
             if _normal(keyword.value) in {_normal(one) for one in wanted}:
                 continue
+            if name == "license" and _means_one_of(keyword.value, wanted):
+                continue
             tag = "maintainer" if name.startswith("maintainer") else name
             element = manifest.one(tag)
             line = element.location.line if element else 1
@@ -90,6 +93,12 @@ def _expected(manifest: Manifest) -> dict[str, list[str]]:
 
 def _or_all(values: list[str]) -> list[str]:
     return [*values, ", ".join(values), "; ".join(values)] if values else []
+
+
+def _means_one_of(license_: str, wanted: list[str]) -> bool:
+    """Tell whether two spellings stand for the same licence."""
+    meant = set(spdx_of(license_))
+    return any(not meant.isdisjoint(spdx_of(one)) for one in wanted)
 
 
 def _normal(text: str) -> str:

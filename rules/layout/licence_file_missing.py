@@ -1,0 +1,60 @@
+"""LY006: the text of the licence comes with the package."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+NAMES = ("LICENSE", "LICENCE", "COPYING")
+_DEPTH = 5
+
+
+class LicenceFileMissing(Rule):
+    """Neither the package nor its repository has the text of the licence.
+
+    **Why.** Most licences ask that their text comes along; rosdistro asks for it at the first
+    release.
+
+    **Fix.** Add a LICENSE file with the full text.
+
+    **Source.** ROS 2 documentation, "Indexing your packages"; rosdistro review guidelines.
+    """
+
+    code = "LY006"
+    name = "licence-file-missing"
+    severity = Severity.INFO
+    examples = (
+        Example("there", {"package.xml": "<package/>\n", "setup.py": "", "LICENSE": "..."}),
+        Example(
+            "nowhere",
+            {"package.xml": "<package/>\n", "setup.py": ""},
+            at=("package.xml:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if not package.has("setup.py") and not package.has("CMakeLists.txt"):
+            return
+        names = [path for path in package.files if "/" not in path]
+        if any(name.upper().startswith(NAMES) for name in names):
+            return
+        if package.root is not None and self._is_above(package.root):
+            return
+        yield self.report(package.start_of("package.xml"), "there is no LICENSE file here or above")
+
+    def _is_above(self, root: str) -> bool:
+        """Look up to the top of the repository."""
+        directory = os.path.abspath(root)
+        for _ in range(_DEPTH):
+            if os.path.exists(os.path.join(directory, ".git")):
+                return False
+            directory = os.path.dirname(directory)
+            try:
+                names = os.listdir(directory)
+            except OSError:
+                return False
+            if any(name.upper().startswith(NAMES) for name in names):
+                return True
+        return False

@@ -1,0 +1,46 @@
+"""PX026: build tools are build tools."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+TOOLS = (
+    "ament_cmake",
+    "ament_cmake_auto",
+    "ament_cmake_python",
+    "ament_cmake_ros",
+    "rosidl_default_generators",
+)
+KINDS = ("depend", "exec_depend", "build_export_depend")
+_MANIFEST = '<package format="3">\n  <{0}>ament_cmake</{0}>\n</package>\n'
+
+
+class BuildToolMisplaced(Rule):
+    """A build tool is declared as if it were needed at run time.
+
+    **Why.** Every robot that installs the package installs the build system with it, and a
+    cross-build takes it for the target's.
+
+    **Fix.** Write ``<buildtool_depend>``.
+
+    **Source.** REP-149, ``<buildtool_depend>``.
+    """
+
+    code = "PX026"
+    name = "build-tool-misplaced"
+    severity = Severity.WARNING
+    examples = (
+        Example("a build tool", {"package.xml": _MANIFEST.format("buildtool_depend")}),
+        Example("needed to run", {"package.xml": _MANIFEST.format("depend")}, at=("package.xml:2",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        if manifest.name.startswith(("ament_", "rosidl_")) or manifest.format == 1:
+            return
+        for dependency in manifest.dependencies:
+            if dependency.name in TOOLS and dependency.kind in KINDS:
+                message = f"{dependency.name!r} builds the package: write <buildtool_depend>"
+                yield self.report(dependency, message)

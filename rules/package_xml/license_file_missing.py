@@ -1,0 +1,40 @@
+"""PX006: the licence file that the manifest names exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package>\n'
+
+
+class LicenseFileMissing(Rule):
+    """``<license file="...">`` names a file that does not exist.
+
+    **Why.** The text of the licence is part of the release; no tool looks whether it is there.
+
+    **Fix.** Write the path relative to package.xml, or add the file.
+
+    **Source.** REP-149, ``<license>``, attribute ``file``.
+    """
+
+    code = "PX006"
+    name = "license-file-missing"
+    examples = (
+        Example("there", {"package.xml": _MANIFEST.format("LICENSE"), "LICENSE": "..."}),
+        Example(
+            "not there",
+            {"package.xml": _MANIFEST.format("LICENCE"), "LICENSE": "..."},
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element in package.manifest.all("license"):
+            file = element.attributes.get("file")
+            if file is None or package.has(file.value.removeprefix("./")):
+                continue
+            if file.value.startswith(("..", "/")):
+                continue
+            yield self.report(file, f"there is no file {file.value!r} beside package.xml")

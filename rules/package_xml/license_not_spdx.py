@@ -1,0 +1,56 @@
+"""PX005: licences are named as SPDX names them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.model.licences import spdx_of
+
+
+class LicenseNotSpdx(Rule):
+    """``<license>`` has another spelling than the SPDX identifier.
+
+    **Why.** The release guide asks for the short identifier, which tools compare; ``BSD`` alone
+    does not even say which licence is meant.
+
+    **Fix.** Write the identifier.
+
+    **Source.** ROS 2 documentation, "Indexing your packages"; https://spdx.org/licenses.
+    """
+
+    code = "PX005"
+    name = "license-not-spdx"
+    severity = Severity.INFO
+    examples = (
+        Example("SPDX", {"package.xml": "<package><license>MIT</license></package>\n"}),
+        Example(
+            "as most of ROS itself writes it",
+            {"package.xml": "<package><license>Apache License 2.0</license></package>\n"},
+        ),
+        Example(
+            "another spelling",
+            {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
+            at=("package.xml:2",),
+            fixed={"package.xml": "<package>\n  <license>GPL-3.0-only</license>\n</package>\n"},
+        ),
+        Example(
+            "which BSD?",
+            {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
+            at=("package.xml:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for element in package.manifest.all("license"):
+            meant = spdx_of(element.text)
+            if not meant or element.text in meant or meant == ("Apache-2.0",):
+                continue
+            if len(meant) > 1:
+                message = f"{element.text!r} may be any of {', '.join(meant)}"
+                yield self.report(element.text_location, message)
+                continue
+            edit = Edit("package.xml", *element.text_span, meant[0])
+            fix = Fix(f"write {meant[0]}", (edit,))
+            message = f"the SPDX identifier of {element.text!r} is {meant[0]}"
+            yield self.report(element.text_location, message, fix)

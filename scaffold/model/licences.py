@@ -1,0 +1,60 @@
+"""How people spell licences, and the SPDX identifiers that they mean."""
+
+from __future__ import annotations
+
+import re
+
+_SPELLINGS = {
+    "apache": ("Apache-2.0",),
+    "apache 2": ("Apache-2.0",),
+    "apache 2.0": ("Apache-2.0",),
+    "asl 2.0": ("Apache-2.0",),
+    "boost": ("BSL-1.0",),
+    "boost 1.0": ("BSL-1.0",),
+    "boost software": ("BSL-1.0",),
+    "boost software 1.0": ("BSL-1.0",),
+    "bsl 1.0": ("BSL-1.0",),
+    "bsd": ("BSD-2-Clause", "BSD-3-Clause"),
+    "bsd 2 clause": ("BSD-2-Clause",),
+    "bsd 2.0": ("BSD-2-Clause",),
+    "bsd 3 clause": ("BSD-3-Clause",),
+    "bsd 3": ("BSD-3-Clause",),
+    "3 clause bsd": ("BSD-3-Clause",),
+    "2 clause bsd": ("BSD-2-Clause",),
+    "cc0": ("CC0-1.0",),
+    "gpl": ("GPL-2.0-only", "GPL-3.0-only"),
+    "gpl 2": ("GPL-2.0-only",),
+    "gpl 2.0": ("GPL-2.0-only",),
+    "gplv2": ("GPL-2.0-only",),
+    "gpl 3": ("GPL-3.0-only",),
+    "gpl 3.0": ("GPL-3.0-only",),
+    "gplv3": ("GPL-3.0-only",),
+    "gnu gpl 3.0": ("GPL-3.0-only",),
+    "lgpl": ("LGPL-2.1-only", "LGPL-3.0-only"),
+    "lgpl 2.1": ("LGPL-2.1-only",),
+    "lgplv2.1": ("LGPL-2.1-only",),
+    "lgpl 3": ("LGPL-3.0-only",),
+    "lgpl 3.0": ("LGPL-3.0-only",),
+    "lgplv3": ("LGPL-3.0-only",),
+    "mit": ("MIT",),
+    "expat": ("MIT",),
+    "mit 0": ("MIT-0",),
+    "mozilla public 2.0": ("MPL-2.0",),
+    "mpl": ("MPL-2.0",),
+    "mpl 2.0": ("MPL-2.0",),
+}
+_NOISE = r"\b(?:the|license|licence|licensed|version|software|new|modified|simplified)\b"
+
+
+def spdx_of(text: str) -> tuple[str, ...]:
+    """Return the SPDX identifiers that a spelling may mean; nothing if it is not known.
+
+    ``Apache License, Version 2.0`` means ``Apache-2.0``; ``BSD`` may be one of two.
+    """
+    plain = re.sub(r"[,;()\-_]+", " ", text.lower())
+    plain = re.sub(r"\bv(?=\d)", "", plain)
+    for candidate in (plain, re.sub(_NOISE, " ", plain)):
+        found = _SPELLINGS.get(" ".join(candidate.split()))
+        if found:
+            return found
+    return ()
