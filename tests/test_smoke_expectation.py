@@ -33,6 +33,7 @@ def node(init: str, methods: str = "", main: str = "rclpy.spin(Talker())") -> Pa
     """Return a package whose node has this in its constructor and these methods."""
     return python(
         "import rclpy\n"
+        "from rclpy.callback_groups import ReentrantCallbackGroup\n"
         "from rclpy.node import Node\n"
         "from std_msgs.msg import String\n\n\n"
         "class Talker(Node):\n"
@@ -54,68 +55,79 @@ def tick(self):
 
 
 @pytest.mark.parametrize(
-    ("init", "methods", "rate", "certain"),
+    ("init", "methods", "rate", "publishes"),
     [
-        pytest.param("self.create_timer(0.5, self.tick)", TICK, 2.0, True, id="timer"),
+        pytest.param("self.create_timer(0.5, self.tick)", TICK, 2.0, "certain", id="timer"),
         pytest.param(
             "self.declare_parameter('rate', 20.0)\n"
             "rate = self.get_parameter('rate').value\n"
             "self.create_timer(1.0 / rate, self.tick)",
-            TICK, 20.0, True, id="parameter",
+            TICK, 20.0, "certain", id="parameter",
         ),
         pytest.param(
             "self.create_timer(0.5, self.tick)\nself.create_timer(0.25, self.tick)",
-            TICK, 6.0, True, id="two timers",
+            TICK, 6.0, "certain", id="two timers",
         ),
         pytest.param(
             "self.create_timer(0.5, self.outer)",
             TICK + "\ndef outer(self):\n    self.tick()\n    self.tick()\n",
-            4.0, True, id="twice through another method",
+            4.0, "certain", id="twice through another method",
         ),
         pytest.param(
             "self.timer = self.create_timer(0.5, self.tick)",
-            TICK + "    self.timer.cancel()\n", None, False, id="cancelled",
+            TICK + "    self.timer.cancel()\n", None, "perhaps", id="cancelled",
         ),
         pytest.param(
             "self.create_timer(0.5, self.tick)",
             "def tick(self):\n    if self.ready:\n        self.pub.publish(String())\n",
-            None, False, id="condition",
+            None, "perhaps", id="condition",
         ),
         pytest.param(
             "self.create_timer(0.5, self.tick)",
             "def tick(self):\n    if not self.ready:\n        return\n"
             "    self.pub.publish(String())\n",
-            None, False, id="early return",
+            None, "perhaps", id="early return",
         ),
         pytest.param(
             "self.create_timer(0.5, self.tick)",
             "def tick(self):\n    return\n    self.pub.publish(String())\n",
-            None, True, id="never gets there",
+            None, "never", id="never gets there",
         ),
-        pytest.param("", TICK, None, True, id="no timer"),
-        pytest.param("", "", None, True, id="no publish"),
-        pytest.param("self.pub.publish(String())", "", None, True, id="once"),
+        pytest.param("", TICK, None, "never", id="no timer"),
+        pytest.param("", "", None, "never", id="no publish"),
+        pytest.param("self.pub.publish(String())", "", None, "certain", id="once"),
         pytest.param(
             "self.create_subscription(String, 'heard', self.hear, 10)",
             "def hear(self, msg):\n    self.pub.publish(msg)\n",
-            None, False, id="relay",
+            None, "perhaps", id="relay",
         ),
         pytest.param(
             "self.create_subscription(String, 'heard', self.pub.publish, 10)",
-            "", None, False, id="relay without a method",
+            "", None, "perhaps", id="relay without a method",
         ),
-        pytest.param("helper(self.pub)", "", None, False, id="handed on"),
+        pytest.param("helper(self.pub)", "", None, "perhaps", id="handed on"),
         pytest.param(
-            "threading.Thread(target=self.tick).start()", TICK, None, False, id="thread"
+            "threading.Thread(target=self.tick).start()", TICK, None, "perhaps", id="thread"
         ),
         pytest.param(
-            "self.create_timer(period(), self.tick)", TICK, None, True, id="unknown period"
+            "self.create_timer(0.5, self.tick, callback_group=ReentrantCallbackGroup())",
+            TICK, 2.0, "certain", id="callback group",
+        ),
+        pytest.param(
+            "self.create_timer(0.5, self.tick, callback_group=Throttled())",
+            TICK, None, "perhaps", id="callback group of their own",
+        ),
+        pytest.param(
+            "self.create_timer(period(), self.tick)", TICK, None, "certain", id="unknown period"
         ),
     ],
 )  # fmt: skip
-def test_rate_and_certainty(init: str, methods: str, rate: float | None, *, certain: bool) -> None:
+def test_rate_and_certainty(init: str, methods: str, rate: float | None, publishes: str) -> None:
+    certain, never = publishes == "certain", publishes == "never"
     found = expectations(node(init, methods))["run"]
-    assert found.publications == (Publication("/words", STRING, rate, certain=certain),)
+    (publication,) = found.publications
+    assert (publication.topic, publication.type) == ("/words", STRING)
+    assert (publication.rate_hz, publication.certain, publication.never) == (rate, certain, never)
     assert (found.is_node, found.source) == (True, "demo/run.py")
 
 
@@ -195,8 +207,10 @@ def seen(count: int, rate: float | None, span: float, watched: float | None = No
     return Observation(nodes=("/talker",), topics=(topic,))
 
 
-def expecting(rate: float | None, *, certain: bool = True, kind: str = STRING) -> Expectation:
-    publication = Publication("/words", kind, rate, certain=certain)
+def expecting(
+    rate: float | None, *, certain: bool = True, kind: str = STRING, sources: int = 1
+) -> Expectation:
+    publication = Publication("/words", kind, rate, certain=certain, sources=sources)
     return Expectation((publication,), is_node=True, source="talker.py")
 
 
@@ -222,6 +236,18 @@ def test_rate(rate: float | None, observation: Observation, problem: str | None)
     said = f"talker.py publishes {STRING}" + (f" at {rate:g} Hz" if rate else "")
     assert list(map(str, problems)) == ([f"{problem}: {said}"] if problem else [])
     assert notes == []
+
+
+def test_messages_that_come_at_once() -> None:
+    assert compare(expecting(3.0), seen(9, 3.2, 2.5), 3.0)[0] != []
+    assert compare(expecting(3.0, sources=2), seen(9, 3.2, 2.5), 3.0)[0] == []
+
+
+def test_publisher_that_is_not_used() -> None:
+    unused = Expectation((Publication("/words", STRING, None, never=True),), source="talker.py")
+    problems, _ = compare(unused, seen(0, None, 0.0), 5.0)
+    assert list(map(str, problems)) == ["no message on /words: nothing that runs calls publish"]
+    assert compare(unused, Observation(), 1.0, finished=True) == ([], [])
 
 
 def test_silence() -> None:

@@ -12,7 +12,7 @@ from scaffold.model.package import Package
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.values import Unknown
 from scaffold.smoke.expectation import Expectation, Publication
-from scaffold.smoke.publishing import Publishing
+from scaffold.smoke.publishing import Publishing, Reach
 
 _MAX_BASES = 8
 
@@ -149,8 +149,15 @@ def _publications(
             topic = _resolved(publisher.topic, owner)
             if topic is not None:
                 rate = publishing.rate(publisher) if alone else None
-                certain = rate is not None or publishing.is_certain(publisher)
-                yield Publication(topic, publisher.message_type, rate, certain=certain)
+                reach = publishing.reach(publisher)
+                yield Publication(
+                    topic,
+                    publisher.message_type,
+                    rate,
+                    certain=rate is not None or reach is Reach.ALWAYS,
+                    never=reach is Reach.NEVER,
+                    sources=publishing.sources(publisher) if rate else 1,
+                )
 
 
 def _publishers(owner: NodeOwner, starts: list[FunctionNode]) -> Iterator[Publisher]:
@@ -211,5 +218,11 @@ def _joined(one: Publication, other: Publication) -> Publication:
     rates = (one.rate_hz, other.rate_hz)
     known = [rate for rate in rates if rate is not None]
     rate = sum(known) if len(known) == len(rates) else None
-    certain = one.certain or other.certain
-    return Publication(one.topic, other.type or one.type, rate, certain=certain)
+    return Publication(
+        one.topic,
+        other.type or one.type,
+        rate,
+        certain=one.certain or other.certain,
+        never=one.never and other.never,
+        sources=one.sources + other.sources,
+    )

@@ -15,6 +15,8 @@ ENOUGH_MESSAGES = 5
 ENOUGH_SECONDS = 1.0
 ENOUGH_SECONDS_SLOW = 3.0
 """A rate is judged over the first two, or, for slow topics, over the last."""
+LATENESS = 0.02
+"""Seconds by which the first or the last message may be late."""
 PATIENCE = 2
 """Periods that have to pass before silence means something."""
 
@@ -30,7 +32,11 @@ class Publication:
     rate_hz: float | None = None
     """``None``: how often cannot be told."""
     certain: bool = False
-    """Whether silence is a mistake: it publishes without anything having to happen before."""
+    """It publishes without anything having to happen before."""
+    never: bool = False
+    """Its source makes the publisher, and nothing that is run publishes."""
+    sources: int = 1
+    """Timers and calls that make up the rate: so many messages may come at once."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,7 @@ def compare(
             problems += problem
             notes += note
         elif publication.rate_hz:
-            problems += _wrong_rate(publication.rate_hz, topic, said)
+            problems += _wrong_rate(publication, topic, said)
     return problems, notes
 
 
@@ -115,12 +121,15 @@ def _silent(
     rate = publication.rate_hz
     if rate and seconds < PATIENCE / rate:
         return [], [f"no message on {topic.name} yet: its period is {1 / rate:g} s"]
+    if publication.never:
+        return [Problem(f"no message on {topic.name}: nothing that runs calls publish")], []
     if not publication.certain:
         return [], [f"no message on {topic.name}: something has to happen first"]
     return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {said}")], []
 
 
-def _wrong_rate(rate: float, topic: Topic, said: str) -> list[Problem]:
+def _wrong_rate(publication: Publication, topic: Topic, said: str) -> list[Problem]:
+    rate = publication.rate_hz or 0.0
     expected = rate * topic.watched
     if expected >= ENOUGH_MESSAGES and topic.count < expected / 2:
         many = "message" if topic.count == 1 else "messages"
@@ -131,6 +140,7 @@ def _wrong_rate(rate: float, topic: Topic, said: str) -> list[Problem]:
     if topic.rate_hz is None or topic.span < ENOUGH_SECONDS or not enough:
         return []
     tolerance = TOLERANCE_FAST if rate > FAST else TOLERANCE
-    if abs(topic.rate_hz - rate) <= tolerance * rate:
+    at_the_ends = (publication.sources - 1 + rate * LATENESS) / topic.span
+    if abs(topic.rate_hz - rate) <= tolerance * rate + at_the_ends:
         return []
     return [Problem(f"{topic.name} comes at {topic.rate_hz:g} Hz: {said}")]

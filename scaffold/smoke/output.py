@@ -16,8 +16,10 @@ TRACEBACK = "Traceback (most recent call last):"
 _FRAMES = 2
 """Frames of a traceback that are shown: where it happened and who called."""
 _LIBRARY = re.compile(
-    r"/rclpy/|/colcon_|/setuptools/|/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
+    r"/rclpy/|/colcon_|/setuptools/|<frozen |load_entry_point|"
+    r"/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
 )
+"""Frames that are not of the user; the last but one is in the scripts that setuptools writes."""
 PASSED_ON = "CalledProcessError"
 """An exception that only says that another program has failed, and has told why itself."""
 _CMAKE_ERROR = re.compile(r"CMake Error")

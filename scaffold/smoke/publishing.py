@@ -8,7 +8,7 @@ stands in what certainly runs, or where none of them can ever be reached.
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from enum import Enum
 
 from scaffold.model.node_entities import Publisher, Timer
@@ -24,12 +24,19 @@ _CONDITIONS = (
 _COMPREHENSIONS = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
 
 
-class _Reach(Enum):
+class Reach(Enum):
     """Whether a place in the source is run."""
 
     ALWAYS = "always"
     PERHAPS = "perhaps"
     NEVER = "never"
+
+
+def _most(found: Iterable[Reach]) -> Reach:
+    """Return the most that is said of several places."""
+    reached = set(found)
+    order = (Reach.ALWAYS, Reach.PERHAPS)
+    return next((one for one in order if one in reached), Reach.NEVER)
 
 
 class Publishing:
@@ -49,18 +56,19 @@ class Publishing:
 
     def rate(self, publisher: Publisher) -> float | None:
         """Return how often a publisher publishes, in Hz; ``None`` if that cannot be told."""
-        calls = self._publish_calls(publisher)
-        rates = [self._rate_of_call(call, _MAX_DEPTH) for call in calls or ()]
-        known = [rate for rate in rates if rate is not None]
-        return sum(known) if known and len(known) == len(rates) and all(known) else None
+        rates = self._rates_of_calls(self._publish_calls(publisher) or (), _MAX_DEPTH)
+        return sum(rates) if rates and all(rates) else None
 
-    def is_certain(self, publisher: Publisher) -> bool:
-        """Tell whether silence is a mistake."""
+    def sources(self, publisher: Publisher) -> int:
+        """Return of how many timers and calls the rate is made up."""
+        return len(self._rates_of_calls(self._publish_calls(publisher) or (), _MAX_DEPTH) or ())
+
+    def reach(self, publisher: Publisher) -> Reach:
+        """Return whether a publisher publishes at all."""
         calls = self._publish_calls(publisher)
         if calls is None:
-            return False
-        reached = {self._reach_of_call(call, _MAX_DEPTH) for call in calls}
-        return _Reach.ALWAYS in reached or reached <= {_Reach.NEVER}
+            return Reach.PERHAPS
+        return _most(self._reach_of_call(call, _MAX_DEPTH) for call in calls)
 
     def _publish_calls(self, publisher: Publisher) -> list[ast.Call] | None:
         """Return where it publishes; ``None`` when it is handed to code that is not seen."""
@@ -89,27 +97,35 @@ class Publishing:
 
     # -- rates
 
-    def _rate_of_call(self, call: ast.Call, depth: int) -> float | None:
-        """Return how often a call is made."""
+    def _rates_of_calls(self, calls: Iterable[ast.Call], depth: int) -> list[float] | None:
+        """Return the rates that add up to how often calls are made; ``None`` if unknown."""
+        total: list[float] = []
+        for call in calls:
+            rates = self._rates_of_call(call, depth)
+            if rates is None:
+                return None
+            total += rates
+        return total
+
+    def _rates_of_call(self, call: ast.Call, depth: int) -> list[float] | None:
         function = self._module.enclosing_function(call)
         if function is None or self._facts.is_conditional(call):
             return None
-        if self._leaving(function, call):
+        if self._leaving(function, call) or not depth:
             return None
-        return self._rate_of_function(function, depth)
+        return self._rates_of_function(function, depth)
 
-    def _rate_of_function(self, function: FunctionNode, depth: int) -> float | None:
+    def _rates_of_function(self, function: FunctionNode, depth: int) -> list[float] | None:
         """Return how often timers call a function, themselves or through others."""
-        if not depth:
-            return None
-        rates: list[float | None] = [
-            self._rate_of_timer(entity) if isinstance(entity, Timer) else None
-            for entity, callback in self._facts.callbacks
-            if callback.function is function
-        ]
-        rates += [self._rate_of_call(call, depth - 1) for call in self._calls_of(function)]
-        known = [rate for rate in rates if rate is not None]
-        return sum(known) if len(known) == len(rates) else None
+        total: list[float] = []
+        for entity, callback in self._facts.callbacks:
+            if callback.function is function:
+                rate = self._rate_of_timer(entity) if isinstance(entity, Timer) else None
+                if rate is None:
+                    return None
+                total.append(rate)
+        others = self._rates_of_calls(self._calls_of(function), depth - 1)
+        return None if others is None else total + others
 
     def _rate_of_timer(self, timer: Timer) -> float | None:
         period = timer.period
@@ -121,7 +137,7 @@ class Publishing:
         """Tell whether a timer certainly ticks, from the start to the end."""
         if timer.is_conditional or timer.has_unknown_arguments:
             return False
-        if timer.argument("clock") or timer.argument("autostart"):
+        if timer.argument("clock") or timer.argument("autostart") or self._may_be_held_up(timer):
             return False
         owner = timer.owner
         if isinstance(owner, NodeClass):
@@ -131,29 +147,38 @@ class Publishing:
         parents = [self._module.parent(use) for use in self._uses(timer.call)]
         return all(isinstance(p, ast.Attribute) and p.attr not in _CHANGES for p in parents)
 
+    def _may_be_held_up(self, timer: Timer) -> bool:
+        """Tell whether a timer is in a callback group that may do anything."""
+        group = timer.argument("callback_group")
+        if group is None:
+            return False
+        made = self._facts.evaluator.single_value(group.node)
+        names = self._module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
+        return not any(name.startswith("rclpy.callback_groups.") for name in names)
+
     # -- reach
 
-    def _reach_of_call(self, call: ast.Call, depth: int) -> _Reach:
+    def _reach_of_call(self, call: ast.Call, depth: int) -> Reach:
         for parent in self._module.parents(call):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
                 break
             if isinstance(parent, _CONDITIONS | _COMPREHENSIONS):
                 if parent is self._module.main_guard_node:
                     continue
-                return _Reach.PERHAPS
+                return Reach.PERHAPS
         function = self._module.enclosing_function(call)
         if function is None:
-            return _Reach.ALWAYS
+            return Reach.ALWAYS
         leaving = self._leaving(function, call)
         if any(self._module.parent(node) is function for node in leaving):
-            return _Reach.NEVER
-        return _Reach.PERHAPS if leaving else self._reach_of_function(function, depth)
+            return Reach.NEVER
+        return Reach.PERHAPS if leaving else self._reach_of_function(function, depth)
 
-    def _reach_of_function(self, function: FunctionNode, depth: int) -> _Reach:
+    def _reach_of_function(self, function: FunctionNode, depth: int) -> Reach:
         if function in self._starts or function.name == "__init__":
-            return _Reach.ALWAYS
+            return Reach.ALWAYS
         if not depth:
-            return _Reach.PERHAPS
+            return Reach.PERHAPS
         calls = list(self._calls_of(function))
         reached = {self._reach_of_call(call, depth - 1) for call in calls}
         passed = 0
@@ -161,13 +186,10 @@ class Publishing:
             if callback.function is function:
                 passed += 1
                 ticks = isinstance(entity, Timer) and self._runs(entity)
-                reached.add(_Reach.ALWAYS if ticks else _Reach.PERHAPS)
+                reached.add(Reach.ALWAYS if ticks else Reach.PERHAPS)
         if not self._alone or self._mentions(function) > len(calls) + passed:
-            reached.add(_Reach.PERHAPS)
-        for reach in (_Reach.ALWAYS, _Reach.PERHAPS):
-            if reach in reached:
-                return reach
-        return _Reach.NEVER
+            reached.add(Reach.PERHAPS)
+        return _most(reached)
 
     def _mentions(self, function: FunctionNode) -> int:
         """Count where the name of a function is used in any way."""

@@ -13,6 +13,7 @@ from scaffold.smoke.trial import ending
 FORMATS = ("text", "json")
 
 _SHOWN_MESSAGES = 2
+_SHOWN_NAMES = 6
 _SHOWN_WIDTH = 100
 _RED, _GREEN, _YELLOW, _BOLD, _DIM = "31", "32", "33", "1", "2"
 
@@ -216,9 +217,15 @@ def _summary(result: Smoke, paint: Paint) -> str:
         return f"{said}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
     bad = [one.name for one in executables if not one.ok]
-    parts = [f"{', '.join(unbuilt)} not built"] if unbuilt else []
-    parts += [f"{', '.join(bad)} not ok"] if bad else []
+    parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
+    parts += [f"{_listed(bad)} not ok"] if bad else []
     return f"{said}: {paint('; '.join(parts), _RED)} {seconds}"
+
+
+def _listed(names: list[str]) -> str:
+    shown = ", ".join(names[:_SHOWN_NAMES])
+    more = len(names) - _SHOWN_NAMES
+    return f"{shown} and {more} more" if more > 0 else shown
 
 
 def _count(number: int, noun: str) -> str:

@@ -187,7 +187,8 @@ class _Run:
             self._report(self._hangs, said + where)
         elif done.signal == done.asked and (running.exit_code or trace):
             how = ending(running.exit_code) + (f": {output.exception(trace)}" if trace else "")
-            self._report(f"does not stop cleanly on {done.asked}, {how}", where or _said(running))
+            last = output.tail(output.read(running.err, written))
+            self._report(f"does not stop cleanly on {done.asked}, {how}", where or tuple(last))
 
     def _report_exception(self, running: process.Running) -> None:
         """Report an exception that did not end the executable: of a thread, or printed by it."""
