@@ -140,6 +140,8 @@ def _cmake_arguments(environment: Environment, packages: Sequence[Source]) -> It
         ("CXX", "CXX", ("c++", "g++", "clang++")),
     ):
         if not _has_compiler(environment.variables, variable, names):
+            # With `project(name NONE)` both are unused, which is nothing to warn about.
+            yield "--no-warn-unused-cli"
             yield f"-DCMAKE_{language}_COMPILER={stand_in}"
             yield f"-DCMAKE_{language}_COMPILER_FORCED=1"
 
