@@ -49,6 +49,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument(
+        "--reference",
+        action="store_true",
+        help="instead, run pydocstyle beside the docstring rules and show where they disagree",
+    )
+    parser.add_argument(
         "--content",
         action="append",
         default=[],
@@ -62,6 +67,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold import config, content, reporters
     from scaffold.check import registry
     from scaffold.check.session import Session
+    from scaffold.cli import progress
     from scaffold.model import discovery
 
     settings = config.load(content=tuple(options.content))
@@ -71,7 +77,9 @@ def run(options: argparse.Namespace) -> int:
     targets = discovery.find(options.paths)
     if options.fix or options.diff:
         return _fix(options, session, targets)
-    results = list(session.run(targets))
+    if options.reference:
+        return _reference(targets)
+    results = list(progress.shown(session.run(targets), len(targets), "packages"))
     reporters.get(options.format)(results, sys.stdout)
     return exit_code(results)
 
@@ -118,6 +126,20 @@ def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int
     sys.stderr.write(f"{_fixes(count)} applied\n")
     reporters.get(options.format)(results, sys.stdout)
     return exit_code(results)
+
+
+def _reference(targets: Sequence[Target]) -> int:
+    """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
+    from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.reporters.paths import shown
+    from scaffold.style import reference
+
+    count = 0
+    for package, one in reference.differences([target.package for target in targets]):
+        count += 1
+        sys.stdout.write(f"{shown(package, one.path)}:{one.line}: {one.message}\n")
+    sys.stdout.write(f"{count or 'no'} differences to pydocstyle\n")
+    return DEFECT if count else CLEAN
 
 
 def _fixes(count: int) -> str:
