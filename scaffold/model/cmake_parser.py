@@ -346,9 +346,10 @@ class _Parser:
 
     def _unclosed(self, command: Command, first: int, end: int) -> None:
         """Complain that ``)`` is missing; a command that was swallowed gets its turn."""
-        start, stop = command.start, command.open_end
-        self._note(start, stop, f'")" expected: {command.written_name}( is not closed')
         kinds = self.kinds
+        if end < len(kinds) or kinds[-1] != "bad":  # else it is in what is not closed itself
+            message = f'")" expected: {command.written_name}( is not closed'
+            self._note(command.start, command.open_end, message)
         for number in range(first, end):
             if kinds[number] == "newline" and self._command_follows(number + 1):
                 end = number
