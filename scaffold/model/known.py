@@ -319,17 +319,24 @@ def provided_by(keys: set[str]) -> set[str]:
     return found
 
 
+def is_near(name: str, other: str) -> bool:
+    """Tell whether a name is another one misspelt: see ``similar_package``."""
+    if name == other or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
+        return False
+    plain = name.replace("-", "").replace("_", "").lower()
+    return other.replace("_", "") == plain or _one_slip(name, other)
+
+
 def similar_package(name: str) -> str | None:
     """Return the known package that a misspelt name means, if it is near enough to be sure.
 
     Near is one letter more, less, other or swapped, or other separators; a digit is no misspelling
     (``turtlebot4_msgs`` is not ``turtlebot3_msgs``).
     """
-    if name in ROS_PACKAGES or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
+    if name in ROS_PACKAGES:
         return None
-    plain = name.replace("-", "").replace("_", "").lower()
     for known in sorted(ROS_PACKAGES):
-        if known.replace("_", "") == plain or _one_slip(name, known):
+        if is_near(name, known):
             return known
     return None
 

@@ -1,0 +1,57 @@
+"""LF008: arguments of a node are a list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.launch_py import NODES, LaunchFile
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='talk', {}={}),\n    ])\n"
+)
+
+
+class ArgumentsNotList(Rule):
+    """``arguments=`` of a node is one string.
+
+    **Why.** launch goes through it letter by letter: the program gets ``-``, ``-``, ``r``, ``o``
+    ... and, most often, ignores them without a word.
+
+    **Fix.** Write a list with one string for each argument.
+
+    **Source.** ``launch_ros/actions/node.py``: ``cmd += arguments``.
+    """
+
+    code = "LF008"
+    name = "arguments-not-list"
+    examples = (
+        Example("a list", {"launch/a.launch.py": _LAUNCH.format("arguments", "['-v', '3']")}),
+        Example(
+            "a string",
+            {"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'")},
+            at=("launch/a.launch.py:7",),
+            fixed={"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'.split()")},
+        ),
+        Example(
+            "for ROS",
+            {"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'")},
+            at=("launch/a.launch.py:7",),
+            fixed={"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'.split()")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*NODES):
+                for name in ("arguments", "ros_arguments"):
+                    node = call.given.get(name)
+                    if node is None or not isinstance(launch.evaluator.evaluate(node), str):
+                        continue
+                    _, end = launch.module.span(node)
+                    fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
+                    message = f"{name} is one string, which launch takes apart letter by letter"
+                    yield self.report(launch.location(node), message, fix)

@@ -1,0 +1,71 @@
+"""LF006: launch files start programs that exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_uses import package_uses
+from scaffold.model.package_programs import programs_of
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='{}'),\n    ])\n"
+)
+_FILES = {
+    "package.xml": '<package format="3"><name>talker</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker',\n"
+    "    entry_points={'console_scripts': ['talk = talker.talk:main']},\n)\n",
+}
+
+
+class ExecutableMissing(Rule):
+    """A launch file starts a program that the package does not have.
+
+    **Why.** ``executable 'talker' not found on the libexec directory
+    '.../install/talker/lib/talker'``.
+
+    **Fix.** Write the name of the entry point in setup.py, or of the script that CMakeLists.txt
+    installs, with its ending; or install the program.
+
+    **Source.** ``launch_ros/substitutions/executable_in_package.py``.
+    """
+
+    code = "LF006"
+    name = "executable-missing"
+    examples = (
+        Example("an entry point", {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk")}),
+        Example(
+            "the module's name",
+            {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
+            at=("launch/a.launch.py:7",),
+        ),
+        Example(
+            "in another package of the workspace",
+            {
+                "package.xml": '<package format="3"><name>bringup</name></package>\n',
+                "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
+            },
+            at=("launch/a.launch.xml:2",),
+            neighbours={"talker": _FILES},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for use in package_uses(package):
+            name = use.executable
+            other = package if use.name == package.name else package.workspace.get(use.name)
+            if other is None or not isinstance(name, str) or use.is_optional:
+                continue
+            programs = programs_of(other)
+            if not programs.complete or name in programs.sources:
+                continue
+            have = ", ".join(sorted(programs.sources)) or "none"
+            near = get_close_matches(name, programs.sources, 1, 0.7)
+            hint = f"; {near[0]!r} is meant" if near else ""
+            message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
+            yield self.report(use.executable_location, message)

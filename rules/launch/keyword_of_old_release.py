@@ -1,0 +1,60 @@
+"""LF009: the keywords of a node are those of this release."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.launch_py import NODES, LaunchFile
+
+_OLD = {
+    "node_executable": "executable",
+    "node_name": "name",
+    "node_namespace": "namespace",
+    "node_plugin": "plugin",
+}
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', {}='talk', {}='talker'),\n    ])\n"
+)
+
+
+class KeywordOfOldRelease(Rule):
+    """A node has keywords that were renamed in Foxy and are gone since Galactic.
+
+    **Why.** ``TypeError: Node.__init__() missing 1 required keyword-only argument:
+    'executable'``; the name given with ``node_name`` is an unexpected keyword.
+
+    **Fix.** ``executable``, ``name`` and ``namespace``; ``plugin`` for components.
+
+    **Source.** ROS 2 documentation, release notes of Foxy Fitzroy, "launch_ros".
+    """
+
+    code = "LF009"
+    name = "keyword-of-old-release"
+    examples = (
+        Example("of today", {"launch/a.launch.py": _LAUNCH.format("executable", "name")}),
+        Example(
+            "of Eloquent",
+            {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
+            at=("launch/a.launch.py:7", "launch/a.launch.py:7"),
+            fixed={"launch/a.launch.py": _LAUNCH.format("executable", "name")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*NODES, "ComposableNode"):
+                for old, word in call.words.items():
+                    new = _OLD.get(old)
+                    if new is None:
+                        continue
+                    start, _ = launch.module.span(word)
+                    at = launch.module.source.location(start, start + len(old))
+                    fix = None
+                    if new not in call.words:
+                        edit = Edit(launch.path, start, start + len(old), new)
+                        fix = Fix(f"write {new}", (edit,))
+                    yield self.report(at, f"{call.kind} has no {old}; it is {new} now", fix)

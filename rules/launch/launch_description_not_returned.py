@@ -1,0 +1,99 @@
+"""LF003: generate_launch_description returns a LaunchDescription."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
+from scaffold.model.launch_py import LaunchFile, returns
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    node = Node(package='talker', executable='talk')\n"
+)
+
+
+class LaunchDescriptionNotReturned(Rule):
+    """``generate_launch_description`` does not return a ``LaunchDescription``.
+
+    **Why.** ``ros2 launch``: ``'NoneType' object has no attribute
+    'get_launch_arguments_with_include_launch_description_actions'``.
+
+    **Fix.** ``return LaunchDescription([...])`` on every way through the function.
+
+    **Source.** ROS 2 documentation, "Creating a launch file".
+    """
+
+    code = "LF003"
+    name = "launch-description-not-returned"
+    examples = (
+        Example(
+            "returned",
+            {"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
+        ),
+        Example(
+            "made, but not returned",
+            {"launch/a.launch.py": _LAUNCH + "    LaunchDescription([node])\n"},
+            at=("launch/a.launch.py:7",),
+            fixed={"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
+        ),
+        Example(
+            "a list; on one way only",
+            {
+                "launch/a.launch.py": _LAUNCH + "    return [node]\n",
+                "launch/b.launch.py": _LAUNCH
+                + "    if node:\n        return LaunchDescription([node])\n",
+            },
+            at=("launch/a.launch.py:7", "launch/b.launch.py:5"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            function = launch.function
+            if function is None or not isinstance(function.node, ast.FunctionDef):
+                continue
+            node = function.node
+            if node.decorator_list or any(
+                isinstance(part, ast.Yield | ast.YieldFrom) for part in ast.walk(node)
+            ):
+                continue
+            yield from self._check(launch, node, function.location)
+
+    def _check(
+        self, launch: LaunchFile, node: ast.FunctionDef, at: Location
+    ) -> Iterator[Diagnostic]:
+        found, reaches_end = returns(node)
+        for one in found:
+            what = _wrong(launch, one.value)
+            if what:
+                message = f"generate_launch_description returns {what}, not a LaunchDescription"
+                yield self.report(launch.location(one), message)
+        if not reaches_end:
+            return
+        last = node.body[-1]
+        made = launch.call_of(last.value) if isinstance(last, ast.Expr) else None
+        if made is not None and made.kind == "LaunchDescription" and not found:
+            start, _ = launch.module.span(last)
+            fix = Fix("return it", (Edit(launch.path, start, start, "return "),))
+            message = "the LaunchDescription is made, but generate_launch_description returns None"
+            yield self.report(launch.location(last), message, fix)
+        else:
+            some = "on some way returns" if found else "returns"
+            message = f"generate_launch_description {some} None, not a LaunchDescription"
+            yield self.report(at, message)
+
+
+def _wrong(launch: LaunchFile, value: ast.expr | None) -> str | None:
+    """Return what is returned, if that is surely no LaunchDescription."""
+    if value is None or (isinstance(value, ast.Constant) and value.value is None):
+        return "None"
+    if isinstance(value, ast.List | ast.Tuple | ast.ListComp):
+        return "a list" if not isinstance(value, ast.Tuple) else "a tuple"
+    call = launch.call_of(value)
+    if call is not None and call.kind in {"Node", "IncludeLaunchDescription", "ExecuteProcess"}:
+        return f"a {call.kind}"
+    names = launch.module.qualified_names(value)
+    return "the class" if any(name.endswith(".LaunchDescription") for name in names) else None

@@ -1,0 +1,63 @@
+"""LF002: a launch file defines generate_launch_description."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.launch_py import FUNCTION, LaunchFile
+
+_LAUNCH = (
+    "from launch import LaunchDescription\n\n\n"
+    "def {}():\n    return LaunchDescription([])\n"
+)
+
+
+class LaunchFunctionMissing(Rule):
+    """A launch file does not define ``generate_launch_description``.
+
+    **Why.** ``ros2 launch``: ``launch file ... does not contain the required function
+    'generate_launch_description()'``.
+
+    **Fix.** Define it, under exactly this name.
+
+    **Source.** ``launch/launch_description_sources/python_launch_file_utilities.py``.
+    """
+
+    code = "LF002"
+    name = "launch-function-missing"
+    examples = (
+        Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
+        Example(
+            "misspelt",
+            {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
+            at=("launch/a.launch.py:4",),
+            fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
+        ),
+        Example(
+            "not there",
+            {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
+            at=("launch/a.launch.py:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            module = launch.module
+            name = launch.path.rpartition("/")[2]
+            if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
+                continue
+            is_test = "generate_test_description" in module.functions
+            if "/launch/" not in f"/{launch.path}" or is_test:
+                continue
+            near = get_close_matches(FUNCTION, module.functions, 1, 0.85)
+            if near:
+                at = module.functions[near[0]].location
+                start = module.source.offset(at.line, at.column)
+                edit = Edit(launch.path, start, start + len(near[0]), FUNCTION)
+                message = f"`ros2 launch` calls {FUNCTION}, not {near[0]}"
+                yield self.report(at, message, Fix(f"write {FUNCTION}", (edit,)))
+            else:
+                message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
+                yield self.report(package.start_of(launch.path), message)

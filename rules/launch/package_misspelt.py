@@ -1,0 +1,81 @@
+"""LF004: a launch file names packages that exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.launch_uses import Use, meant_package, package_uses
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='{}', executable='{}'),\n    ])\n"
+)
+_FILES = {
+    "package.xml": '<package format="3"><name>talker_demo</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker_demo',\n"
+    "    entry_points={'console_scripts': ['talk = talker_demo.talk:main']},\n)\n",
+}
+
+
+class PackageMisspelt(Rule):
+    """A launch file names a package that nobody knows, and another one is plainly meant.
+
+    **Why.** ``ros2 launch`` stops: ``package 'talker_dmeo' not found, searching: [...]``.
+
+    **Fix.** Write the name in package.xml of the package that is meant.
+
+    **Source.** ``launch_ros/substitutions/find_package.py``.
+    """
+
+    code = "LF004"
+    name = "package-misspelt"
+    examples = (
+        Example(
+            "itself, a known one, a declared one, and one that nobody can judge",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("talker_demo", "talk"),
+                "launch/b.launch.py": _LAUNCH.format("rviz2", "rviz2"),
+                "launch/c.launch.py": _LAUNCH.format("our_driver", "driver"),
+            },
+        ),
+        Example(
+            "letters swapped; another name, but the program is here",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("talker_dmeo", "listen"),
+                "launch/b.launch.py": _LAUNCH.format("demo", "talk"),
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
+            },
+            at=("launch/a.launch.py:7", "launch/b.launch.py:7", "launch/c.launch.xml:2"),
+            fixed={
+                "launch/a.launch.py": _LAUNCH.format("talker_demo", "listen"),
+                "launch/b.launch.py": _LAUNCH.format("talker_demo", "talk"),
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n</launch>\n',
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for use in package_uses(package):
+            meant = meant_package(package, use)
+            if meant is None:
+                continue
+            fix = self._fix(package, use, meant.name)
+            message = f"no package {use.name!r} is known; {meant.name!r} is meant: {meant.reason}"
+            yield self.report(use.location, message, fix)
+
+    def _fix(self, package: Package, use: Use, name: str) -> Fix | None:
+        source = package.editable(use.location.path)
+        at = use.location
+        start = source.offset(at.line, at.column)
+        end = source.offset(at.end_line, at.end_column)
+        found = source.text.find(use.name, start, end)
+        if found < 0:
+            return None
+        edit = Edit(at.path, found, found + len(use.name), name)
+        return Fix(f"write {name}", (edit,), Safety.UNSAFE)

@@ -1,0 +1,78 @@
+"""LF005: packages that launch files name are declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.model.launch_uses import exists, meant_package, package_uses
+from scaffold.model.needs import declared
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='talk'),\n"
+    "        Node(package='rviz2', executable='rviz2'),\n    ])\n"
+)
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+
+
+class PackageUndeclared(Rule):
+    """A launch file starts or finds something of a package that the manifest does not declare.
+
+    **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not
+    found``.
+
+    **Fix.** Add an ``<exec_depend>``.
+
+    **Source.** REP-149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
+    projects".
+    """
+
+    code = "LF005"
+    name = "package-undeclared"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "declared",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>rviz2</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH,
+            },
+        ),
+        Example(
+            "not declared",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH,
+            },
+            at=("package.xml:3",),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"
+                )
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        there = declared(package, for_tests=False)
+        seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
+        last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
+        tag = "exec_depend" if manifest.format > 1 else "run_depend"
+        for use in package_uses(package):
+            if use.name in seen or use.is_optional or meant_package(package, use):
+                continue
+            if not exists(package, use.name) or not use.location.path.startswith("launch"):
+                continue
+            seen.add(use.name)
+            at = use.location
+            does = "looks for" if use.executable is None else "starts a node of"
+            message = (
+                f"{at.path}:{at.line} {does} {use.name!r}, which no dependency here provides; "
+                f"add <{tag}>{use.name}</{tag}>"
+            )
+            fix = Fix(f"declare {use.name}", (manifest.insert(tag, use.name),))
+            yield self.report(last.name_location, message, fix)
