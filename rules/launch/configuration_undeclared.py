@@ -1,0 +1,75 @@
+"""LF010: launch configurations are declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_configurations import may_be_set_elsewhere, set_names
+from scaffold.model.launch_py import LaunchFile
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    return LaunchDescription([\n{}"
+    "        Node(package='talker', executable='talk', name={}),\n    ])\n"
+)
+_DECLARED = "        DeclareLaunchArgument('node', default_value='talker'),\n"
+_USED = "LaunchConfiguration('node')"
+
+
+class ConfigurationUndeclared(Rule):
+    """A ``LaunchConfiguration`` is read that nothing declares or sets.
+
+    **Why.** ``ros2 launch`` stops: ``launch configuration 'node' does not exist``; and
+    ``--show-args`` does not show that it is needed.
+
+    **Fix.** ``DeclareLaunchArgument('node', default_value=...)`` in the same file.
+
+    **Source.** ``launch/substitutions/launch_configuration.py``; ROS 2 documentation, "Using
+    substitutions".
+    """
+
+    code = "LF010"
+    name = "configuration-undeclared"
+    examples = (
+        Example(
+            "declared; with a default; set by the file that includes this one",
+            {
+                "launch/a.launch.py": _LAUNCH.format(_DECLARED, _USED),
+                "launch/b.launch.py": _LAUNCH.format("", "LaunchConfiguration('x', default='')"),
+                "launch/c.launch.py": _LAUNCH.format("", "LaunchConfiguration('who')"),
+                "launch/all.launch.py": "from launch.actions import IncludeLaunchDescription\n\n"
+                "IncludeLaunchDescription('c.launch.py', launch_arguments={'who': 'me'}.items())\n"
+                "\n\ndef generate_launch_description():\n    pass\n",
+            },
+        ),
+        Example(
+            "declared nowhere; declared under another name",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", _USED),
+                "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
+            },
+            at=("launch/a.launch.py:9", "launch/b.launch.py:10"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            names = set_names(package, launch)
+            if names is None or launch.function is None:
+                continue
+            seen: set[str] = set()
+            for call in launch.find("LaunchConfiguration"):
+                name = launch.text(call, "variable_name")
+                if not isinstance(name, str) or name in names or name in seen:
+                    continue
+                if "default" in call.given or call.is_open:
+                    continue
+                seen.add(name)
+                if may_be_set_elsewhere(package, launch, name):
+                    continue
+                have = ", ".join(sorted(set(launch.declared))) or "nothing"
+                message = f"nothing sets the launch configuration {name!r}; declared here is {have}"
+                yield self.report(launch.location(call.call), message)

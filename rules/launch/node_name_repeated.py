@@ -1,0 +1,63 @@
+"""LF012: nodes of a launch file have names of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_nodes import started_nodes
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='a', executable='a', name='eye'{}),\n"
+    "        Node(package='b', executable='b', name='{}'{}),\n    ])\n"
+)
+
+
+class NodeNameRepeated(Rule):
+    """A launch file starts two nodes with one name.
+
+    **Why.** Nothing warns, but ``ros2 param``, services and ``ros2 node info`` reach one of the
+    two at random.
+
+    **Fix.** Give each a name, or a namespace, of its own.
+
+    **Source.** ROS 2 documentation, "Passing ROS arguments to nodes"; ROS 2 design, "Unique
+    network flows".
+    """
+
+    code = "LF012"
+    name = "node-name-repeated"
+    examples = (
+        Example(
+            "two names; two namespaces",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", "ear", ""),
+                "launch/b.launch.py": _LAUNCH.format("", "eye", ", namespace='right'"),
+            },
+        ),
+        Example(
+            "one name",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", "eye", ""),
+                "launch/b.launch.py": _LAUNCH.format(
+                    ", namespace='left'", "eye", ", namespace='/left'"
+                ),
+            },
+            at=("launch/a.launch.py:8", "launch/b.launch.py:8"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        first: dict[tuple[str, str], int] = {}
+        for node in started_nodes(package):
+            full = node.full_name
+            if full is None or not node.is_certain:
+                continue
+            at = node.name_location
+            line = first.setdefault((at.path, full), at.line)
+            if line != at.line:
+                message = f"the node of line {line} is called {full} too"
+                yield self.report(at, message)

@@ -1,0 +1,68 @@
+"""LF013: launch files name no path of one machine."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Location, Package, Rule
+from scaffold.model.launch_markup import markup_files
+from scaffold.model.launch_py import LaunchFile
+
+_HOME = r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='talk', parameters=['{}']),\n    ])\n"
+)
+
+
+class PathOfAuthor(Rule):
+    """A launch file names a path in somebody's home or workspace.
+
+    **Why.** On every other machine it is not there: ``[WARNING] Parameter file path is not a
+    file: /home/me/ros2_ws/...``, and the node runs with its defaults.
+
+    **Fix.** ``PathJoinSubstitution([FindPackageShare('talker'), 'config', 'talker.yaml'])``, or a
+    launch argument.
+
+    **Source.** ROS 2 documentation, "Using substitutions".
+    """
+
+    code = "LF013"
+    name = "path-of-author"
+    examples = (
+        Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
+        Example(
+            "of a home, of a workspace",
+            {
+                "launch/a.launch.py": _LAUNCH.format("/home/me/ros2_ws/src/talker/talker.yaml"),
+                "launch/b.launch.py": _LAUNCH.format("/ros2_ws/src/talker/talker.yaml"),
+                "launch/c.launch.xml": "<launch>\n"
+                '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
+            },
+            at=("launch/a.launch.py:7", "launch/b.launch.py:7", "launch/c.launch.xml:2"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for at, text in _texts(package):
+            found = re.match(_HOME, text)
+            if found:
+                message = f"{text!r} exists on one machine only; build it from the share directory"
+                yield self.report(at, message)
+
+
+def _texts(package: Package) -> Iterator[tuple[Location, str]]:
+    """Yield the strings of launch files that may be paths."""
+    for launch in LaunchFile.of_package(package):
+        if launch.function is None:
+            continue
+        for node in launch.module.walk(ast.Constant):
+            if isinstance(node.value, str) and "/" in node.value and "\n" not in node.value:
+                yield launch.location(node), node.value
+    for file in markup_files(package):
+        for attribute in file.attributes:
+            yield attribute.location, attribute.value

@@ -1,0 +1,65 @@
+"""LF015: files that launch files name are there when the package is installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_paths import paths_of, why_missing
+
+_LAUNCH = (
+    "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    share = get_package_share_directory('talker')\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='talk',\n"
+    "             parameters=[os.path.join(share, {})]),\n    ])\n"
+)
+_FILES = {
+    "package.xml": '<package format="3"><name>talker</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from glob import glob\n\nfrom setuptools import setup\n\nsetup(\n"
+    "    name='talker',\n    data_files=[\n"
+    "        ('share/talker/config', glob('config/*.yaml')),\n    ],\n)\n",
+    "config/talker.yaml": "",
+    "config/other.json": "",
+}
+
+
+class SharePathMissing(Rule):
+    """A launch file names a file of a share directory that is not there after installation.
+
+    **Why.** ``ros2 launch`` stops with ``No such file or directory``; for a parameter file it
+    only warns, and the node runs with its defaults.
+
+    **Fix.** Write the path that the build file installs, or install the file.
+
+    **Source.** ROS 2 documentation, "Using ROS 2 launch for large projects".
+    """
+
+    code = "LF015"
+    name = "share-path-missing"
+    examples = (
+        Example(
+            "installed",
+            {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")},
+        ),
+        Example(
+            "another name; another directory; not installed",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talk.yaml'"),
+                "launch/b.launch.py": _LAUNCH.format("'talker.yaml'"),
+                "launch/c.launch.py": _LAUNCH.format("'config', 'other.json'"),
+            },
+            at=("launch/a.launch.py:12", "launch/b.launch.py:12", "launch/c.launch.py:12"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in paths_of(package):
+            why = why_missing(package, path)
+            if why is not None:
+                message = f"share/{path.package}/{path.path} is not there: {why}"
+                yield self.report(path.location, message)

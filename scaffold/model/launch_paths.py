@@ -1,0 +1,81 @@
+"""Whether the files that launch files name are installed."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.model.launch_markup import markup_files
+from scaffold.model.launch_py import LaunchFile
+from scaffold.model.share_files import share_of
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.source import Location
+
+
+class NamedPath(NamedTuple):
+    """A path below the share directory of a package, named in a launch file."""
+
+    package: str
+    path: str
+    location: Location
+
+
+def paths_of(package: Package) -> Iterator[NamedPath]:
+    """Yield the paths below share directories that launch files of a package name."""
+    for launch in LaunchFile.of_package(package):
+        for found in launch.share_paths:
+            if not launch.is_optional(found.node):
+                yield NamedPath(found.package, found.path, found.location)
+    for file in markup_files(package):
+        for path in file.paths:
+            if path.path:
+                yield NamedPath(path.package, path.path, path.location)
+
+
+def why_missing(package: Package, named: NamedPath) -> str | None:
+    """Return why a path is surely not there; ``None`` when it is, or nobody can say."""
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    if owner is None or not _is_file_name(named.path):
+        return None
+    share = share_of(owner)
+    if share.has(named.path) or not share.complete:
+        return None
+    return _reason(owner, named.path, share.files)
+
+
+def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
+    """Return why a path is not among the installed files of its package."""
+    where = [one for one in owner.files if _name(one) == _name(path)]
+    installed = sorted(name for name, source in files.items() if source in where)
+    if installed:
+        return f"it is installed as share/{owner.name}/{installed[0]}"
+    if where:
+        first = path if path in where else where[0]
+        if _nothing_of(first, files):
+            return None  # another rule says that the whole directory is not installed
+        build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
+        return f"{build} of {owner.name} does not install {first}"
+    if any(_name(one).startswith(f"{_name(path)}.") for one in owner.files):
+        return None  # made from a template
+    near = get_close_matches(path, files, 1, 0.6)
+    hint = f"; {near[0]} is" if near else ""
+    return f"{owner.name} has no such file{hint}"
+
+
+def _nothing_of(path: str, installed: dict[str, str]) -> bool:
+    directory = path.partition("/")[0]
+    return not any(source.startswith(f"{directory}/") for source in installed.values())
+
+
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
+
+
+def _is_file_name(path: str) -> bool:
+    """Tell a file from a directory, or from the beginning of a name."""
+    stem, ending = posixpath.splitext(_name(path))
+    return bool(stem) and 2 <= len(ending) <= 8  # noqa: PLR2004  .py to .geojson
