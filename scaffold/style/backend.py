@@ -73,7 +73,9 @@ class StyleCheck:
             return file.findings
         from scaffold.style.rules import check
 
-        said = self._results().get(file.on_disk, [])
+        def said() -> Sequence[Said]:
+            return self._results().get(file.on_disk, [])
+
         name = file.path.rpartition("/")[2]
         findings = check(name, file.data, said, file.linters)
         if self._cache is not None and file.key:

@@ -38,8 +38,13 @@ _CODES = "E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274"
 CODES = frozenset(_CODES.split())
 """Codes of ruff that make a line worth a look."""
 
-CANDIDATES = r"[,;:]\\\n|\{[^{}\n]*:[^{}\n]*\{"
-"""What ruff passes over: a comma before a backslash, a format within a format."""
+CANDIDATES = (
+    r"[,;:]\\\n"
+    r"|\{[^{}\n]*:[^{}\n]*\{"
+    r"|\S(?:  | ?\t)[ \t]*[-+*/|!<=>%&^:]"
+    r"|[-+*/|!<=>%&^](?:  | ?\t)"
+)
+"""What ruff passes over: a comma before a backslash, a format within a format, blanks at ``->``."""
 
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"

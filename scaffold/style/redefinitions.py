@@ -8,6 +8,7 @@ after it. It only starts when a scope binds some name twice, one of them by a de
 from __future__ import annotations
 
 import ast
+import builtins
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
@@ -16,6 +17,9 @@ from scaffold.style.text import PythonText
 
 ASSIGNED, DEFINED, IMPORTED, SUBMODULE, ANNOTATED, BOUND = range(6)
 """BOUND: an argument, a loop variable, an element of a tuple that is unpacked."""
+
+_MAGIC = ("__file__", "__builtins__", "__annotations__", "WindowsError")
+"""Names that every module has."""
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
@@ -208,8 +212,10 @@ class _Walk:
         if module == "__future__":
             return
         for alias in node.names:
-            if alias.name != "*":
-                full_name = f"{module}.{alias.name}"
+            full_name = f"{module}.{alias.name}"
+            if alias.name == "*":
+                self.bind(full_name, _Binding(IMPORTED, node, module))
+            else:
                 self.bind(alias.asname or alias.name, _Binding(IMPORTED, node, full_name))
 
     def on_Global(self, node: ast.Global | ast.Nonlocal) -> None:  # noqa: N802  as ast names it
@@ -339,6 +345,15 @@ class _Walk:
                 binding.used = True
                 if binding.kind != ANNOTATED:
                     return
+        if name not in _MAGIC and not hasattr(builtins, name):
+            self.use_star_imports()
+
+    def use_star_imports(self) -> None:
+        """Mark all star imports as used: a name that nothing else defines may be theirs."""
+        for scope in self.scopes:
+            for name, binding in scope.names.items():
+                if name.endswith(".*"):
+                    binding.used = True
 
     def bind(self, name: str, value: _Binding, *, for_loop: bool = False) -> None:
         """Bind a name in the innermost scope and report what is lost."""
@@ -470,7 +485,7 @@ def _is_worth_a_walk(nodes: Sequence[ast.AST]) -> bool:
         if isinstance(node, (*_Function, ast.ClassDef)):
             defined[node.name] += 1
         elif isinstance(node, (ast.Import, ast.ImportFrom)):
-            defined.update((one.asname or one.name.partition(".")[0]) for one in node.names)
+            defined.update(one.asname or one.name.partition(".")[0] for one in node.names)
         elif isinstance(node, ast.Name):
             if isinstance(node.ctx, ast.Store):
                 others.add(node.id)

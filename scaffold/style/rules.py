@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from scaffold.style import (
     blank_lines,
@@ -23,6 +23,7 @@ from scaffold.style import (
     shadowing,
     statements,
 )
+from scaffold.style.codes import CODES
 from scaffold.style.finding import FLAKE8, PEP257, Finding
 from scaffold.style.ruff import Said
 from scaffold.style.text import PythonText, decode
@@ -47,21 +48,26 @@ _OWN = (
 )
 
 
-def check(name: str, data: bytes, said: Sequence[Said], linters: int) -> list[Finding]:
+def check(
+    name: str, data: bytes, ask_ruff: Callable[[], Sequence[Said]], linters: int
+) -> list[Finding]:
     """Return the findings of one file.
 
     Args:
         name: The name of the file, without its directory.
         data: Its bytes.
-        said: What ruff says about it.
+        ask_ruff: Waits for ruff and returns what it says about the file; asked after the own
+            rules, which run at the same time as ruff.
         linters: Which of the two linters look at the file.
     """
     decoded = decode(data)
     text = PythonText(name, decoded.text)
+    own = list(_own(text))
+    said = ask_ruff()
     broken = _broken(text, said, is_clean=decoded.is_clean)
     if broken is not None:
         return [broken._replace(linters=linters)]
-    findings = [*_from_ruff(text, said), *_own(text)]
+    findings = [*_from_ruff(text, said), *own]
     findings = _with_fixes(findings, said)
     kept = [
         finding._replace(linters=finding.linters & linters)
@@ -72,10 +78,8 @@ def check(name: str, data: bytes, said: Sequence[Said], linters: int) -> list[Fi
 
 
 def _own(text: PythonText) -> Iterator[Finding]:
-    if text.tree is None:
-        # Only a newer Python can parse the file: what needs the tree stays silent.
-        return
-    for module in _OWN:
+    # Without a tree a newer Python may still parse the file: ruff speaks for the other rules.
+    for module in _OWN if text.tree is not None else (physical,):
         yield from module.check(text)
 
 
@@ -115,6 +119,9 @@ def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
 
 
 def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+    if text.tree is None:
+        yield from (flakes.plain(one) for one in said if one.code in CODES)
+        return
     yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
     for module in (operators, defaults):
         rows = [one.line for one in said if one.code in module.CODES]
