@@ -1023,3 +1023,54 @@ def test_any_code_can_be_asked(first: list[str], second: list[str]) -> None:
         if callback.function is not None:
             assert callback.function in view.reached(callback.function)
     assert len(view.rclpy_calls) <= text.count("rclpy.spin")
+
+
+HOSTILE = {
+    "bases in the order of the text": "".join(
+        f"class A{n}({f'A{n - 1}' if n else 'Node'}):\n    pass\n" for n in range(2000)
+    ),
+    "bases in the opposite order": "".join(
+        f"class A{n}({f'A{n + 1}' if n < 1999 else 'Node'}):\n    pass\n" for n in range(2000)
+    ),
+    "functions that call each other": "".join(
+        f"def f{n}():\n    f{n + 1}()\n    rclpy.spin(f{n})\n" for n in range(1000)
+    ),
+    "functions that all call all": "".join(
+        f"def f{n}():\n    rclpy.spin(0)\n" + "".join(f"    f{m}()\n" for m in range(40))
+        for n in range(40)
+    ),
+    "parameters from parameters": "class A(Node):\n    def __init__(self):\n"
+    + "".join(
+        f"        self.declare_parameter('p{n}', self.get_parameter('p{n + 1}').value)\n"
+        for n in range(500)
+    )
+    + "        self.create_timer(self.get_parameter('p0').value, self.f)\n",
+    "arguments from arguments": "".join(
+        f"class A{n}(Node):\n    def __init__(self, a):\n        super().__init__(a)\n"
+        f"        self._f(a)\n    def _f(self, b):\n        A{n + 1}(b)\n"
+        for n in range(500)
+    ),
+    "attributes from attributes": "class A(Node):\n    def f(self):\n"
+    + "".join(f"        self.a{n} = self.a{n + 1} + self.a{n + 1}\n" for n in range(500))
+    + "        self.create_publisher(String, self.a0, self.a1)\n",
+    "timers that call each other": "class A(Node):\n    def f0(self):\n"
+    "        self.p = self.create_publisher(String, 'a', 1)\n"
+    + "".join(
+        f"        self.create_timer(1, self.f{n})\n    def f{n + 1}(self):\n"
+        f"        self.p.publish(1)\n        self.f{n}()\n        self.f{n + 2}()\n"
+        for n in range(300)
+    ),
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
+def test_hostile_code_ends_soon(text: str) -> None:
+    view = facts(f"import rclpy\nfrom rclpy.node import Node\n{text}")
+    assert all(item.node_name is UNKNOWN for item in view.nodes)
+    assert all(call.outer_handlers == set() for call in view.rclpy_calls)
+    assert all(publish_rate(view, item) is UNKNOWN for item in view.publishers)
+    assert all(timer.period in {1, UNKNOWN} for timer in view.timers)
+    assert all(
+        callback.function is None or view.reached(callback.function)
+        for _, callback in view.callbacks[:5]
+    )

@@ -10,15 +10,23 @@ if TYPE_CHECKING:
     from scaffold.model.scopes import FunctionNode
     from scaffold.model.self_values import SelfEvaluator
 
+_MAX_CLASSES = 40
+
 
 class CallSites:
     """Finds the calls of a function in its file."""
 
     def __init__(self, evaluator: SelfEvaluator) -> None:
         self._evaluator = evaluator
+        self._known: dict[FunctionNode, Sequence[ast.Call] | None] = {}
 
     def of(self, function: FunctionNode) -> Sequence[ast.Call] | None:
         """Return all calls of a function; ``None`` if there may be others."""
+        if function not in self._known:
+            self._known[function] = self._find(function)
+        return self._known[function]
+
+    def _find(self, function: FunctionNode) -> Sequence[ast.Call] | None:
         class_ = self._evaluator.module.parent(function)
         if not isinstance(class_, ast.ClassDef):
             is_nested = self._evaluator.module.enclosing_function(function) is not None
@@ -29,8 +37,8 @@ class CallSites:
 
     def _calls_by_name(self, node: FunctionNode | ast.ClassDef) -> list[ast.Call] | None:
         calls: list[ast.Call] = []
-        for name in self._evaluator.module.walk(ast.Name):
-            if name.id != node.name or not isinstance(name.ctx, ast.Load):
+        for name in self._evaluator.module.index.names(node.name):
+            if not isinstance(name.ctx, ast.Load):
                 continue
             found = self._evaluator.module.index.lookup(name.id, name)
             if found is None or all(binding.node is not node for binding in found[1]):
@@ -58,6 +66,8 @@ class CallSites:
     ) -> list[ast.Call] | None:
         """Return the calls that end in a class's constructor, from subclasses too."""
         seen.append(class_)
+        if len(seen) > _MAX_CLASSES:
+            return None
         calls = self._calls_by_name(class_)
         for other in self._evaluator.module.walk(ast.ClassDef):
             if calls is None:
@@ -72,7 +82,8 @@ class CallSites:
             if constructors:
                 calls.extend(self._super_calls(constructors[-1]))
             else:
-                calls.extend(self._constructions(other, seen) or ())
+                inherited = self._constructions(other, seen)
+                calls = None if inherited is None else [*calls, *inherited]
         return calls
 
     def _super_calls(self, constructor: ast.FunctionDef) -> Iterator[ast.Call]:
@@ -85,9 +96,7 @@ class CallSites:
     def _method_calls(self, function: FunctionNode, class_: ast.ClassDef) -> list[ast.Call] | None:
         calls: list[ast.Call] = []
         family = self._evaluator.related(class_)
-        for node in self._evaluator.module.walk(ast.Attribute):
-            if node.attr != function.name:
-                continue
+        for node in self._evaluator.module.index.attributes(function.name):
             holder = self._evaluator.self_class(node.value)
             if holder is not None and holder not in family:
                 continue

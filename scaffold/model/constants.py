@@ -75,7 +75,6 @@ class Evaluator:
         self._memo: dict[ast.AST, tuple[object, frozenset[str]]] = {}
         self._local: dict[tuple[ast.AST, str], object] = {}
         self._notes: frozenset[str] = frozenset()
-        self._changes: dict[str, list[ast.Name]] | None = None
         self._methods: Mapping[type[ast.expr], Callable[..., object]] = {
             ast.Name: self._name,
             ast.Attribute: self._attribute,
@@ -262,12 +261,7 @@ class Evaluator:
 
     def _changes_of(self, node: ast.Name) -> Sequence[ast.Name]:
         """Return where the list that a name stands for is changed."""
-        if self._changes is None:
-            self._changes = {}
-            for name in self.module.walk(ast.Name):
-                if self._is_change(name):
-                    self._changes.setdefault(name.id, []).append(name)
-        changes = self._changes.get(node.id, ())
+        changes = [name for name in self.module.index.names(node.id) if self._is_change(name)]
         if not changes:
             return ()
         scope = self.module.index.lookup(node.id, node)

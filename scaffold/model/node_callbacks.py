@@ -52,11 +52,6 @@ def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNod
     return None
 
 
-def calls_in(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
-    """Return the calls in the body of a function, those of functions inside left out."""
-    return [call for call in facts.module.walk(ast.Call) if function_of(facts, call) is function]
-
-
 def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | None:
     """Return the function whose body a node stands in."""
     child = node
@@ -77,7 +72,7 @@ def reached(
     """Return a function and what it calls in the same file: methods of self, functions."""
     found: list[FunctionNode | ast.Lambda] = [function]
     for current in found:
-        for call in calls_in(facts, current):
+        for call in facts.calls_in(current):
             called = resolve(facts, call.func).function
             if called is not None and called not in found:
                 found.append(called)

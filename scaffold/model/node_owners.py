@@ -163,6 +163,8 @@ class NodeClass(NodeOwner):
         self.node = node
         self.base = base
         """The base class, if that is a node class of the same package."""
+        self.depth: int = base.depth + 1 if base else 1
+        """Classes between it and rclpy's Node."""
         self.base_index = 0
         """Which of the base classes makes it a node."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,8 @@ from scaffold.model.values import UNKNOWN, Unknown, same
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner
     from scaffold.model.nodes import NodeFacts
+
+    _Declaration = tuple[NodeOwner | None, ast.expr | None]
 
 SIGNATURES = {
     "declare_parameter": ("name", "value", "descriptor", "ignore_override"),
@@ -57,8 +59,8 @@ class Declarations:
         owner = self._facts.owner_of(receiver)
         nodes = [
             value
-            for declarer, declared, value in self._declarations
-            if declared == name and (declarer is owner or owner is None or declarer is None)
+            for declarer, value in self._declarations.get(name, ())
+            if declarer is owner or owner is None or declarer is None
         ]
         if not nodes and isinstance(owner, NodeClass) and owner.base is not None:
             base = owner.base
@@ -67,17 +69,17 @@ class Declarations:
         return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
 
     @property
-    def _declarations(self) -> Sequence[tuple[NodeOwner | None, str, ast.expr | None]]:
-        """Owner, name and default of the declared parameters whose names are plain to see."""
+    def _declarations(self) -> Mapping[str, Sequence[_Declaration]]:
+        """Owner and default of the declared parameters whose names are plain to see."""
         if self._is_indexing:
             self._facts.evaluator.cut()
-            return ()
+            return {}
         return self._index
 
     @cached_property
-    def _index(self) -> Sequence[tuple[NodeOwner | None, str, ast.expr | None]]:
+    def _index(self) -> Mapping[str, Sequence[_Declaration]]:
         self._is_indexing = True
-        found: list[tuple[NodeOwner | None, str, ast.expr | None]] = []
+        found: dict[str, list[_Declaration]] = {}
         for call in self._facts.module.walk(ast.Call):
             func = call.func
             if isinstance(func, ast.Attribute) and func.attr in SIGNATURES:
@@ -85,6 +87,6 @@ class Declarations:
                 for prefix, name, value in self.declarations_in(call, func.attr):
                     text = self.full_name(prefix, name)
                     if isinstance(text, str):
-                        found.append((owner, text, value))
+                        found.setdefault(text, []).append((owner, value))
         self._is_indexing = False
         return found

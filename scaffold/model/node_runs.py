@@ -10,6 +10,7 @@ from scaffold.model.node_entities import RclpyCall
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
+    from scaffold.model.scopes import FunctionNode
 
 _RUNS = frozenset({"init", "spin", "spin_once", "spin_until_future_complete"})
 _RUNS |= {"shutdown", "try_shutdown"}
@@ -17,15 +18,17 @@ _EXECUTORS = frozenset(
     f"rclpy.executors.{kind}Executor" for kind in ("SingleThreaded", "MultiThreaded")
 ) | {"rclpy.experimental.EventsExecutor"}
 
-_MAX_CALLS = 4
+_MAX_CALLS = 20
 
 
 def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
     """Yield the calls that start, run or end rclpy, in the order of the text."""
+    outside: _Outside | None = None
     for call in facts.module.walk(ast.Call):
         name = _run_name(facts, call)
         if name is not None:
-            yield _rclpy_call(facts, call, name)
+            outside = outside or _Outside(facts)
+            yield _rclpy_call(facts, call, name, outside)
 
 
 def _run_name(facts: NodeFacts, call: ast.Call) -> str | None:
@@ -58,7 +61,7 @@ def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
     return None
 
 
-def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str) -> RclpyCall:
+def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
     in_finally = in_handler = asks_ok = in_with = False
     child: ast.AST = call
     for parent in facts.module.parents(call):
@@ -84,7 +87,7 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str) -> RclpyCall:
         in_handler,
         asks_ok,
         in_with,
-        frozenset(_outer_handlers(facts, call, 0)),
+        outside.around(call),
     )
 
 
@@ -104,21 +107,38 @@ def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
     return handlers
 
 
-def _outer_handlers(facts: NodeFacts, node: ast.AST, depth: int) -> set[str]:
-    """Return what all calls of a node's function catch."""
-    function = facts.module.enclosing_function(node)
-    if function is None or depth > _MAX_CALLS:
-        return set()
-    caught: list[set[str]] = []
-    for name in facts.module.walk(ast.Name):
-        parent = facts.module.parent(name)
-        is_call = isinstance(parent, ast.Call) and parent.func is name
-        if name.id == function.name and is_call:
-            found = facts.module.index.lookup(name.id, name)
-            if found and any(binding.node is function for binding in found[1]):
-                around = _handlers_around(facts, name)
-                caught.append(around | _outer_handlers(facts, name, depth + 1))
-    return set.intersection(*caught) if caught else set()
+class _Outside:
+    """What is caught around the functions of a file, by all that call them there."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+        self._known: dict[FunctionNode, frozenset[str]] = {}
+        self._depth = 0
+        self._calls: dict[str, list[ast.Name]] = {}
+        for call in facts.module.walk(ast.Call):
+            if isinstance(call.func, ast.Name):
+                self._calls.setdefault(call.func.id, []).append(call.func)
+
+    def around(self, node: ast.AST) -> frozenset[str]:
+        """Return what all calls of a node's function catch."""
+        function = self._facts.module.enclosing_function(node)
+        if function is None or self._depth > _MAX_CALLS:
+            return frozenset()
+        if function not in self._known:
+            self._known[function] = frozenset()  # what calls itself promises nothing
+            self._depth += 1
+            caught = [
+                self.around(name) | _handlers_around(self._facts, name)
+                for name in self._calls.get(function.name, ())
+                if self._is_name_of(name, function)
+            ]
+            self._depth -= 1
+            self._known[function] = frozenset.intersection(*caught) if caught else frozenset()
+        return self._known[function]
+
+    def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
+        found = self._facts.module.index.lookup(name.id, name)
+        return found is not None and any(binding.node is function for binding in found[1])
 
 
 def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:

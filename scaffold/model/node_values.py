@@ -40,13 +40,14 @@ class NodeEvaluator(SelfEvaluator):
     ) -> None:
         super().__init__(module, related)
         self._default_of = default_of
+        self._call_sites = CallSites(self)
 
     def argument(self, node: ast.arg) -> object:
         """Return what all calls of a constructor or private function in the file agree on."""
         function = self.module.parent(self.module.parent(node) or node)
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             return UNKNOWN
-        calls = CallSites(self).of(function)
+        calls = self._call_sites.of(function)
         if not calls:
             return UNKNOWN
         is_method = isinstance(self.module.parent(function), ast.ClassDef)

@@ -41,6 +41,9 @@ NODE_CLASSES = frozenset(
     | {"rclpy.lifecycle.node.LifecycleNode"}
 )
 
+MAX_BASES = 40
+"""Classes that inherit from each other; nobody has so many."""
+
 
 class Modules(Protocol):
     """Where the other modules of a package come from; a ``Package`` is one."""
@@ -64,6 +67,7 @@ class NodeFacts:
         self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
         self._creation = Creation(self)
+        self._base_depth = 0
 
     @classmethod
     def of(cls, module: PythonModule, modules: Modules | None = None) -> NodeFacts:
@@ -114,7 +118,9 @@ class NodeFacts:
         known = self._classes_by_node
         if node not in known:
             known[node] = None  # ends the recursion of a class that inherits from itself
-            known[node] = self._new_node_class(node)
+            self._base_depth += 1
+            known[node] = self._new_node_class(node) if self._base_depth <= MAX_BASES else None
+            self._base_depth -= 1
         return known[node]
 
     def is_node_class(self, node: ast.expr) -> bool:
@@ -127,7 +133,7 @@ class NodeFacts:
             base = None
             if NODE_CLASSES.isdisjoint(names):
                 base = self._base_class(expression, names)
-                if base is None:
+                if base is None or base.depth > MAX_BASES:
                     continue
             found = NodeClass(self, node, base)
             found.base_index = position
@@ -325,7 +331,14 @@ class NodeFacts:
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
         """Return the calls in the body of a function, those of functions inside left out."""
-        return node_callbacks.calls_in(self, function)
+        return self._calls_by_function.get(function, ())
+
+    @cached_property
+    def _calls_by_function(self) -> Mapping[ast.AST | None, Sequence[ast.Call]]:
+        found: dict[ast.AST | None, list[ast.Call]] = {}
+        for call in self.module.walk(ast.Call):
+            found.setdefault(self.function_of(call), []).append(call)
+        return found
 
     def function_of(self, node: ast.AST) -> FunctionNode | ast.Lambda | None:
         """Return the function whose body a node stands in."""

@@ -11,13 +11,22 @@ from scaffold.model.scopes import FunctionNode
 from scaffold.model.values import UNKNOWN, Unknown
 
 _HARMLESS = frozenset(
-    {"topic", "topic_name", "get_subscription_count", "msg_type", "qos_profile", "handle"}
+    {
+        "topic",
+        "topic_name",
+        "get_subscription_count",
+        "msg_type",
+        "qos_profile",
+        "handle",
+        "destroy",
+    }
     | {"is_ready", "is_canceled", "time_since_last_call", "time_until_next_call"}
     | {"timer_period_ns", "clock", "callback_group"}
 )
 """What can be asked of a publisher or timer without any effect."""
 
-_MAX_CALLS = 8
+_MAX_CALLS = 4
+"""Functions between a timer and what publishes, and mentions of each."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
@@ -108,8 +117,8 @@ def _stored_references(facts: NodeFacts, entity: Entity) -> Iterator[ast.expr]:
     if entity.attribute:
         yield from _attribute_references(facts, entity, entity.attribute)
     if entity.variable:
-        for node in facts.module.walk(ast.Name):
-            if node.id != entity.variable or not isinstance(node.ctx, ast.Load):
+        for node in facts.module.index.names(entity.variable):
+            if not isinstance(node.ctx, ast.Load):
                 continue
             found = facts.module.index.lookup(node.id, node)
             bindings = found[1] if found else ()
@@ -131,8 +140,8 @@ def _attribute_references(
         other = store.class_ is None or store.class_ in family
         if other and store.value is not entity.call:
             raise _Doubt
-    for node in facts.module.walk(ast.Attribute):
-        if node.attr == attribute and isinstance(node.ctx, ast.Load):
+    for node in facts.module.index.attributes(attribute):
+        if isinstance(node.ctx, ast.Load):
             holder = facts.evaluator.self_class(node.value)
             if holder is None or holder in family:
                 yield node
@@ -145,6 +154,8 @@ def _timers_behind(facts: NodeFacts, call: ast.AST, depth: int) -> Iterator[Time
     if depth > _MAX_CALLS or function is None or not _is_certain(facts, call, function):
         raise _Doubt
     references = list(_references(facts, function))
+    if len(references) > _MAX_CALLS:
+        raise _Doubt
     if not references:
         if not isinstance(function, ast.Lambda) and function.name == "__init__":
             return
@@ -193,16 +204,15 @@ def _method_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast
     same = [found for member in family for found in index.bindings(member).get(name, ())]
     if len(same) != 1:
         raise _Doubt
-    for node in facts.module.walk(ast.Attribute):
-        if node.attr == function.name:
-            holder = facts.evaluator.self_class(node.value)
-            if holder is None or holder in family:
-                yield node
+    for node in index.attributes(name):
+        holder = facts.evaluator.self_class(node.value)
+        if holder is None or holder in family:
+            yield node
 
 
 def _function_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
-    for name in facts.module.walk(ast.Name):
-        if name.id == function.name and isinstance(name.ctx, ast.Load):
+    for name in facts.module.index.names(function.name):
+        if isinstance(name.ctx, ast.Load):
             found = facts.module.index.lookup(name.id, name)
             bindings = found[1] if found else ()
             if any(binding.node is function for binding in bindings):

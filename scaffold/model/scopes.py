@@ -48,6 +48,9 @@ class SyntaxIndex:
         self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
+        self._around: dict[ast.AST, ast.AST] = {}
+        self._names: dict[str, list[ast.Name]] | None = None
+        self._attributes: dict[str, list[ast.Attribute]] | None = None
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
@@ -80,6 +83,22 @@ class SyntaxIndex:
             self._sorted[kind] = sorted(self._by_type.get(kind, ()), key=_order)
         return cast("Sequence[Node]", self._sorted[kind])
 
+    def names(self, name: str) -> Sequence[ast.Name]:
+        """Return the uses of a name in all scopes, in the order of the text."""
+        if self._names is None:
+            self._names = {}
+            for node in self.all_of(ast.Name):
+                self._names.setdefault(node.id, []).append(node)
+        return self._names.get(name, ())
+
+    def attributes(self, name: str) -> Sequence[ast.Attribute]:
+        """Return the uses of an attribute of this name on any object."""
+        if self._attributes is None:
+            self._attributes = {}
+            for node in self.all_of(ast.Attribute):
+                self._attributes.setdefault(node.attr, []).append(node)
+        return self._attributes.get(name, ())
+
     def parent(self, node: ast.AST) -> ast.AST | None:
         """Return the node that holds another."""
         return self._parents.get(node)
@@ -95,6 +114,11 @@ class SyntaxIndex:
 
     def scope_of(self, node: ast.AST) -> ast.AST:
         """Return the scope that a node is evaluated in: a module, class, function ..."""
+        if node not in self._around:
+            self._around[node] = self._find_scope(node)
+        return self._around[node]
+
+    def _find_scope(self, node: ast.AST) -> ast.AST:
         child = below = node
         for parent in self.parents(node):
             if isinstance(parent, _SCOPES) and _is_inside(parent, child, below):

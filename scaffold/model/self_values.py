@@ -35,11 +35,17 @@ class SelfEvaluator(Evaluator):
         super().__init__(module)
         self.related = related
         self._stores: dict[str, list[Store]] | None = None
+        self._classes: dict[ast.Name, ast.ClassDef | None] = {}
 
     def self_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class whose instance a name such as ``self`` is."""
         if not isinstance(node, ast.Name):
             return None
+        if node not in self._classes:
+            self._classes[node] = self._class_of(node)
+        return self._classes[node]
+
+    def _class_of(self, node: ast.Name) -> ast.ClassDef | None:
         found = self.module.index.lookup(node.id, node)
         if found is None or [binding.kind for binding in found[1]] != ["parameter"]:
             return None
