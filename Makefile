@@ -62,6 +62,19 @@ format: $(VENV)/test.stamp
 docs: $(VENV)/test.stamp
 	$(SCAFFOLD) rules --write-docs docs/rules
 
+# Packages to measure: as many as the argument of seq says.
+build/benchmark: $(VENV)/test.stamp
+	@echo 'writing packages to measure'
+	@rm -rf $@ && mkdir -p $@
+	@for number in $$(seq 40); do \
+	  $(SCAFFOLD) new package_$$number --destination-directory $@ > /dev/null 2>&1 || exit; \
+	done
+
+.PHONY: benchmark
+benchmark: build/benchmark
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python benchmarks/check_speed.py build/benchmark \
+	  --ament $(BIN)
+
 .PHONY: clean
 clean:
 	rm -rf $(VENV) $(DEMO) .nox build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -70,7 +83,7 @@ clean:
 # The environment. A stamp is younger than what its contents were made from.
 
 $(VENV)/demo.stamp: $(VENV)/made.stamp pyproject.toml
-	@echo 'installing ros2-scaffold and ROS 2 Jazzy into $(VENV)/ (about 350 MB, once)'
+	@echo 'installing ros2-scaffold and ROS 2 Jazzy into $(VENV)/ (about 400 MB, once)'
 	@$(PIP_INSTALL) --editable '.[ros]'
 	@touch $@
 
