@@ -90,7 +90,9 @@ def _print_large(
     linters = [place / name for place in places for name in LINTERS if (place / name).exists()]
     if linters:
         once = _Timer(1)
-        together = sum(once([str(linter), str(package)]) for linter in linters for package in packages)
+        together = sum(
+            once([str(linter), str(package)]) for linter in linters for package in packages
+        )
         names = ", ".join(linter.name for linter in linters)
         print(f"  {names} together: {together / cold:.1f} times check")
 
@@ -102,7 +104,9 @@ def _print_growth(timer: _Timer, packages: Sequence[Path]) -> None:
         chosen = [str(package) for package in packages[:: max(1, len(packages) // count)][:count]]
         each = timer(_check(*chosen), before=_forget_cache) / count
         base = base or each
-        print(f"  {count:4} packages: {each * 1000:6.1f} ms each, {each / base:.2f} of the first row")
+        print(
+            f"  {count:4} packages: {each * 1000:6.1f} ms each, {each / base:.2f} of the first row"
+        )
         count *= 2
 
 

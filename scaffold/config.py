@@ -124,12 +124,12 @@ def _project_file(directory: str) -> str | None:
 
 
 def _read(path: str) -> dict[str, Any]:
-    import sys  # noqa: PLC0415  only where a file exists
+    import sys
 
     if sys.version_info >= (3, 11):
-        import tomllib  # noqa: PLC0415  14 ms that most runs do not need
+        import tomllib
     else:
-        import tomli as tomllib  # noqa: PLC0415
+        import tomli as tomllib
     try:
         with open(path, "rb") as file:
             return tomllib.load(file)

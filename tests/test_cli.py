@@ -182,7 +182,7 @@ def test_fix_style(package: Path) -> None:
     node.parent.mkdir()
     node.write_text('"""A test."""\n\nimport sys\nimport os\n\nprint("a", os, sys)\n')
     main(["check", "--fix"])
-    assert node.read_text() == "\"\"\"A test.\"\"\"\n\nimport os\nimport sys\n\nprint('a', os, sys)\n"
+    assert node.read_text() == '"""A test."""\n\nimport os\nimport sys\n\nprint(\'a\', os, sys)\n'
 
 
 def test_a_crashing_rule_of_the_user(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

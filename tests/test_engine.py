@@ -94,7 +94,9 @@ def test_registry_refuses(tmp_path: Path, file: str, code: str, rule: str, messa
 def test_roots_with_equal_file_names_do_not_mix(tmp_path: Path) -> None:
     write_rule(tmp_path / "a", "flaw_a", "CM001", "flaw-a")
     write_rule(tmp_path / "b", "flaw_b", "CM002", "flaw-b")
-    (tmp_path / "a" / "cmake" / "flaw_c.py").write_text(RULE.format(name="C", code="CM003", rule="flaw-c"))
+    (tmp_path / "a" / "cmake" / "flaw_c.py").write_text(
+        RULE.format(name="C", code="CM003", rule="flaw-c")
+    )
     rules = registry.load([str(tmp_path / "a"), str(tmp_path / "b")])
     assert [rule.code for rule in rules] == ["CM001", "CM002", "CM003"]
 

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.cmake_facts import PACKAGE_COMMANDS, has_unknown_commands, uses_ament
 
-_LISTS = "cmake_minimum_required(VERSION 3.8)\nproject(talker)\nfind_package(ament_cmake REQUIRED)\n"
+_LISTS = (
+    "cmake_minimum_required(VERSION 3.8)\nproject(talker)\nfind_package(ament_cmake REQUIRED)\n"
+)
 _CALL = "ament_package()\n"
 
 

@@ -40,4 +40,6 @@ class AmentPackageRepeated(Rule):
         calls = [call for call in package.cmake.find("ament_package") if not call.blocks]
         for call in calls[1:]:
             line = calls[0].location.line
-            yield self.report(call.name_location, f"ament_package() was called in line {line} already")
+            yield self.report(
+                call.name_location, f"ament_package() was called in line {line} already"
+            )

@@ -9,7 +9,11 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 PROVIDERS = {
     "ament_add_gmock": ("ament_cmake_gmock", "ament_cmake_auto", "ament_cmake_ros"),
     "ament_add_gtest": ("ament_cmake_gtest", "ament_cmake_auto", "ament_cmake_ros"),
-    "ament_add_pytest_test": ("ament_cmake_pytest", "ament_cmake_ros", "launch_testing_ament_cmake"),
+    "ament_add_pytest_test": (
+        "ament_cmake_pytest",
+        "ament_cmake_ros",
+        "launch_testing_ament_cmake",
+    ),
     "ament_auto_add_executable": ("ament_cmake_auto",),
     "ament_auto_add_library": ("ament_cmake_auto",),
     "ament_auto_find_build_dependencies": ("ament_cmake_auto",),

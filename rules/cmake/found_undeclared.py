@@ -36,10 +36,12 @@ class FoundUndeclared(Rule):
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             at=("package.xml:3",),
-            fixed={"package.xml": _MANIFEST.format("").replace(
-                "  <depend>rclcpp</depend>\n",
-                "  <build_depend>std_msgs</build_depend>\n  <depend>rclcpp</depend>\n",
-            )},
+            fixed={
+                "package.xml": _MANIFEST.format("").replace(
+                    "  <depend>rclcpp</depend>\n",
+                    "  <build_depend>std_msgs</build_depend>\n  <depend>rclcpp</depend>\n",
+                )
+            },
         ),
     )
 
@@ -58,7 +60,10 @@ class FoundUndeclared(Rule):
                 continue
             told.add(name)
             tag = "test_depend" if found.in_testing else "build_depend"
-            if name.startswith(("ament_cmake", "rosidl_default_generators")) and not found.in_testing:
+            if (
+                name.startswith(("ament_cmake", "rosidl_default_generators"))
+                and not found.in_testing
+            ):
                 tag = "buildtool_depend"
             last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
             message = (

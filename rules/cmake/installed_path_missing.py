@@ -52,7 +52,9 @@ class InstalledPathMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for install in package.cmake.installs:
-            if install.kind not in {"PROGRAMS", "FILES", "DIRECTORY"} or install.command.has("OPTIONAL"):
+            if install.kind not in {"PROGRAMS", "FILES", "DIRECTORY"} or install.command.has(
+                "OPTIONAL"
+            ):
                 continue
             for item in install.items:
                 problem = self._problem(package, install, item)
@@ -81,7 +83,13 @@ class InstalledPathMissing(Rule):
         """Tell whether the build itself makes the file, in the source directory."""
         name = path.rpartition("/")[2]
         makers = package.cmake.find(
-            "configure_file", "file", "add_custom_command", "add_custom_target", "execute_process",
-            "externalproject_add", "fetchcontent_declare", "generate_parameter_library",
+            "configure_file",
+            "file",
+            "add_custom_command",
+            "add_custom_target",
+            "execute_process",
+            "externalproject_add",
+            "fetchcontent_declare",
+            "generate_parameter_library",
         )
         return any(name in argument.value for maker in makers for argument in maker.arguments)

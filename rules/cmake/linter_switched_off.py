@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
-_LISTS = "project(talker)\nif(BUILD_TESTING)\n{}  ament_lint_auto_find_test_dependencies()\nendif()\n"
+_LISTS = (
+    "project(talker)\nif(BUILD_TESTING)\n{}  ament_lint_auto_find_test_dependencies()\nendif()\n"
+)
 
 
 class LinterSwitchedOff(Rule):

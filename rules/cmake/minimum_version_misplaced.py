@@ -38,7 +38,7 @@ class MinimumVersionMisplaced(Rule):
         cmake = package.cmake
         project = cmake.project
         minimum = cmake.find("cmake_minimum_required")
-        if project is None or cmake.find("include") and not minimum:
+        if project is None or (cmake.find("include") and not minimum):
             return
         if not minimum:
             message = "no cmake_minimum_required(VERSION ...) in front of project()"

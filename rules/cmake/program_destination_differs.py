@@ -37,7 +37,10 @@ class ProgramDestinationDiffers(Rule):
         ),
         Example(
             "without the braces",
-            {"CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"), "talker/node.py": "import rclpy\n"},
+            {
+                "CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"),
+                "talker/node.py": "import rclpy\n",
+            },
             at=("CMakeLists.txt:2",),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),

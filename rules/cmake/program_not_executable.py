@@ -47,7 +47,11 @@ class ProgramNotExecutable(Rule):
             if path in told or program.destination != wanted or not package.has(path):
                 continue
             told.add(path)
-            if package.is_executable(path) or not path.endswith(".py") or path.endswith("__init__.py"):
+            if (
+                package.is_executable(path)
+                or not path.endswith(".py")
+                or path.endswith("__init__.py")
+            ):
                 continue
             line = program.location.line
             message = (

@@ -67,7 +67,9 @@ class ProgramNotInstalled(Rule):
             if self._is_named(package, module.path):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
-            message = f"{module.path} is a node with a main, but not installed: `ros2 run` misses it"
+            message = (
+                f"{module.path} is a node with a main, but not installed: `ros2 run` misses it"
+            )
             yield self.report(place, message)
 
     def _is_started(self, module: PythonModule) -> bool:

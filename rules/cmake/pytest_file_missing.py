@@ -24,7 +24,9 @@ class PytestFileMissing(Rule):
     code = "CM025"
     name = "pytest-file-missing"
     examples = (
-        Example("there", {"CMakeLists.txt": _LISTS.format("test_talk.py"), "test/test_talk.py": ""}),
+        Example(
+            "there", {"CMakeLists.txt": _LISTS.format("test_talk.py"), "test/test_talk.py": ""}
+        ),
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("test_talks.py"), "test/test_talk.py": ""},

@@ -42,8 +42,16 @@ class PythonPackageMissing(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         for command in cmake.find("ament_python_install_package"):
-            sections = command.sections({"PACKAGE_DIR", "VERSION", "SETUP_CFG", "DESTINATION",
-                                         "SCRIPTS_DESTINATION", "SKIP_COMPILE"})
+            sections = command.sections(
+                {
+                    "PACKAGE_DIR",
+                    "VERSION",
+                    "SETUP_CFG",
+                    "DESTINATION",
+                    "SCRIPTS_DESTINATION",
+                    "SKIP_COMPILE",
+                }
+            )
             chosen = sections.get("PACKAGE_DIR") or sections[""]
             directory = cmake.expand(chosen[0], command) if chosen else None
             if not chosen or directory is None or directory.startswith(("/", "..")):

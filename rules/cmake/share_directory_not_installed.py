@@ -58,7 +58,9 @@ class ShareDirectoryNotInstalled(Rule):
             for path in data_files(package, directory)[:1]:
                 first.setdefault(directory, path)
         for directory, path in first.items():
-            named = any(directory in value for command in cmake.commands for value in command.values)
+            named = any(
+                directory in value for command in cmake.commands for value in command.values
+            )
             if named or installs_directory(package, directory) is not False:
                 continue
             message = f"{directory}/ is not installed, so {path} is not found at run time"

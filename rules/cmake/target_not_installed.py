@@ -29,7 +29,9 @@ class TargetNotInstalled(Rule):
     name = "target-not-installed"
     examples = (
         Example("both", {"CMakeLists.txt": _LISTS.format("listen ")}),
-        Example("one is forgotten", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:4",)),
+        Example(
+            "one is forgotten", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:4",)
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -52,7 +54,11 @@ class TargetNotInstalled(Rule):
                 continue
             name = cmake.expand(command.arguments[0], command)
             kinds = set(command.values[1:2])
-            if name is None or name in installed or kinds & {"IMPORTED", "ALIAS", "EXCLUDE_FROM_ALL"}:
+            if (
+                name is None
+                or name in installed
+                or kinds & {"IMPORTED", "ALIAS", "EXCLUDE_FROM_ALL"}
+            ):
                 continue
             if self._is_used(package, name) or "test" in name or "benchmark" in name:
                 continue
@@ -60,8 +66,14 @@ class TargetNotInstalled(Rule):
 
     def _is_used(self, package: Package, name: str) -> bool:
         """Tell whether the build itself runs or installs the executable."""
-        ways = ("add_custom_command", "add_custom_target", "rclcpp_components_register_node",
-                "install", "add_test", "add_dependencies")
+        ways = (
+            "add_custom_command",
+            "add_custom_target",
+            "rclcpp_components_register_node",
+            "install",
+            "add_test",
+            "add_dependencies",
+        )
         return any(
             name in value.split(":") or f"TARGET_FILE:{name}" in value
             for command in package.cmake.find(*ways)

@@ -25,7 +25,9 @@ DEFINING = (
     "qt5_add_executable",
 )
 USING = ("ament_target_dependencies", "target_link_libraries", "target_include_directories")
-_LISTS = "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"
+_LISTS = (
+    "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"
+)
 
 
 class TargetUndefined(Rule):
@@ -42,7 +44,9 @@ class TargetUndefined(Rule):
     name = "target-undefined"
     examples = (
         Example("defined", {"CMakeLists.txt": _LISTS.format("talk")}),
-        Example("not defined", {"CMakeLists.txt": _LISTS.format("talks")}, at=("CMakeLists.txt:3",)),
+        Example(
+            "not defined", {"CMakeLists.txt": _LISTS.format("talks")}, at=("CMakeLists.txt:3",)
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

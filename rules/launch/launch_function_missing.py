@@ -8,10 +8,7 @@ from difflib import get_close_matches
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.launch_py import FUNCTION, LaunchFile
 
-_LAUNCH = (
-    "from launch import LaunchDescription\n\n\n"
-    "def {}():\n    return LaunchDescription([])\n"
-)
+_LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
 
 
 class LaunchFunctionMissing(Rule):

@@ -10,7 +10,9 @@ from scaffold.api import Diagnostic, Example, Location, Package, Rule
 from scaffold.model.launch_markup import markup_files
 from scaffold.model.launch_py import LaunchFile
 
-_HOME = r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
+_HOME = (
+    r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
+)
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"

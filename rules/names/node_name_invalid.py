@@ -30,7 +30,9 @@ class NodeNameInvalid(Rule):
     name = "node-name-invalid"
     examples = (
         Example("accepted", {"talker.py": _NODE.format("'talker', namespace='left/arm'")}),
-        Example("a namespace in it", {"talker.py": _NODE.format("'left/talker'")}, at=("talker.py:6",)),
+        Example(
+            "a namespace in it", {"talker.py": _NODE.format("'left/talker'")}, at=("talker.py:6",)
+        ),
         Example(
             "a namespace with a dash",
             {"talker.py": _NODE.format("'talker', namespace='left-arm'")},

@@ -26,7 +26,9 @@ class ScriptShadowsModule(Rule):
     code = "NM040"
     name = "script-shadows-module"
     examples = (
-        Example("a name of its own", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}),
+        Example(
+            "a name of its own", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}
+        ),
         Example(
             "of the standard library",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},

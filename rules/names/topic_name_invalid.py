@@ -42,4 +42,6 @@ class TopicNameInvalid(Rule):
                     continue
                 problem = topic_problem(entity.name)
                 if problem:
-                    yield self.report(argument, f"ROS 2 refuses the name {entity.name!r}: {problem}")
+                    yield self.report(
+                        argument, f"ROS 2 refuses the name {entity.name!r}: {problem}"
+                    )

@@ -40,7 +40,9 @@ class FutureReadTooEarly(Rule):
             "when it is done",
             {"caller.py": _NODE.format("future.add_done_callback(self.answer)")},
         ),
-        Example("at once", {"caller.py": _NODE.format("return future.result()")}, at=("caller.py:7",)),
+        Example(
+            "at once", {"caller.py": _NODE.format("return future.result()")}, at=("caller.py:7",)
+        ),
         Example(
             "by the callback, called at once",
             {"caller.py": _NODE.format("self.answer(future)")},

@@ -8,7 +8,9 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import RclpyCall
 from scaffold.model.nodes import NodeFacts
 
-_MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
+_MAIN = (
+    "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
+)
 
 
 class InitRepeated(Rule):
@@ -35,9 +37,7 @@ class InitRepeated(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             started: RclpyCall | None = None
-            calls = sorted(
-                (*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location
-            )
+            calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location)
             for call in calls:
                 in_node = call.name == "init" and self._is_in_node(facts, call)
                 if in_node and any(not self._is_in_node(facts, one) for one in facts.init_calls):

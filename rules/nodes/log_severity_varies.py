@@ -8,12 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
-_NODE = (
-    "from rclpy.node import Node\n\n\n"
-    "class Talker(Node):\n"
-    "    def tick(self, bad):\n"
-    "{}"
-)
+_NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
 _BRANCHES = (
     "        if bad:\n            self.get_logger().error('bad')\n"
     "        else:\n            self.get_logger().info('good')\n"

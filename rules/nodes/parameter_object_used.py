@@ -102,9 +102,7 @@ def _asks(facts: NodeFacts, use: ast.AST) -> bool:
     return isinstance(facts.module.parent(use), ast.Attribute)
 
 
-def _is_rebound(
-    scope: ast.AST | FunctionNode, variable: str | None, attribute: str | None
-) -> bool:
+def _is_rebound(scope: ast.AST | FunctionNode, variable: str | None, attribute: str | None) -> bool:
     stores = 0
     for node in ast.walk(scope):
         match node:

@@ -10,7 +10,16 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.python_module import PythonModule
 
 SUBMODULES = frozenset(
-    {"action", "callback_groups", "clock", "duration", "executors", "lifecycle", "node", "parameter"}
+    {
+        "action",
+        "callback_groups",
+        "clock",
+        "duration",
+        "executors",
+        "lifecycle",
+        "node",
+        "parameter",
+    }
     | {"qos", "task", "time", "timer", "utilities"}
 )
 _LOADED = frozenset({"context", "utilities", "parameter", "task", "exceptions", "impl", "signals"})

@@ -39,5 +39,7 @@ class SuperInitMissing(Rule):
                 if node.calls_super_init or node.constructor is None:
                     continue
                 at = facts.module.name_location(node.constructor)
-                message = f"{node.name}.__init__() does not call super().__init__(): no node is made"
+                message = (
+                    f"{node.name}.__init__() does not call super().__init__(): no node is made"
+                )
                 yield self.report(at, message)

@@ -33,7 +33,9 @@ class BuildToolMisplaced(Rule):
     severity = Severity.WARNING
     examples = (
         Example("a build tool", {"package.xml": _MANIFEST.format("buildtool_depend")}),
-        Example("needed to run", {"package.xml": _MANIFEST.format("depend")}, at=("package.xml:2",)),
+        Example(
+            "needed to run", {"package.xml": _MANIFEST.format("depend")}, at=("package.xml:2",)
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

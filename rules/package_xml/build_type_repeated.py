@@ -26,7 +26,9 @@ class BuildTypeRepeated(Rule):
     code = "PX014"
     name = "build-type-repeated"
     examples = (
-        Example("one for ROS 1", {"package.xml": _MANIFEST.format(' condition="$ROS_VERSION == 1"')}),
+        Example(
+            "one for ROS 1", {"package.xml": _MANIFEST.format(' condition="$ROS_VERSION == 1"')}
+        ),
         Example("two", {"package.xml": _MANIFEST.format("")}, at=("package.xml:4",)),
     )
 

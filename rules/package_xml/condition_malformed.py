@@ -24,7 +24,9 @@ class ConditionMalformed(Rule):
     name = "condition-malformed"
     examples = (
         Example("a comparison", {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy")}),
-        Example("one sign", {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")}, at=("package.xml:2",)),
+        Example(
+            "one sign", {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")}, at=("package.xml:2",)
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

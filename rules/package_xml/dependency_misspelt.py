@@ -23,8 +23,10 @@ class DependencyMisspelt(Rule):
     examples = (
         Example(
             "right, and one that nobody knows",
-            {"package.xml": "<package>\n  <depend>std_msgs</depend>\n"
-             "  <depend>our_own_msgs</depend>\n</package>\n"},
+            {
+                "package.xml": "<package>\n  <depend>std_msgs</depend>\n"
+                "  <depend>our_own_msgs</depend>\n</package>\n"
+            },
         ),
         Example(
             "a letter is missing",

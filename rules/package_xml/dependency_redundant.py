@@ -58,7 +58,9 @@ class DependencyRedundant(Rule):
             other = generic.get(name)
             if other is not None and kind in COVERED and other.condition == dependency.condition:
                 line = other.location.line
-                message = f"<{kind}> {name!r} is covered by <depend> in line {line}: colcon refuses both"
+                message = (
+                    f"<{kind}> {name!r} is covered by <depend> in line {line}: colcon refuses both"
+                )
             elif dependency.element is not manifest.depends(kind)[name].element and name:
                 if first == dependency.location.line:
                     continue

@@ -37,5 +37,7 @@ class LicensePlaceholder(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element in package.manifest.all("license"):
             if is_placeholder(element.text):
-                message = f"the licence is a placeholder, {element.text!r}: nobody may use the package"
+                message = (
+                    f"the licence is a placeholder, {element.text!r}: nobody may use the package"
+                )
                 yield self.report(element.text_location, message)

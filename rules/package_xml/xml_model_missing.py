@@ -29,18 +29,14 @@ class XmlModelMissing(Rule):
     examples = (
         Example(
             "with its schema",
-            {
-                "package.xml": '<?xml version="1.0"?>\n'
-                f'{LINE.format(3)}\n<package format="3"/>\n'
-            },
+            {"package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'},
         ),
         Example(
             "without",
             {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
             at=("package.xml:2",),
             fixed={
-                "package.xml": '<?xml version="1.0"?>\n'
-                f'{LINE.format(3)}\n<package format="3"/>\n'
+                "package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'
             },
         ),
     )

@@ -9,7 +9,9 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
 _MANIFEST = (
     "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
 )
-_SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
+)
 _MARKER = "        ('share/ament_index/resource_index/packages', ['resource/talker']),\n"
 _LINE = "        ('share/talker', ['package.xml']),\n"
 

@@ -54,7 +54,9 @@ class MarkerMissing(Rule):
             for source, at in zip(data.sources, data.source_locations, strict=True):
                 if not isinstance(source, str) or package.has(source):
                     continue
-                fix = Fix(f"create {marker}", (CreateFile(marker, ""),)) if source == marker else None
+                fix = (
+                    Fix(f"create {marker}", (CreateFile(marker, ""),)) if source == marker else None
+                )
                 message = f"data_files names {source}, which does not exist: the build stops"
                 yield self.report(at, message, fix)
             known = [source for source in data.sources if isinstance(source, str)]

@@ -47,7 +47,9 @@ class MetadataDiffers(Rule):
     name = "metadata-differs"
     severity = Severity.WARNING
     examples = (
-        Example("the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}),
+        Example(
+            "the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}
+        ),
         Example(
             "another version and another licence",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},

@@ -72,7 +72,10 @@ class ScriptDirectoryDiffers(Rule):
                 message = f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing"
                 fix = Fix(f"write {wanted}", (cfg.set(section, key, wanted),))
                 yield self.report(at, message, fix)
-            elif entry is not None and entry.value.rstrip("/") not in {wanted, wanted.replace("$base", "${base}")}:
+            elif entry is not None and entry.value.rstrip("/") not in {
+                wanted,
+                wanted.replace("$base", "${base}"),
+            }:
                 message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
                 yield self.report(entry, message, Fix(f"write {wanted}", (edit,)))

@@ -37,7 +37,7 @@ def page(rule: type[Rule]) -> str:
 
 def style_page(style: StyleCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
-    from scaffold.style.codes import FLAKE8, PEP257  # noqa: PLC0415  only for this
+    from scaffold.style.codes import FLAKE8, PEP257
 
     names = [
         name
@@ -63,7 +63,7 @@ def as_data(rule: type[Rule]) -> dict[str, object]:
 
 def write(directory: str, rules: Sequence[type[Rule]]) -> None:
     """Write a page per rule and a table of all, and remove pages of rules that are no more."""
-    import os  # noqa: PLC0415  only for this
+    import os
 
     os.makedirs(directory, exist_ok=True)
     pages = {f"{rule.code}.md": page(rule) for rule in rules}

@@ -101,9 +101,7 @@ def fix(
     after = _on(package, overlay)
     same = {path for path, data in overlay.changed.items() if _had(package, path) == data}
     changed = {path: data for path, data in overlay.changed.items() if path not in same}
-    return Fixed(
-        after, changed, frozenset(overlay.removed), frozenset(overlay.executable), count
-    )
+    return Fixed(after, changed, frozenset(overlay.removed), frozenset(overlay.executable), count)
 
 
 def _apply_round(

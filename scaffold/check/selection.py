@@ -28,7 +28,8 @@ class Selection(NamedTuple):
     def wants_at(self, code: str, path: str) -> bool:
         """Tell whether a code is reported in a file."""
         return not any(
-            code.startswith(prefixes) for pattern, prefixes in self.per_path.items()
+            code.startswith(prefixes)
+            for pattern, prefixes in self.per_path.items()
             if fnmatchcase(path, pattern)
         )
 
@@ -49,7 +50,9 @@ def nearest(word: str, known: Collection[str]) -> str:
 
 def split(values: Sequence[str] | None) -> tuple[str, ...]:
     """Return the codes of a repeatable, comma-separated flag in upper case."""
-    return tuple(code.upper() for value in values or () for code in re.split(r"[,\s]+", value) if code)
+    return tuple(
+        code.upper() for value in values or () for code in re.split(r"[,\s]+", value) if code
+    )
 
 
 def _longest(prefixes: Iterable[str], code: str) -> int | None:

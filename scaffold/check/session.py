@@ -65,7 +65,7 @@ class Session:
         if len(targets) < PARALLEL_FROM:
             yield from self.run_batch(targets)
             return
-        from scaffold.check.parallel import batches  # noqa: PLC0415  only for workspaces
+        from scaffold.check.parallel import batches
 
         yield from batches(self.run_batch, targets)
 
@@ -90,7 +90,7 @@ class Session:
         chosen = self.selection.select
         if chosen and all(prefix[:2] in self._areas for prefix in chosen):
             return None
-        from scaffold.style import StyleCheck  # noqa: PLC0415  only where used
+        from scaffold.style import StyleCheck
 
         return StyleCheck(packages)
 

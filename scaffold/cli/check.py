@@ -7,11 +7,11 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.check.rule import Rule
-    from scaffold.check.selection import Selection
     from collections.abc import Sequence
 
     from scaffold.check.fixer import Fixed
+    from scaffold.check.rule import Rule
+    from scaffold.check.selection import Selection
     from scaffold.check.session import Result, Session
     from scaffold.config import Config
     from scaffold.model.discovery import Target
@@ -111,9 +111,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
 def _plan(root: str, fixed: Fixed) -> WritePlan:
     from scaffold.plan import WritePlan
 
-    return WritePlan.of(
-        root, fixed.changed, executable=fixed.executable, remove=fixed.removed
-    )
+    return WritePlan.of(root, fixed.changed, executable=fixed.executable, remove=fixed.removed)
 
 
 def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int:
@@ -158,9 +156,7 @@ def exit_code(results: list[Result]) -> int:
     return FOUND if any(d.severity is not Severity.INFO for d in found) else CLEAN
 
 
-def _selection(
-    options: argparse.Namespace, settings: Config, rules: list[type[Rule]]
-) -> Selection:
+def _selection(options: argparse.Namespace, settings: Config, rules: list[type[Rule]]) -> Selection:
     from scaffold.check import selection
     from scaffold.check.session import all_rules
 

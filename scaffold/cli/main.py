@@ -75,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _defect(error: Exception) -> int:
-    import traceback  # noqa: PLC0415  only for the way out
+    import traceback
 
     if os.environ.get("SCAFFOLD_DEBUG"):
         traceback.print_exception(error)
@@ -89,7 +89,7 @@ def _defect(error: Exception) -> int:
 
 
 def _complete() -> None:
-    import argcomplete  # noqa: PLC0415  only for tab completion
+    import argcomplete
 
     argcomplete.autocomplete(build_parser())
 

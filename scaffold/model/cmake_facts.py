@@ -77,9 +77,9 @@ def installs_directory(package: Package, directory: str) -> bool | None:
         for item in install.items:
             if item.path is None:
                 unknown = unknown or install.kind in {"DIRECTORY", "FILES"}
-            elif _covers(item, directory) and install.kind == "DIRECTORY":
-                return True
-            elif install.kind in {"FILES", "PROGRAMS"} and item.path.startswith(f"{directory}/"):
+            elif (_covers(item, directory) and install.kind == "DIRECTORY") or (
+                install.kind in {"FILES", "PROGRAMS"} and item.path.startswith(f"{directory}/")
+            ):
                 return True
     return None if unknown or has_unknown_commands(package) else False
 
