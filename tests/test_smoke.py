@@ -88,6 +88,10 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
     lists.write_text(lists.read_text().replace("(rclpy", "(no_such_package"))
     python_package(root, "unbuilt_py", {"once": ONCE})
     write(root, {"unbuilt_py/setup.py": "import no_such_module\n"})
+    python_package(root, "dependent", {"once": ONCE})
+    manifest = root / "dependent" / "package.xml"
+    depend = "<depend>unbuilt_cmake</depend>"
+    manifest.write_text(manifest.read_text().replace("<exec", f"{depend}\n  <exec", 1))
     python_package(root, "uninstalled", {"once": ONCE})
     (root / "uninstalled" / "setup.cfg").unlink()
     return root
@@ -265,6 +269,30 @@ def test_does_not_build(packages: dict[str, Result]) -> None:
         assert build["errors"][0] == first
         assert any(some in line for line in build["errors"])
         assert packages[name]["executables"] == []
+
+
+def test_dependency_does_not_build(packages: dict[str, Result]) -> None:
+    assert packages["dependent"]["build"] == {
+        "ok": False,
+        "seconds": 0.0,
+        "errors": ["not built: it depends on unbuilt_cmake, which failed"],
+        "warnings": [],
+    }
+
+
+def test_package_that_colcon_ignores(tmp_path: Path) -> None:
+    package = python_package(tmp_path, "ignored", {"once": ONCE})
+    (package / "COLCON_IGNORE").touch()
+    result = smoke(packages_of(discovery.find([str(package)])), Options())
+    assert not result.ok
+    assert result.packages[0].build.errors == ("not built: colcon does not find it",)
+
+
+def test_build_that_takes_too_long(sources: Path) -> None:
+    found = packages_of(discovery.find([str(sources / "good_py")]))
+    result = smoke(found, Options(build_timeout=0.1))
+    assert not result.ok
+    assert result.packages[0].build.errors[-1] == "the build did not end within 0.1 s"
 
 
 def test_executable_that_ros2_run_does_not_find(packages: dict[str, Result]) -> None:

@@ -168,16 +168,19 @@ class _Log:
     """What one run of colcon has written."""
 
     directory: Path
-    jobs: Mapping[str, _Job]
-    """By package; empty with a colcon that lacks colcon-output."""
+    jobs: Mapping[str, _Job] | None
+    """By package; ``None`` with a colcon that lacks colcon-output."""
     said: str
     """On its own stdout and stderr."""
     succeeded: bool
 
     @classmethod
     def read(cls, directory: Path, said: str, *, succeeded: bool) -> _Log:
+        events = directory / "events.log"
+        if not events.exists():
+            return cls(directory, None, _WRITTEN_TWICE.sub("", said), succeeded)
         jobs: dict[str, _Job] = {}
-        for line in output.read(directory / "events.log").splitlines():
+        for line in output.read(events).splitlines():
             event = _JOB.match(line)
             if event is None:
                 continue
@@ -195,31 +198,36 @@ class _Log:
 
     def had_no_turn(self, name: str) -> bool:
         """Tell whether the build ended early, for no reason that concerns this package."""
-        job = self.jobs.get(name)
-        return job is not None and job.skipped and not self._failed_dependencies(name)
+        job = (self.jobs or {}).get(name)
+        return job is not None and job.skipped and not self._failed_dependencies(job)
 
     def result(self, name: str) -> Build:
-        job = self.jobs.get(name, _Job())
         written = output.read(self.directory / name / "stdout_stderr.log")
         warnings = tuple(output.warnings(written))
+        if self.jobs is None:
+            errors = () if self.succeeded else tuple(output.errors(self.said))
+            return Build(ok=self.succeeded, errors=errors, warnings=warnings)
+        job = self.jobs.get(name)
+        if job is None:
+            # Also when colcon has given up before it began: then it says why.
+            why = [] if self.succeeded else output.errors(self.said)
+            return Build(ok=False, errors=("not built: colcon does not find it", *why))
         seconds = 0.0 if job.ended is None else job.ended - job.started
-        if job.succeeded or (self.succeeded and not self.jobs):
-            return Build(ok=True, seconds=seconds, warnings=warnings)
-        failed = self._failed_dependencies(name)
-        if failed:
-            errors = [f"not built: it depends on {', '.join(failed)}, which failed"]
-        elif self.jobs and name not in self.jobs:
-            errors = ["not built: colcon does not find it"]
-        else:
-            # A setup.py that cannot be run fails in colcon itself, which then has the reason.
-            has_reason = written.strip() and job.ended and output.PASSED_ON not in written
-            errors = output.errors(written if has_reason else self.said)
-        return Build(ok=False, seconds=seconds, errors=tuple(errors), warnings=warnings)
+        errors = () if job.succeeded else tuple(self._errors(job, written))
+        return Build(ok=job.succeeded, seconds=seconds, errors=errors, warnings=warnings)
 
-    def _failed_dependencies(self, name: str) -> list[str]:
-        queued = self.jobs[name].queued if name in self.jobs else ""
+    def _errors(self, job: _Job, written: str) -> list[str]:
+        failed = self._failed_dependencies(job)
+        if failed:
+            return [f"not built: it depends on {', '.join(failed)}, which failed"]
+        # A setup.py that cannot be run fails in colcon itself, which then has the reason.
+        has_reason = written.strip() and job.ended and output.PASSED_ON not in written
+        return output.errors(written if has_reason else self.said)
+
+    def _failed_dependencies(self, job: _Job) -> list[str]:
         return [
-            other
-            for other, job in self.jobs.items()
-            if other != name and not job.succeeded and f"'{other}'" in queued
+            name
+            for name, other in (self.jobs or {}).items()
+            if other.ended is not None and not other.succeeded and f"'{name}'" in job.queued
+            if other is not job
         ]

@@ -22,7 +22,6 @@ from scaffold.model.tree import MANIFEST
 from scaffold.smoke import environment as environments
 from scaffold.smoke import process, trial
 from scaffold.smoke.build import Layout, build
-from scaffold.smoke.declared import expectations
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.expectation import Expectation, compare
 from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
@@ -35,7 +34,7 @@ Progress = Callable[[str], None]
 """Is told what goes on, in a few words."""
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
-_EARLY_STATIONS = 2
+_EARLY_STATIONS = 4
 """Observers that are started during the build; more of them would slow it down."""
 
 
@@ -195,6 +194,8 @@ class _Session:
             )
         )
         await asyncio.sleep(0)  # the build begins first
+        from scaffold.smoke.declared import expectations
+
         self._expected = {source.name: expectations(source) for source in sources}
         if not any(path.endswith(_INTERFACES) for source in sources for path in source.files):
             # Observers have to know the messages: these come with the environment.
