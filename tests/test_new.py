@@ -156,25 +156,27 @@ def test_brief_node() -> None:
                 self.count = 0
 
             def publish_message(self):
-                """Publish the next message and log it."""
+                """Log the next message and publish it."""
                 msg = String()
                 msg.data = f'Hello World: {self.count}'
-                self.publisher.publish(msg)
                 self.get_logger().info(f'Publishing: {msg.data}')
+                self.publisher.publish(msg)
                 self.count += 1
 
 
         def main(args=None):
             """Run the node until Ctrl+C (SIGINT) or SIGTERM."""
             rclpy.init(args=args)
+            node = MinimalPublisher()
             try:
-                rclpy.spin(MinimalPublisher())
+                rclpy.spin(node)
             except (KeyboardInterrupt, ExternalShutdownException):
                 pass
             except RuntimeError:
                 if rclpy.ok():  # otherwise a signal ended the context while the node was using it
                     raise
             finally:
+                node.destroy_node()
                 rclpy.try_shutdown()
 
 
@@ -259,7 +261,7 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
     )
     node = files["talker/node.py"]
     assert "class NodeNode(Node):" in node
-    assert "        rclpy.spin(NodeNode())\n" in node
+    assert "    node = NodeNode()\n" in node
     assert "('topic', '~/beat')" in node
     assert "    /node/beat (std_msgs/msg/Header)\n" in node
     assert "self.create_publisher(Header, topic, qos_profile_sensor_data)" in node
