@@ -31,6 +31,7 @@ AREAS = {
     "nodes": "ND",
     "messages": "MS",
     "launch": "LF",
+    "parameters": "PF",
 }
 
 

@@ -142,6 +142,20 @@ def started_nodes(package: Package) -> list[StartedNode]:
     return package.remember("started_nodes", find)
 
 
+def consumers(package: Package) -> list[StartedNode]:
+    """Return the nodes and components that the Python launch files give parameters."""
+
+    def find() -> list[StartedNode]:
+        return [
+            StartedNode(package, launch, call)
+            for launch in LaunchFile.of_package(package)
+            for call in launch.find(*NODES, "ComposableNode")
+            if "parameters" in call.given
+        ]
+
+    return package.remember("parameter_consumers", find)
+
+
 def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:
     """Tell whether an action stands in the list of the LaunchDescription, or is added to it."""
     module = launch.module

@@ -1,0 +1,69 @@
+"""PF005: the items of a list are of one type."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.parameter_files import mixed, parameter_file, parameter_paths, scalar_type
+from scaffold.model.yaml_tree import Scalar, Sequence
+
+_FILE = "talker:\n  ros__parameters:\n    gains: {}\n"
+
+
+class ListMixesTypes(Rule):
+    """A list in a parameter file has items of different types.
+
+    **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
+    file ... Sequence should be of same type``.
+
+    **Fix.** Write ``1.0`` among numbers with a point, and quotes around words that look like
+    something else.
+
+    **Source.** ``rcl_yaml_param_parser/src/parse.c``.
+    """
+
+    code = "PF005"
+    name = "list-mixes-types"
+    examples = (
+        Example("one type", {"config/a.yaml": _FILE.format("[1.0, 2.5]")}),
+        Example(
+            "integers among doubles",
+            {"config/a.yaml": _FILE.format("[1, 2.5, -3]")},
+            at=("config/a.yaml:3",),
+            fixed={"config/a.yaml": _FILE.format("[1.0, 2.5, -3.0]")},
+        ),
+        Example(
+            "a word that is a boolean",
+            {"config/a.yaml": _FILE.format("[left, right, off]")},
+            at=("config/a.yaml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                for entry in section.entries:
+                    found = mixed(entry.value)
+                    if found is None or not isinstance(entry.value, Sequence):
+                        continue
+                    first, kind, other, other_kind = found
+                    message = (
+                        f"{entry.name} mixes {kind} ({first.text}) and {other_kind} "
+                        f"({other.text}); rcl refuses the file"
+                    )
+                    yield self.report(other, message, self._fix(path, entry.value))
+
+    def _fix(self, path: str, value: Sequence) -> Fix | None:
+        scalars = [item for item in value.items if isinstance(item, Scalar)]
+        kinds = [scalar_type(item) for item in scalars]
+        if set(kinds) != {"integer", "double"}:
+            return None
+        whole = [
+            item for item, kind in zip(scalars, kinds, strict=True) if kind == "integer"
+        ]
+        if not all(item.text.lstrip("+-").isdecimal() for item in whole):
+            return None
+        edits = tuple(Edit(path, item.end, item.end, ".0") for item in whole)
+        return Fix("write all with a point", edits)

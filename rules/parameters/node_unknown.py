@@ -1,0 +1,115 @@
+"""PF003: the nodes that a parameter file names are started with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import own_nodes
+from scaffold.model.parameter_files import ParameterFile, Section, parameter_file, parameter_paths
+from scaffold.model.parameter_use import is_alike, node_names, use_of
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+)
+_FILE = "{}:\n  ros__parameters:\n    rate: 1.0\n"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\nfrom launch_ros.substitutions import FindPackageShare\n"
+    "\n\ndef generate_launch_description():\n"
+    "    params = PathJoinSubstitution([FindPackageShare('demo'), 'config', 'demo.yaml'])\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='eyes', executable='eye', name='camera', parameters=[params]),\n    ])\n"
+)
+_MANIFEST = '<package format="3"><name>demo</name></package>\n'
+
+
+class NodeUnknown(Rule):
+    """A parameter file names a node that no node is called.
+
+    **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
+
+    **Fix.** Write the name of the node, with its namespace; ``/**`` is for all nodes.
+
+    **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
+    """
+
+    code = "PF003"
+    name = "node-unknown"
+    examples = (
+        Example(
+            "the name of the node, all nodes, a node from elsewhere",
+            {
+                "talker.py": _NODE,
+                "config/a.yaml": _FILE.format("talker"),
+                "config/b.yaml": _FILE.format("/**"),
+                "config/c.yaml": _FILE.format("camera"),
+            },
+        ),
+        Example(
+            "the name of the executable",
+            {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
+            at=("config/a.yaml:1",),
+        ),
+        Example(
+            "not the name that the launch file gives",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH,
+                "config/demo.yaml": _FILE.format("eye"),
+            },
+            at=("config/demo.yaml:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            if file is None or not file.sections:
+                continue
+            use = use_of(package, path)
+            if use.nodes:
+                yield from self._for_started(package, file)
+            elif use.complete:
+                yield from self._for_own(package, file)
+
+    def _for_started(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
+        """Judge a file by the nodes that launch files give it to."""
+        use = use_of(package, file.path)
+        names = {node.name for node in use.nodes if isinstance(node.name, str)}
+        if any(not isinstance(node.name, str) for node in use.nodes):
+            return
+        given = {_last(section) for section in file.sections}
+        useless = not any(s.is_pattern or _last(s) in names for s in file.sections)
+        everywhere = node_names(package)
+        for section in file.sections:
+            name = _last(section)
+            if section.is_pattern or name in names:
+                continue
+            alike = [other for other in sorted(names - given) if is_alike(name, other)]
+            if alike or (useless and use.complete and name not in everywhere):
+                first = use.nodes[0].call.location
+                message = (
+                    f"no node is called {name!r}: {first.path}:{first.line} gives this file to "
+                    f"{', '.join(alike or sorted(names))}"
+                )
+                yield self.report(section.key, message)
+
+    def _for_own(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
+        """Judge a file that no launch file names by the nodes in the code of the package."""
+        nodes, complete = own_nodes(package)
+        names = {str(node.node_name) for node in nodes}
+        given = {_last(section) for section in file.sections}
+        everywhere = node_names(package)
+        for section in file.sections if complete else ():
+            name = _last(section)
+            alike = [other for other in sorted(names - given) if is_alike(name, other)]
+            if alike and name not in everywhere and not section.is_pattern:
+                message = f"no node of this package is called {name!r}; {alike[0]!r} is meant"
+                yield self.report(section.key, message)
+
+
+def _last(section: Section) -> str:
+    return section.node.rpartition("/")[2]

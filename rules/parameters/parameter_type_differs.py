@@ -1,0 +1,104 @@
+"""PF006: values have the type of the declared parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.declared_parameters import Declared, declared_by
+from scaffold.model.launch_nodes import started_nodes
+from scaffold.model.launch_values import value_given
+from scaffold.model.parameter_files import Entry, parameter_file, parameter_paths, value_type
+from scaffold.model.parameter_use import nodes_for
+from scaffold.model.yaml_tree import Scalar
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.declare_parameter('mode', 'slow')\n"
+)
+_FILE = "talker:\n  ros__parameters:\n    rate: {}\n    mode: {}\n"
+
+
+class ParameterTypeDiffers(Rule):
+    """A parameter is set to a value of another type than the node declares.
+
+    **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter
+    'rate' to '2' of type 'INTEGER', expecting type 'DOUBLE'``. ``on``, ``yes`` and ``n`` are
+    booleans, ``2`` is no double.
+
+    **Fix.** Write ``2.0``; put quotes around words.
+
+    **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rcl_yaml_param_parser/src/parse.c``.
+    """
+
+    code = "PF006"
+    name = "parameter-type-differs"
+    examples = (
+        Example(
+            "a double, a string",
+            {"talker.py": _NODE, "a.yaml": _FILE.format("2.0", "fast")},
+        ),
+        Example(
+            "an integer, a boolean",
+            {"talker.py": _NODE, "a.yaml": _FILE.format("2", "on")},
+            at=("a.yaml:3", "a.yaml:4"),
+            fixed={"a.yaml": _FILE.format("2.0", "'on'")},
+        ),
+        Example(
+            "a string",
+            {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
+            at=("a.yaml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                known = [declared_by(owner) for owner in nodes_for(package, path, section)]
+                for entry in section.entries:
+                    kind, where = _declared(known, entry.name)
+                    given = value_type(entry.value)
+                    if kind and given and given != kind:
+                        message = f"{where} is {_article(kind)}, but this is {_article(given)}"
+                        yield self.report(entry.value, message, _fix(path, entry, kind, given))
+        yield from self._in_launch_files(package)
+
+    def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
+        for node in started_nodes(package):
+            owner = node.owner
+            declared = declared_by(owner) if owner is not None else None
+            for name, _, value in node.parameter_dicts if declared else ():
+                kind, where = _declared([declared] if declared else [], name)
+                given = value_given(node.launch, value)
+                if kind and given and given.type != kind:
+                    message = f"{where} is {_article(kind)}, but {given.text} is {_article(given.type)}"
+                    yield self.report(node.launch.location(value), message)
+
+
+def _declared(known: list[Declared], name: str) -> tuple[str | None, str]:
+    """Return the type that all nodes agree on, and the name with where it is declared."""
+    nodes = [one for one in known if name in one.types]
+    types = {one.types[name] for one in nodes}
+    if len(types) != 1:
+        return None, name
+    at = nodes[0].places[name].location
+    return types.pop(), f"{name} ({at.path}:{at.line})"
+
+
+def _article(kind: str) -> str:
+    return f"{'an' if kind.startswith('i') else 'a'} {kind}"
+
+
+def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:
+    value = entry.value
+    if not isinstance(value, Scalar) or not value.is_plain:
+        return None
+    if kind == "double" and given == "integer" and value.text.lstrip("+-").isdecimal():
+        return Fix("write it with a point", (Edit(path, value.end, value.end, ".0"),))
+    if kind == "string":
+        edit = Edit(path, value.start, value.end, f"'{value.text}'")
+        return Fix("put it in quotes", (edit,), Safety.UNSAFE)
+    return None

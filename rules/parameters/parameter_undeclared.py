@@ -1,0 +1,84 @@
+"""PF004: what a parameter file sets is declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import Declared, declared_by
+from scaffold.model.launch_nodes import started_nodes
+from scaffold.model.parameter_files import parameter_file, parameter_paths
+from scaffold.model.parameter_use import nodes_for
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker'{})\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.declare_parameter('limits.high', 3)\n"
+)
+_FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n    {}\n"
+
+
+class ParameterUndeclared(Rule):
+    """A parameter is set that the node does not declare.
+
+    **Why.** Nothing warns: the value is dropped, and the node runs with its default.
+
+    **Fix.** Write the name that the node declares, or declare the parameter.
+
+    **Source.** ROS 2 documentation, "Parameters", section "Declaring parameters".
+    """
+
+    code = "PF004"
+    name = "parameter-undeclared"
+    examples = (
+        Example(
+            "declared",
+            {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")},
+        ),
+        Example(
+            "the node takes every parameter",
+            {
+                "talker.py": _NODE.format(", allow_undeclared_parameters=True"),
+                "a.yaml": _FILE.format("high: 4"),
+            },
+        ),
+        Example(
+            "misspelt, and forgotten",
+            {
+                "talker.py": _NODE.format(""),
+                "a.yaml": _FILE.format("limits:\n      hihg: 4\n    text: hello"),
+            },
+            at=("a.yaml:6", "a.yaml:7"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                owners = nodes_for(package, path, section)
+                known = [declared_by(owner) for owner in owners]
+                if not known or not all(one.complete for one in known):
+                    continue
+                for entry in section.entries:
+                    if not any(one.has(entry.name) for one in known):
+                        message = _message(entry.name, known, str(owners[0].node_name))
+                        yield self.report(entry, message)
+        for node in started_nodes(package):
+            owner = node.owner
+            declared = declared_by(owner) if owner is not None else None
+            if declared is None or not declared.complete:
+                continue
+            for name, key, _ in node.parameter_dicts:
+                if not declared.has(name):
+                    message = _message(name, [declared], str(node.name))
+                    yield self.report(node.launch.location(key), message)
+
+
+def _message(name: str, known: list[Declared], node: str) -> str:
+    names = sorted({one for declared in known for one in declared.types})
+    near = get_close_matches(name, names, 1, 0.6)
+    hint = f"{near[0]!r} is meant" if near else f"it has {', '.join(names) or 'none'}"
+    return f"the node {node} declares no parameter {name!r}; {hint}"

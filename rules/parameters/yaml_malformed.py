@@ -1,0 +1,43 @@
+"""PF001: parameter files are YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.parameter_files import mistake, parameter_paths
+
+_FILE = "talker:\n  ros__parameters:\n{}"
+
+
+class YamlMalformed(Rule):
+    """A parameter file cannot be read as YAML.
+
+    **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
+    file ... Error parsing a event near line 2``.
+
+    **Fix.** Mend the syntax; indent with spaces.
+
+    **Source.** ``rcl_yaml_param_parser``; YAML 1.2, section 6.1.
+    """
+
+    code = "PF001"
+    name = "yaml-malformed"
+    examples = (
+        Example("YAML", {"config/talker.yaml": _FILE.format("    rate: 2.0\n")}),
+        Example(
+            "a tab, a bracket, a colon",
+            {
+                "config/a.yaml": _FILE.format("\trate: 2.0\n"),
+                "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
+                "config/c.yaml": _FILE.format("    rate: 2.0: 3\n"),
+            },
+            at=("config/a.yaml:3", "config/b.yaml:4", "config/c.yaml:3"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            error = mistake(package, path)
+            if error is not None:
+                yield self.report(error.location, error.message)

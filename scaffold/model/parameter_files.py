@@ -1,0 +1,239 @@
+"""Parameter files: which nodes they are for, and what they give them.
+
+The rules are those of rcl's parser, which is not PyYAML: a word is a boolean, a number or text
+as rcl_yaml_param_parser sees it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.errors import ParseError, ViewError
+from scaffold.model import yaml_tree
+from scaffold.model.yaml_tree import Alias, Mapping, Scalar, Sequence, YamlNode
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.source import Location
+
+KEY = "ros__parameters"
+ENDINGS = (".yaml", ".yml")
+_NEAR = r"(?i)ros[_\- .]*param(?:eter)?s?"
+_MENTION = r"(?im)^[ \t]*[\"']?ros[_\- .]*param(?:eter)?s?[\"']?[ \t]*:"
+_WORDS = ("y", "yes", "true", "on", "n", "no", "false", "off")
+BOOLEANS = frozenset(
+    {form for word in _WORDS for form in (word, word.capitalize(), word.upper())}
+)
+"""The words that rcl takes for booleans."""
+_LONGEST_NUMBER = 100
+_INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
+_DOUBLE = (
+    r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?i:inf|infinity|nan)|\.(?:inf|Inf|INF))"
+    r"|\.(?:nan|NaN|NAN)"
+)
+
+
+class Entry(NamedTuple):
+    """One parameter."""
+
+    name: str
+    """With the mappings around it: ``limits.speed``."""
+    key: Scalar
+    value: YamlNode
+
+    @property
+    def location(self) -> Location:
+        """The place of the key."""
+        return self.key.location
+
+
+class Section(NamedTuple):
+    """The parameters under one ``ros__parameters``."""
+
+    node: str
+    """The keys above, joined: ``/robot1/talker``, ``/**``."""
+    key: Scalar
+    """The key above ``ros__parameters``."""
+    entries: list[Entry]
+
+    @property
+    def is_pattern(self) -> bool:
+        """Whether it has wildcards."""
+        return "*" in self.node
+
+    def fits(self, full_name: str) -> bool:
+        """Tell whether it is for a node, ``/robot1/talker``."""
+        expression = ""
+        for part in self.node.strip("/").split("/"):
+            expression += {"**": r"(?:/\w+)*", "*": r"/\w+"}.get(part, f"/{re.escape(part)}")
+        return re.fullmatch(expression, full_name) is not None
+
+
+class Misplaced(NamedTuple):
+    """A value that stands under no ``ros__parameters``."""
+
+    key: Scalar
+    near: Scalar | None
+    """The key above it that is meant to be ``ros__parameters``."""
+    depth: int
+    """How many keys stand above that one."""
+
+
+class ParameterFile:
+    """A parameter file that could be read."""
+
+    def __init__(self, path: str, roots: list[YamlNode]) -> None:
+        self.path = path
+        self.sections: list[Section] = []
+        self.misplaced: list[Misplaced] = []
+        for root in roots:
+            if isinstance(root, Mapping):
+                self._read(root, (), None)
+
+    def _read(self, mapping: Mapping, above: tuple[Scalar, ...], near: Scalar | None) -> None:
+        for key, value in mapping.pairs:
+            if key.text == KEY and above and near is None:
+                if isinstance(value, Mapping):
+                    node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
+                    self.sections.append(Section(node, above[-1], list(_entries(value, ""))))
+            elif isinstance(value, Mapping):
+                found = near or (key if re.fullmatch(_NEAR, key.text) else None)
+                self._read(value, (*above, key), found)
+            else:
+                depth = above.index(near) if near is not None else len(above)
+                self.misplaced.append(Misplaced(key, near, depth))
+
+    @property
+    def node_names(self) -> list[str]:
+        """The names in front of the sections, wildcards too."""
+        return [section.node for section in self.sections]
+
+
+def parameter_file(package: Package, path: str) -> ParameterFile | None:
+    """Return a parameter file; ``None`` if it cannot be read as YAML."""
+    return _read(package, path)[0]
+
+
+def mistake(package: Package, path: str) -> ParseError | None:
+    """Return why a file cannot be read as YAML."""
+    return _read(package, path)[1]
+
+
+def _read(package: Package, path: str) -> tuple[ParameterFile | None, ParseError | None]:
+    def read() -> tuple[ParameterFile | None, ParseError | None]:
+        try:
+            return ParameterFile(path, yaml_tree.parse(package.source(path))), None
+        except ParseError as error:
+            return None, error
+        except ViewError:
+            return None, None
+
+    return package.remember(("parameter_file", path), read)
+
+
+def parameter_paths(package: Package) -> list[str]:
+    """Return the files that are meant to be parameter files: they say so, or nearly."""
+
+    def find() -> list[str]:
+        return [
+            path
+            for path in package.files
+            if path.endswith(ENDINGS) and _is_candidate(package, path)
+        ]
+
+    return package.remember("parameter_paths", find)
+
+
+def _is_candidate(package: Package, path: str) -> bool:
+    if not {"test", "tests"}.isdisjoint(path.split("/")) or path.startswith("."):
+        return False
+    try:
+        data = package.tree.read(path)
+    except OSError:
+        return False
+    if len(data) > yaml_tree.MAX_LENGTH or b"aram" not in data.lower():
+        return False
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return False
+    return KEY in text or re.search(_MENTION, text) is not None
+
+
+def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
+    pending = [(prefix, mapping.pairs)]
+    for start, pairs in pending:  # grows on the way
+        for key, value in pairs:
+            name = f"{start}.{key.text}" if start else key.text
+            if isinstance(value, Mapping):
+                pending.append((name, value.pairs))
+            else:
+                yield Entry(name, key, value)
+
+
+# -- types
+
+
+def scalar_type(node: Scalar) -> str | None:
+    """Return the type that rcl gives a value; ``None`` when launch replaces it first."""
+    if "$(" in node.text:
+        return None
+    if not node.is_plain or node.tag not in {None, "!"}:
+        return "string" if node.tag in {None, "!", "tag:yaml.org,2002:str", "!!str"} else None
+    return text_type(node.text)
+
+
+def text_type(text: str) -> str:
+    """Return the type that a word without quotes has."""
+    if text in BOOLEANS:
+        return "bool"
+    if len(text) > _LONGEST_NUMBER:
+        return "string"
+    if re.fullmatch(_INTEGER, text) and abs(_integer(text)) < 2**63:
+        return "integer"
+    return "double" if re.fullmatch(_DOUBLE, text) else "string"
+
+
+def value_type(node: YamlNode) -> str | None:
+    """Return the type of a value as rcl sees it: ``double``, ``string_array`` ..."""
+    if isinstance(node, Scalar):
+        return scalar_type(node)
+    if isinstance(node, Sequence):
+        kinds = {scalar_type(item) if isinstance(item, Scalar) else None for item in node.items}
+        kind = kinds.pop() if len(kinds) == 1 else None
+        return f"{kind}_array" if kind else None
+    return None
+
+
+def mixed(node: YamlNode) -> tuple[Scalar, str, Scalar, str] | None:
+    """Return the first two items of a list that are of different types, with their types."""
+    if not isinstance(node, Sequence):
+        return None
+    first: tuple[Scalar, str] | None = None
+    for item in node.items:
+        kind = scalar_type(item) if isinstance(item, Scalar) else None
+        if kind is None or not isinstance(item, Scalar):
+            return None
+        if first is None:
+            first = item, kind
+        elif first[1] != kind:
+            return (*first, item, kind)
+    return None
+
+
+def aliases(node: YamlNode) -> Iterator[Alias]:
+    """Yield the aliases in a value: rcl has none."""
+    if isinstance(node, Alias):
+        yield node
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from aliases(item)
+
+
+def _integer(text: str) -> int:
+    sign = -1 if text.startswith("-") else 1
+    digits = text.lstrip("+-")
+    base = 16 if digits[:2].lower() == "0x" else 8 if digits.startswith("0") else 10
+    return sign * int(digits, base)

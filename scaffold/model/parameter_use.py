@@ -1,0 +1,88 @@
+"""Which nodes read which parameter files, and which sections of them are for which node."""
+
+from __future__ import annotations
+
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.errors import ViewError
+from scaffold.model.declared_parameters import own_nodes
+from scaffold.model.launch_nodes import StartedNode, consumers, started_nodes
+from scaffold.model.share_files import share_of
+
+if TYPE_CHECKING:
+    from scaffold.model.node_owners import NodeOwner
+    from scaffold.model.package import Package
+    from scaffold.model.parameter_files import Section
+
+_ALIKE = 0.75
+_LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
+
+
+class FileUse(NamedTuple):
+    """Who reads a parameter file."""
+
+    nodes: list[StartedNode]
+    """The nodes that the launch files of the package give it to."""
+    complete: bool
+    """Whether no other file of the package names it."""
+
+
+def use_of(package: Package, path: str) -> FileUse:
+    """Return who reads a parameter file, as far as the package itself says."""
+    installed = share_of(package).files
+    found: list[StartedNode] = []
+    for node in consumers(package):
+        for named, _ in node.parameter_files:
+            if installed.get(named, named) == path:
+                found.append(node)
+    known = {node.launch.path for node in found}
+    return FileUse(found, not _is_mentioned(package, path, known))
+
+
+def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
+    """Return the code of the node that a section is for; none when that is not sure."""
+    use = use_of(package, path)
+    name = section.node.rpartition("/")[2]
+    if section.is_pattern:
+        if not use.nodes or name not in {"*", "**"}:
+            return []
+        owners = [node.owner for node in use.nodes]
+    else:
+        owners = [node.owner for node in use.nodes if node.name == name]
+        if not owners:
+            nodes, complete = own_nodes(package)
+            renamed = {node.name for node in started_nodes(package) if node.package != package.name}
+            owners = [node for node in nodes if node.node_name == name]
+            owners = owners if complete and name not in renamed and len(owners) == 1 else []
+    found = [owner for owner in owners if owner is not None]
+    return list(dict.fromkeys(found)) if len(found) == len(owners) else []
+
+
+def node_names(package: Package) -> set[str]:
+    """Return all names of nodes that the package mentions: in its code, in its launch files."""
+    names = {str(node.node_name) for node in own_nodes(package)[0]}
+    return names | {str(node.name) for node in (*started_nodes(package), *consumers(package))}
+
+
+def is_alike(name: str, other: str) -> bool:
+    """Tell whether one name of a node may be meant to be the other."""
+    one, two = name.replace("_", "").lower(), other.replace("_", "").lower()
+    if one == two:
+        return name != other
+    if one in {two + "node", "node" + two} or two in {one + "node", "node" + one}:
+        return True
+    return SequenceMatcher(None, one, two).ratio() >= _ALIKE
+
+
+def _is_mentioned(package: Package, path: str, known: set[str]) -> bool:
+    """Tell whether a launch file that is not known to use a parameter file names it."""
+    name = path.rpartition("/")[2]
+    for other in package.files:
+        if other.endswith(_LAUNCH_ENDINGS) and other not in known and other != "setup.py":
+            try:
+                if name in package.source(other).text:
+                    return True
+            except ViewError:
+                continue
+    return False
