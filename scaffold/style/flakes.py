@@ -56,7 +56,7 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 
 
 def _is_stricter(text: PythonText, said: Said, codes: set[tuple[int, str]]) -> bool:
-    """Tell whether ruff goes further with a format than pyflakes does."""
+    """Tell whether ruff goes further than pyflakes does."""
     if said.code == "F507":
         return not any(
             isinstance(node, ast.BinOp)
@@ -65,8 +65,21 @@ def _is_stricter(text: PythonText, said: Said, codes: set[tuple[int, str]]) -> b
             for node in text.nodes
             if getattr(node, "lineno", 0) == said.line
         )
+    if said.code == "F821" and "del " in text.lines[said.line - 1]:
+        return (said.line, said.column) in _conditional_deletions(text)
     rival = {"F502": "F506", "F523": "F525"}.get(said.code)
     return (said.line, rival) in codes
+
+
+def _conditional_deletions(text: PythonText) -> set[tuple[int, int]]:
+    """Return the places of ``del name`` that may not run: pyflakes does not look at them."""
+    return {
+        (part.lineno, text.column(part.lineno, part.col_offset))
+        for node in text.nodes
+        if isinstance(node, (ast.If, ast.While))
+        for part in ast.walk(node)
+        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del)
+    }
 
 
 def _at_handler(text: PythonText, finding: Finding) -> Finding:

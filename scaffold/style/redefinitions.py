@@ -343,6 +343,9 @@ class _Walk:
             binding = scope.names.get(name)
             if binding is not None:
                 binding.used = True
+                if binding.kind == IMPORTED and binding.full_name in scope.names:
+                    # `import x` beside `import x as y`: the use of `y` is one of `x`.
+                    scope.names[binding.full_name].used = True
                 if binding.kind != ANNOTATED:
                     return
         if name not in _MAGIC and not hasattr(builtins, name):

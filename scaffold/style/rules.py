@@ -28,7 +28,7 @@ from scaffold.style.finding import FLAKE8, PEP257, Finding
 from scaffold.style.ruff import Said
 from scaffold.style.text import PythonText, decode
 
-_TAKEN = "E211 E261 E262 E265 E266 E401 E502 W605"
+_TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
 """Codes on which ruff's verdict is pycodestyle's."""
 

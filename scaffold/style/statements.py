@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
+from scaffold.style.tokens import COMMENT, OP
 
 _BLOCK_WORDS = "def async for if elif else try except finally with class while"
 _BLOCK_KEYWORDS = frozenset(_BLOCK_WORDS.split())
@@ -48,6 +49,8 @@ def check(text: PythonText) -> Iterator[Finding]:
             for offset, code, message in compounds(logical.text):
                 row, column = logical.position(offset)
                 yield Finding(code, row, column + 1, message)
+    for logical in _candidates(text, r"\\\n"):
+        yield from needless_backslashes(logical)
     for logical in _candidates(text, r"\b[lOI]\b"):
         yield from ambiguous_names(logical)
     yield from late_imports(text)
@@ -180,6 +183,26 @@ def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:
     return Finding(code, at[0], at[1] + 1, f"the {kind} name '{name}' looks like a digit")
 
 
+def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
+    """E502: a backslash between brackets, unless a comment stands before it."""
+    depth = start = end = 0
+    backslash: tuple[int, int] | None = None
+    for token in logical.tokens:
+        if token.type == COMMENT:
+            return
+        if token.start[0] != start and depth and backslash:
+            said = "the backslash between brackets is not needed"
+            yield Finding("E502", backslash[0], backslash[1], said)
+        if token.end[0] != end:
+            line = logical.lines[token.end[0] - 1].rstrip("\n")
+            backslash = (token.end[0], len(line)) if line.endswith("\\") else None
+            start = end = token.end[0]
+        else:
+            start = token.start[0]
+        if token.type == OP:
+            depth += (token.string in "([{") - (token.string in ")]}")
+
+
 def late_imports(text: PythonText) -> Iterator[Finding]:
     """E402: imports at module level below other code."""
     seen_code = seen_docstring = False
@@ -187,7 +210,7 @@ def late_imports(text: PythonText) -> Iterator[Finding]:
         if logical.is_comment or logical.indent:
             continue
         first = logical.first
-        if first in ("import", "from"):
+        if first in ("import", "from") and logical.text.startswith(f"{first} "):
             if seen_code:
                 row, column = logical.position(0)
                 yield Finding("E402", row, column + 1, "import below other code of the module")
