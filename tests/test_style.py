@@ -410,3 +410,14 @@ def test_never_fails_on_bytes(data: bytes) -> None:
 )
 def test_never_fails_on_code(parts: list[str]) -> None:
     rules.check("a.py", "".join(parts).encode(), list, FLAKE8 | PEP257)
+
+
+def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(cache.SWITCH, "1")
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    style = StyleCheck([Package.of({"a.py": "x=1\n"})])
+    assert len(list(tmp_path.iterdir())) == 1
+    style.close()
+    assert list(tmp_path.iterdir()) == []
+    check(Package.of({"a.py": "x=1\n"}))
+    assert list(tmp_path.iterdir()) == []

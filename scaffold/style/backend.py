@@ -49,11 +49,13 @@ class StyleCheck:
 
     def __init__(self, packages: Sequence[Package]) -> None:
         self._scratch = ""
+        self._run: ruff.Run | None = None
         self._cache = Cache.of_user(_identity)
         self._files = {id(package): self._read(package) for package in packages}
         self._keep = list(packages)
         wanted = [one for files in self._files.values() for one in files if one.findings is None]
-        self._run = ruff.Run([one.on_disk for one in wanted]) if wanted else None
+        if wanted:
+            self._run = ruff.Run([one.on_disk for one in wanted])
         self._said: Mapping[str, list[Said]] | None = None
 
     def diagnostics(self, package: Package) -> list[Diagnostic]:
@@ -84,12 +86,25 @@ class StyleCheck:
 
     def _results(self) -> Mapping[str, list[Said]]:
         if self._said is None:
-            self._said = self._run.results() if self._run else {}
-            if self._scratch:
-                import shutil
-
-                shutil.rmtree(self._scratch, ignore_errors=True)
+            try:
+                self._said = self._run.results() if self._run else {}
+            finally:
+                self.close()
         return self._said
+
+    def close(self) -> None:
+        """End ruff and remove what was written for it; nothing is left to do after a full run."""
+        if self._run is not None:
+            self._run.close()
+            self._run = None
+        if self._scratch:
+            import shutil
+
+            shutil.rmtree(self._scratch, ignore_errors=True)
+            self._scratch = ""
+
+    def __del__(self) -> None:
+        self.close()
 
     def _read(self, package: Package) -> list[_File]:
         files: list[_File] = []

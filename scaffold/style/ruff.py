@@ -68,7 +68,6 @@ class Run:
     """Both passes over some files, started when the object is made."""
 
     def __init__(self, files: Sequence[str]) -> None:
-        self._files = files
         self._chunks = _chunked(files)
         self._running = self._start(self._chunks[0]) if self._chunks else []
 
@@ -79,14 +78,23 @@ class Run:
             EnvironmentMissingError: ruff does not run.
         """
         found: dict[str, list[Said]] = {}
-        for at, chunk in enumerate(self._chunks):
-            running = self._running if at == 0 else self._start(chunk)
-            outputs = [_collect(process, pipe) for process, pipe in running]
-            for output in outputs:
-                for path, said in _parse(output):
-                    found.setdefault(path, []).append(said)
-        self._chunks = []
+        try:
+            for at, chunk in enumerate(self._chunks):
+                if at:
+                    self._running = self._start(chunk)
+                while self._running:
+                    for path, said in _parse(_collect(*self._running.pop(0))):
+                        found.setdefault(path, []).append(said)
+        finally:
+            self.close()
         return found
+
+    def close(self) -> None:
+        """End what still runs and nobody waits for."""
+        while self._running:
+            process, pipe = self._running.pop()
+            os.close(pipe)
+            os.waitpid(process, 0)
 
     @staticmethod
     def _start(chunk: Sequence[str]) -> list[tuple[int, int]]:
