@@ -60,9 +60,7 @@ class ListMixesTypes(Rule):
         kinds = [scalar_type(item) for item in scalars]
         if set(kinds) != {"integer", "double"}:
             return None
-        whole = [
-            item for item, kind in zip(scalars, kinds, strict=True) if kind == "integer"
-        ]
+        whole = [item for item, kind in zip(scalars, kinds, strict=True) if kind == "integer"]
         if not all(item.text.lstrip("+-").isdecimal() for item in whole):
             return None
         edits = tuple(Edit(path, item.end, item.end, ".0") for item in whole)

@@ -74,7 +74,9 @@ class ParameterTypeDiffers(Rule):
                 kind, where = _declared([declared] if declared else [], name)
                 given = value_given(node.launch, value)
                 if kind and given and given.type != kind:
-                    message = f"{where} is {_article(kind)}, but {given.text} is {_article(given.type)}"
+                    message = (
+                        f"{where} is {_article(kind)}, but {given.text} is {_article(given.type)}"
+                    )
                     yield self.report(node.launch.location(value), message)
 
 

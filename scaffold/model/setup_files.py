@@ -38,6 +38,39 @@ def installed_data(package: Package) -> set[str] | None:
     return found
 
 
+def package_data(package: Package) -> list[Glob] | None:
+    """Return what is installed beside the modules; ``None`` when nobody can say."""
+    setup = package.setup_py
+    included = setup.keyword("include_package_data")
+    elsewhere = (
+        setup.call is None
+        or setup.has_unknown_keywords
+        or setup.keyword("package_dir") is not None
+        or (included is not None and included.value is not False)
+        or any("site-packages" in str(data.destination) for data in setup.data_files)
+        or _mentions(package, "setup.cfg", "package_data")
+        or _mentions(package, "pyproject.toml", "package-data")
+    )
+    word = setup.keyword("package_data")
+    value = word.value if word else {}
+    if elsewhere or not isinstance(value, dict):
+        return None
+    found: list[Glob] = []
+    for name, patterns in value.items():
+        if not isinstance(patterns, list | tuple):
+            return None
+        base = str(name).replace(".", "/").strip("*") or "**"
+        for pattern in patterns:
+            if not isinstance(pattern, str):
+                return None
+            found.append(Glob(f"{base}/{pattern}", recursive=True))
+    return found
+
+
+def _mentions(package: Package, path: str, word: str) -> bool:
+    return package.has(path) and word in package.source(path).text
+
+
 def _expression(pattern: str, *, recursive: bool) -> str:
     """Translate a glob pattern; ``*`` does not match a leading dot or a slash."""
     out = ""

@@ -1,0 +1,84 @@
+"""PX030: linters that CMake asks for are declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+
+_LINTERS = frozenset(
+    f"ament_cmake_{name}"
+    for name in (
+        *("black", "clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8"),
+        *("lint_cmake", "mypy", "pclint", "pep257", "pycodestyle", "pyflakes", "uncrustify"),
+        "xmllint",
+    )
+)
+_MANIFEST = (
+    '<package format="3">\n  <name>talker</name>\n'
+    "  <test_depend>ament_lint_auto</test_depend>\n{}</package>\n"
+)
+_LISTS = (
+    "project(talker)\nfind_package(ament_cmake REQUIRED)\nif(BUILD_TESTING)\n"
+    "  find_package(ament_lint_auto REQUIRED)\n  ament_lint_auto_find_test_dependencies()\n"
+    "endif()\nament_package()\n"
+)
+
+
+class LintersUndeclared(Rule):
+    """CMake runs the linters that package.xml declares, and it declares none.
+
+    **Why.** ``colcon test`` passes, and no linter has looked at anything:
+    ``ament_lint_auto_find_test_dependencies()`` runs what ``<test_depend>`` names.
+
+    **Fix.** ``<test_depend>ament_lint_common</test_depend>``, or the linters one by one.
+
+    **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``.
+    """
+
+    code = "PX030"
+    name = "linters-undeclared"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "the usual ones",
+            {
+                "CMakeLists.txt": _LISTS,
+                "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n"),
+            },
+        ),
+        Example(
+            "one of them",
+            {
+                "CMakeLists.txt": _LISTS,
+                "package.xml": _MANIFEST.format("  <test_depend>ament_cmake_mypy</test_depend>\n"),
+            },
+        ),
+        Example(
+            "none",
+            {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
+            at=("package.xml:3",),
+            fixed={
+                "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n")
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        calls = package.cmake.find("ament_lint_auto_find_test_dependencies")
+        if not calls or any(package.cmake.finds(name) for name in _LINTERS):
+            return
+        declared = {item.name for item in manifest.dependencies if item.kind == "test_depend"}
+        if any("lint" in name and name != "ament_lint_auto" for name in declared):
+            return
+        if declared & _LINTERS or manifest.all("group_depend"):
+            return
+        last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
+        line = calls[0].location.line
+        message = (
+            f"CMakeLists.txt:{line} runs the linters that <test_depend> names, and none is "
+            "named; add <test_depend>ament_lint_common</test_depend>"
+        )
+        edit = manifest.insert("test_depend", "ament_lint_common")
+        yield self.report(last.name_location, message, Fix("declare ament_lint_common", (edit,)))

@@ -1,0 +1,81 @@
+"""SP015: files that a module reads are installed beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.own_files import own_files
+from scaffold.model.setup_files import matches, package_data
+
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n{})\n"
+)
+_FILES = {
+    "package.xml": '<package format="3"><name>talker</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "talker/__init__.py": "",
+    "talker/text.py": "from pathlib import Path\n\n"
+    "WORDS = (Path(__file__).parent / 'words.txt').read_text()\n",
+    "talker/words.txt": "hello\n",
+}
+
+
+class PackageDataMissing(Rule):
+    """A module reads a file that lies beside it, and setup.py does not install that file.
+
+    **Why.** It works in the source tree and with ``--symlink-install``; installed it is
+    ``FileNotFoundError: .../site-packages/talker/words.txt``.
+
+    **Fix.** ``package_data={'talker': ['words.txt']}``.
+
+    **Source.** setuptools documentation, "Data Files Support".
+    """
+
+    code = "SP015"
+    name = "package-data-missing"
+    examples = (
+        Example(
+            "installed with the package",
+            {**_FILES, "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n")},
+        ),
+        Example("left out", {**_FILES, "setup.py": _SETUP.format("")}, at=("setup.py:5",)),
+        Example(
+            "read as a resource; another file is installed",
+            {
+                **_FILES,
+                "talker/text.py": "from importlib.resources import files\n\n"
+                "WORDS = files('talker').joinpath('words.txt').read_text()\n",
+                "setup.py": _SETUP.format("    package_data={'talker': ['*.json']},\n"),
+            },
+            at=("setup.py:6",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type != "ament_python":
+            return
+        setup = package.setup_py
+        patterns = package_data(package)
+        if patterns is None:
+            return
+        at = setup.keyword("package_data") or setup.keyword("packages") or setup
+        for file in own_files(package):
+            holder = self._holder(package, file.path)
+            if holder is None or file.path.endswith((".py", ".pyi")):
+                continue
+            if any(matches(pattern, [file.path]) for pattern in patterns):
+                continue
+            where, inside = file.location, file.path.removeprefix(f"{holder}/")
+            message = (
+                f"{where.path}:{where.line} reads {file.path}, which is not installed; "
+                f"add package_data={{'{holder.replace('/', '.')}': ['{inside}']}}"
+            )
+            yield self.report(at, message)
+
+    def _holder(self, package: Package, path: str) -> str | None:
+        """Return the Python package that a file is installed with."""
+        directory = path.rpartition("/")[0]
+        while directory and not package.has(f"{directory}/__init__.py"):
+            directory = directory.rpartition("/")[0]
+        return directory or None
