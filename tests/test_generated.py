@@ -141,11 +141,16 @@ def test_check(combinations: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of catkin_pkg and docutils
-def test_changelogs_are_what_bloom_reads(combinations: Path) -> None:
-    changelogs = pytest.importorskip("catkin_pkg.changelog")
+def test_a_release_finds_its_changelog(combinations: Path) -> None:
+    tag = pytest.importorskip("catkin_pkg.cli.tag_changelog")
+    changelog = pytest.importorskip("catkin_pkg.changelog")
     for directory in islice(combinations.iterdir(), 4):
-        changelog = changelogs.get_changelog_from_path(str(directory))
-        assert [version for version, _, _ in changelog.foreach_version()] == ["Forthcoming"]
+        text = (directory / "CHANGELOG.rst").read_text()
+        label = tag.get_forthcoming_label(text)
+        assert label == "Forthcoming"
+        released = tag.rename_section(text, label, "0.1.0 (2025-10-09)")
+        found = changelog.populate_changelog_from_rst(changelog.Changelog("x"), released)
+        assert [version for version, _, _ in found.foreach_version()] == ["0.1.0"]
 
 
 # -- colcon

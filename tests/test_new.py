@@ -914,9 +914,14 @@ def team(tmp_path: Path) -> Path:
         "  node_name: {type: node, default: blinker, help: its name}\n"
         "  lamp: {default: red, help: which lamp}\n"
         'include: {"extra/*": "node.lamp == \'blue\'"}\n'
+        'executable: ["{{ package }}/*.py"]\n'
     )
     (kind / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
         "#: for learners\nLAMP = {{ node.lamp | literal }}\n"
+    )
+    (kind / "test").mkdir()
+    (kind / "test" / "test_{{ node.module }}.py.jinja").write_text(
+        "{{ header }}\n\n\ndef test_lamp():\n    assert True\n"
     )
     (kind / "extra").mkdir()
     (kind / "extra" / "x.jinja").write_text("")
@@ -943,6 +948,24 @@ def test_templates_of_a_team(team: Path) -> None:
     given["rate"] = Given("2", "--rate")
     with pytest.raises(InputError, match="--rate: of no use for ament_cmake and blinker"):
         draft.draft(roots, templates, given, User("."))
+
+
+def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> None:
+    (tmp_path / "work" / "answers.yaml").write_text("node_kind: blinker\nlamp: green\n")
+    (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
+        "#!/usr/bin/env python3\n{{ header }}\n\nLAMP = {{ node.lamp | literal }}\n"
+    )
+    (team / "_licenses" / "Ours-1.0").mkdir(parents=True)
+    (team / "_licenses" / "Ours-1.0" / "header.jinja").write_text("Copyright {{ year }} us\n")
+    (team / "_licenses" / "Ours-1.0" / "LICENSE.jinja").write_text("All rights are ours.\n")
+    command = ["new", "talker", "--content", str(team.parent), "--answers", "answers.yaml"]
+    assert main([*command, "--license", "MIT"]) == 0
+    assert "LAMP = 'green'" in (tmp_path / "work/talker/talker/blinker.py").read_text()
+    roots = [*ROOTS, str(team)]
+    given = {"package": Given("p2", ""), "license": Given("Ours-1.0", "")}
+    files = draft.draft(roots, template.load(roots), given, User(".")).rendered.files
+    assert files["LICENSE"] == "All rights are ours.\n"
+    assert "\n# Copyright 2025 us\n" in files["p2/minimal_publisher.py"]
 
 
 @pytest.mark.parametrize(
@@ -1018,5 +1041,38 @@ def test_a_package_that_the_checker_rejects_is_a_defect(
     assert main(["new", "talker", "--node-kind", "blinker"]) == 3
     said = capsys.readouterr()
     assert "talker/blinker.py:1:1: F401 " in said.err
-    assert said.err.endswith("nothing was written, please report it\n")
+    assert said.err.endswith("nothing was written; please report it to their authors\n")
     assert os.listdir(tmp_path / "work") == ["ros2-scaffold.toml"]
+
+
+def test_the_page_on_templates_names_everything() -> None:
+    page = (Path(__file__).parent.parent / "docs" / "templates.md").read_text()
+    context = set(package_variables())
+    for word in {
+        *template._KEYS,  # noqa: SLF001  the page must not forget one
+        *template._QUESTION_KEYS,  # noqa: SLF001
+        *values.TYPES,
+        *payload.Payload._fields,
+        *qos("1")._fields,
+        *context,
+    }:
+        assert f"`{word}`" in page or f"`{word}." in page, word
+
+
+def package_variables() -> list[str]:
+    """Return the names that a template may use."""
+    from scaffold.generate import context, questions
+    from scaffold.generate.render import Renderer
+
+    layers = [TEMPLATES[name] for name in ("package", "ament_cmake", "publisher")]
+    renderer = Renderer(ROOTS, TEMPLATES, is_tutorial=False)
+    answers = questions.resolve(
+        questions.unique(layers),
+        {"package": Given("talker", "PACKAGE")},
+        render=renderer.text,
+        fallback=User(".").answer,
+    )
+    of_publisher = {question.name for question in TEMPLATES["publisher"].questions}
+    made = context.package_context(answers, layers, renderer)
+    node = made["nodes"][0]
+    return [*(set(made) - of_publisher), *(set(node) - of_publisher)]

@@ -36,6 +36,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
     )
+    parser.add_argument(
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with templates/ of your own; what they ask is answered by --answers",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -46,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate import draft, place, template
     from scaffold.generate.defaults import User
 
-    settings = config.load()
+    settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
     templates = template.load(roots)
     given = _given(options, templates, settings)
@@ -103,7 +110,7 @@ def _report_defects(defects: list[Diagnostic]) -> None:
         sys.stderr.write(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}\n")
     sys.stderr.write(
         "ros2-scaffold: defect: the templates make a package that the checker rejects; "
-        "nothing was written, please report it\n"
+        "nothing was written; please report it to their authors\n"
     )
 
 
