@@ -44,6 +44,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     root.mkdir()
     (root / "package.xml").write_text(MANIFEST.format(description="Talks."))
     (root / "CMakeLists.txt").write_text(CMAKE_LISTS.format(project="talker"))
+    (root / "LICENSE").touch()
     return root
 
 
@@ -55,19 +56,25 @@ def flawed(package: Path) -> Path:
     return package
 
 
-def test_clean(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.usefixtures("package")
+def test_clean(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker"]) == 0
-    assert capsys.readouterr().out == "1 package, 2 files: nothing to report\n"
+    assert capsys.readouterr().out == "1 package, 3 files: nothing to report\n"
 
 
-def test_found(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.usefixtures("flawed")
+def test_found(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check"]) == 1
     assert capsys.readouterr().out.splitlines() == [
-        "talker/CMakeLists.txt:2:9: error CM001 the project is 'listener', the package 'talker' "
-        "(package.xml, line 4) [project-name-differs]",
-        "talker/package.xml:6:3: error PX002 the description is a placeholder, "
-        "'TODO: Package description' [description-placeholder]",
-        "1 package, 2 files: 2 errors; 1 can be mended with --fix",
+        (
+            "talker/CMakeLists.txt:2:9: error CM001 the project is 'listener', the package "
+            "'talker' (package.xml, line 4) [project-name-differs]"
+        ),
+        (
+            "talker/package.xml:6:3: error PX002 the description is a placeholder, "
+            "'TODO: Package description' [description-placeholder]"
+        ),
+        "1 package, 3 files: 2 errors; 1 can be mended with --fix",
     ]
 
 
@@ -88,20 +95,22 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     }
     assert report["summary"] == {
         "packages": 1,
-        "files": 2,
+        "files": 3,
         "errors": 2,
         "warnings": 0,
         "infos": 0,
     }
 
 
-def test_select_and_ignore(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.usefixtures("flawed")
+def test_select_and_ignore(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--select", "CM"]) == 1
     assert "PX002" not in capsys.readouterr().out
     assert main(["check", "--ignore", "CM001,PX"]) == 0
 
 
-def test_one_file_of_a_package(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.usefixtures("flawed")
+def test_one_file_of_a_package(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker/package.xml"]) == 1
     assert "CM001" not in capsys.readouterr().out
 
@@ -113,6 +122,7 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "node.py:1:1: warning F401" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("package")
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -121,9 +131,7 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["rules", "CN001"], "there is no rule 'CN001'; did you mean"),
     ],
 )
-def test_at_fault(
-    package: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:
     assert main(arguments) == 2
     error = capsys.readouterr().err
     assert error.startswith(f"ros2-scaffold: error: {message}")

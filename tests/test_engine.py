@@ -14,7 +14,6 @@ from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
 from scaffold.errors import ConfigError, ContentError, MissingFileError
 from scaffold.model.package import Package
-from scaffold.model.source import Location
 
 RULE = '''\
 """A rule."""
@@ -48,7 +47,7 @@ class Loud(Rule):
     examples: tuple[Example, ...] = ()
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield self.report(Location.start_of("CMakeLists.txt"), "loud")
+        yield self.report(package.start_of("CMakeLists.txt"), "loud")
 
 
 class Crashing(Loud):
@@ -57,7 +56,7 @@ class Crashing(Loud):
     code = "CM901"
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield self.report(Location.start_of("CMakeLists.txt"), "before the crash")
+        yield self.report(package.start_of("CMakeLists.txt"), "before the crash")
         raise ZeroDivisionError("by zero")
 
 

@@ -62,7 +62,7 @@ def test_verdicts_equal_those_of_rclpy() -> None:
     namespace = accepts(
         lambda name: validate_namespace(name if name.startswith("/") else f"/{name}")
     )
-    chance = random.Random(1)
+    chance = random.Random(1)  # noqa: S311  chance, not secrecy
     for _ in range(3000):
         name = "".join(chance.choice(PIECES) for _ in range(chance.randint(0, 6)))
         assert (topic_problem(name) is None) == topic(name), name

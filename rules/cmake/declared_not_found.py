@@ -10,7 +10,10 @@ from scaffold.model.known import ROS_PACKAGES
 
 KINDS = ("build_depend", "buildtool_depend")
 _NOT_FOUND_BY_NAME = ("ament_cmake_", "rosidl_", "ament_index", "ament_lint", "eigen")
-_MANIFEST = '<package format="3">\n  <name>talker</name>\n  <build_depend>std_msgs</build_depend>\n</package>\n'
+_MANIFEST = (
+    '<package format="3">\n  <name>talker</name>\n'
+    "  <build_depend>std_msgs</build_depend>\n</package>\n"
+)
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 
 

@@ -63,21 +63,26 @@ class InstalledPathMissing(Rule):
 
     def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
         path = item.path
-        if not path or path.startswith(("/", "..")) or path == "." or set("$<*") & set(path):
-            return None
-        if self._is_made(package, path):
+        if not path or not self._is_own(path) or self._is_made(package, path):
             return None
         if install.kind == "DIRECTORY":
-            if not package.has_directory(path):
-                return f"installs the directory {path}/, which does not exist: the build stops"
-            if not any(name.startswith(f"{path}/") for name in package.files):
-                return f"the directory {path}/ is empty: git does not keep it, then the build stops"
-            return None
+            return self._directory_problem(package, path)
         if package.has(path):
             return None
         near = get_close_matches(path, package.files, n=1, cutoff=0.8)
         hint = f"; {near[0]} is near" if near else ""
         return f"installs {path}, which does not exist: the build stops{hint}"
+
+    def _directory_problem(self, package: Package, path: str) -> str | None:
+        if not package.has_directory(path):
+            return f"installs the directory {path}/, which does not exist: the build stops"
+        if not any(name.startswith(f"{path}/") for name in package.files):
+            return f"the directory {path}/ is empty: git does not keep it, then the build stops"
+        return None
+
+    def _is_own(self, path: str) -> bool:
+        """Tell whether a path surely lies in the package."""
+        return not path.startswith(("/", "..")) and path != "." and not set("$<*") & set(path)
 
     def _is_made(self, package: Package, path: str) -> bool:
         """Tell whether the build itself makes the file, in the source directory."""

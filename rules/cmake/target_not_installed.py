@@ -38,16 +38,10 @@ class TargetNotInstalled(Rule):
         cmake = package.cmake
         if not cmake.find("ament_package") or has_unknown_commands(package):
             return
-        installed: set[str] = set()
-        for install in cmake.installs:
-            if install.kind != "TARGETS":
-                continue
-            for item in install.items:
-                if item.value is None:
-                    return
-                installed.add(item.value)
+        targets = [one for one in cmake.installs if one.kind == "TARGETS"]
+        installed = {item.value for one in targets for item in one.items}
         # Nothing of an application is left out by mistake if nothing at all is installed.
-        if not installed:
+        if not installed or None in installed:
             return
         for command in cmake.find("add_executable"):
             if command.blocks or not command.arguments or cmake.guarded_by_testing(command):

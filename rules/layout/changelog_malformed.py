@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
@@ -43,7 +44,7 @@ class ChangelogMalformed(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         source = package.source("CHANGELOG.rst")
         lines = source.lines
-        for number, (line, below) in enumerate(zip(lines, lines[1:], strict=False), 1):
+        for number, (line, below) in enumerate(pairwise(lines), 1):
             text = line.strip()
             if not text or line[0].isspace() or not re.fullmatch(r"-{3,}\s*", below):
                 continue

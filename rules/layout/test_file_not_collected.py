@@ -54,7 +54,7 @@ class TestFileNotCollected(Rule):
                 continue
             tests = [one for one in functions if one.startswith("test_")]
             if tests:
-                message = f"pytest collects test_*.py and *_test.py only: {tests[0]}() in {name} never runs"
+                message = f"{tests[0]}() never runs: pytest collects test_*.py and *_test.py only"
                 yield self.report(package.start_of(path), message)
 
     def _is_used(self, package: Package, path: str) -> bool:

@@ -70,7 +70,10 @@ class ArgumentsSwapped(Rule):
             )
             if is_callable and isinstance(evaluate(second), int | float):
                 return "create_timer() wants the period in seconds first, then the callback"
-        elif isinstance(entity, Endpoint) and isinstance(evaluate(first), str):
-            if facts.interface(second) is not None:
-                return f"the type comes first, then the name {evaluate(first)!r}"
+        elif (
+            isinstance(entity, Endpoint)
+            and isinstance(evaluate(first), str)
+            and facts.interface(second) is not None
+        ):
+            return f"the type comes first, then the name {evaluate(first)!r}"
         return None

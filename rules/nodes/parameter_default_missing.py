@@ -52,6 +52,6 @@ class ParameterDefaultMissing(Rule):
             return None
         if parameter.default_node is None:
             return f"parameter {parameter.name!r} has no default: its value is None"
-        if parameter.default == [] or parameter.default == ():
+        if parameter.default in ([], ()):
             return f"parameter {parameter.name!r}: an empty list is a list of bytes to rclpy"
         return None

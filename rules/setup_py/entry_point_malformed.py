@@ -6,7 +6,10 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 
-_SETUP = "from setuptools import setup\n\nsetup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+_SETUP = (
+    "from setuptools import setup\n\n"
+    "setup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+)
 
 
 class EntryPointMalformed(Rule):
@@ -28,7 +31,8 @@ class EntryPointMalformed(Rule):
             "a comma is missing",
             {
                 "setup.py": _SETUP.format(
-                    "        'talker = talker.node:main'\n        'listener = listener.node:main',\n"
+                    "        'talker = talker.node:main'\n"
+                    "        'listener = listener.node:main',\n"
                 )
             },
             at=("setup.py:5",),

@@ -8,7 +8,10 @@ from difflib import get_close_matches
 from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.model.setup_py import EntryPoint
 
-_SETUP = "from setuptools import setup\n\nsetup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+_SETUP = (
+    "from setuptools import setup\n\n"
+    "setup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+)
 
 
 class EntryPointMissing(Rule):

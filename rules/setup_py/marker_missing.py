@@ -22,7 +22,8 @@ class MarkerMissing(Rule):
 
     **Fix.** Create the empty file, and install it to the ament index.
 
-    **Source.** ROS 2 documentation, "Creating a package"; ``colcon_ros/task/ament_python/build.py``.
+    **Source.** ROS 2 documentation, "Creating a package";
+    ``colcon_ros/task/ament_python/build.py``.
     """
 
     code = "SP006"

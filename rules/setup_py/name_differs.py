@@ -17,7 +17,8 @@ class NameDiffers(Rule):
 
     **Fix.** Use one name in setup.py, setup.cfg, ``resource/`` and package.xml.
 
-    **Source.** ``colcon_ros/task/ament_python/build.py``; ROS 2 documentation, "Creating a package".
+    **Source.** ``colcon_ros/task/ament_python/build.py``; ROS 2 documentation, "Creating a
+    package".
     """
 
     code = "SP009"

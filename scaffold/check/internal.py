@@ -17,7 +17,7 @@ class _Internal(Rule):
 
     examples: ClassVar[tuple[Example, ...]] = ()
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
+    def check(self, package: Package) -> Iterator[Diagnostic]:  # noqa: ARG002  the contract
         """Yield nothing: the engine makes these diagnostics."""
         return iter(())
 

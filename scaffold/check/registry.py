@@ -41,9 +41,11 @@ def _rule_files(root: str) -> list[tuple[str, str]]:
     with os.scandir(root) as areas:
         directories = sorted(entry.name for entry in areas if entry.is_dir())
     for area in directories:
-        for name in sorted(os.listdir(os.path.join(root, area))):
-            if name.endswith(".py") and not name.startswith("_"):
-                found.append((area, os.path.join(root, area, name)))
+        found += [
+            (area, os.path.join(root, area, name))
+            for name in sorted(os.listdir(os.path.join(root, area)))
+            if name.endswith(".py") and not name.startswith("_")
+        ]
     return found
 
 

@@ -44,25 +44,13 @@ def find(paths: Sequence[str]) -> list[Target]:
         InputError: a path does not exist, or holds no package.
     """
     workspace = Workspace()
+    directories = [path for path in paths if os.path.isdir(path)]
     whole: dict[str, Target] = {}
-    partial: dict[str, set[str]] = {}
-    loose: dict[str, set[str]] = {}
-    for path in paths:
-        if os.path.isdir(path):
-            for directory in _package_directories(path):
-                package = Package.at(directory, workspace)
-                whole.setdefault(os.path.realpath(directory), Target(package))
-        elif os.path.exists(path):
-            root = _package_of(path)
-            if root is not None:
-                partial.setdefault(root, set()).add(_relative(path, root))
-            elif path.endswith(".py"):
-                directory, name = os.path.split(path)
-                loose.setdefault(directory or ".", set()).add(name)
-            else:
-                raise InputError(f"{path}: belongs to no package and is not a Python file")
-        else:
-            raise InputError(f"{path}: no such file or directory")
+    for path in directories:
+        for directory in _package_directories(path):
+            package = Package.at(directory, workspace)
+            whole.setdefault(os.path.realpath(directory), Target(package))
+    partial, loose = _sort_files([path for path in paths if path not in directories])
     targets = list(whole.values())
     for root, names in partial.items():
         if os.path.realpath(root) not in whole:
@@ -73,6 +61,24 @@ def find(paths: Sequence[str]) -> list[Target]:
     for target in targets:
         workspace.add(target.package)
     return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _sort_files(paths: Sequence[str]) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """Return the files of packages by package, and loose Python files by directory."""
+    partial: dict[str, set[str]] = {}
+    loose: dict[str, set[str]] = {}
+    for path in paths:
+        if not os.path.exists(path):
+            raise InputError(f"{path}: no such file or directory")
+        root = _package_of(path)
+        if root is not None:
+            partial.setdefault(root, set()).add(_relative(path, root))
+        elif path.endswith(".py"):
+            directory, name = os.path.split(path)
+            loose.setdefault(directory or ".", set()).add(name)
+        else:
+            raise InputError(f"{path}: belongs to no package and is not a Python file")
+    return partial, loose
 
 
 def _package_directories(path: str) -> list[str]:

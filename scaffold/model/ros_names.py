@@ -19,24 +19,31 @@ def topic_problem(name: str) -> str | None:
     """
     if not name:
         return "it is empty"
+    plain = re.sub(r"\{[^{}]*\}", "x", name)
+    return _character_problem(name, plain) or _form_problem(name, plain)
+
+
+def _character_problem(name: str, plain: str) -> str | None:
     if name.startswith("~") and name[1:2] != "/" and len(name) > 2:  # noqa: PLR2004  rcl takes ~a
         return "'~' must be followed by '/'"
-    plain = re.sub(r"\{[^{}]*\}", "x", name)
     wrong = re.search(r"[^A-Za-z0-9_/~]", plain)
     if wrong:
-        shown = "a blank" if wrong[0].isspace() else repr(wrong[0])
-        return f"{shown} is not allowed"
+        return f"{_shown(wrong[0])} is not allowed"
     if "~" in name[1:]:
         return "'~' may stand at the beginning only"
     for substitution in re.findall(r"\{([^{}]*)\}", name):
         if substitution not in SUBSTITUTIONS:
             return f"'{{{substitution}}}' is not one of {{node}}, {{ns}} and {{namespace}}"
+    return None
+
+
+def _form_problem(name: str, plain: str) -> str | None:
     if "//" in re.sub(r"\{(?:ns|namespace)\}", "/x", name):
         return "'//' is not allowed" + (" (a namespace begins with '/')" if "{" in name else "")
-    if len(name) > 1 and name.endswith("/"):
-        return "it ends with '/'"
     if name == "/":
         return "it is nothing but '/'"
+    if name.endswith("/"):
+        return "it ends with '/'"
     for token in plain.split("/"):
         if token[:1].isdigit():
             return f"{token!r} begins with a digit"
@@ -45,14 +52,17 @@ def topic_problem(name: str) -> str | None:
     return None
 
 
+def _shown(character: str) -> str:
+    return "a blank" if character.isspace() else repr(character)
+
+
 def node_problem(name: str) -> str | None:
     """Return what is wrong with the name of a node (``rmw/validate_node_name.c``)."""
     if not name:
         return "it is empty"
     wrong = re.search(r"[^A-Za-z0-9_]", name)
     if wrong:
-        shown = "a blank" if wrong[0].isspace() else repr(wrong[0])
-        return f"{shown} is not allowed"
+        return f"{_shown(wrong[0])} is not allowed"
     if name[0].isdigit():
         return "it begins with a digit"
     if len(name) > MAX_NODE_NAME:
