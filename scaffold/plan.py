@@ -131,9 +131,8 @@ class WritePlan:
             else:
                 self._write_each()
         except OSError as error:
-            raise InputError(
-                f"{error.filename or self.root}: {error.strerror}; nothing was written"
-            ) from error
+            message = f"{self.root} cannot be written: {error.strerror}; nothing was written"
+            raise InputError(message) from error
 
     def _write_whole(self) -> None:
         """Write a directory beside its place and rename it."""

@@ -869,6 +869,8 @@ def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[s
         command = ["new", "talker", "--destination-directory", place]
         assert_refused(capsys, command, message, untouched=False)
         assert sorted(work.rglob("*")) == before
+    message = "/proc/talker cannot be written: No such file or directory; nothing was written"
+    assert_refused(capsys, ["new", "talker", "--destination-directory", "/proc"], message)
     assert main(["new", "talker", "--destination-directory", "new/ws/src"]) == 0
     assert (work / "new/ws/src/talker/package.xml").is_file()
 
