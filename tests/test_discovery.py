@@ -72,7 +72,7 @@ def test_file_of_a_package(workspace: Path) -> None:
     node.parent.mkdir()
     node.touch()
     (target,) = discovery.find([str(node)])
-    assert target.only == {"b_package/node.py"}
+    assert target.only == frozenset({"b_package/node.py"})
     assert target.package.name == "b_package"
 
 

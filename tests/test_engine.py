@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
 
@@ -44,7 +45,7 @@ class Loud(Rule):
 
     code = "CM900"
     name = "loud"
-    examples: tuple[Example, ...] = ()
+    examples: ClassVar[tuple[Example, ...]] = ()
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield self.report(package.start_of("CMakeLists.txt"), "loud")

@@ -42,7 +42,8 @@ class QosMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            for entity in (*facts.publishers, *facts.subscriptions):
+            entities: list[Publisher | Subscription] = [*facts.publishers, *facts.subscriptions]
+            for entity in entities:
                 problem = self._problem(entity)
                 if problem:
                     yield self.report(entity, problem)

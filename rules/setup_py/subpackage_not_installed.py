@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.setup_py import FindPackages
+from scaffold.model.values import Unknown
 
 _SETUP = "from setuptools import {}\n\nsetup(\n    name='talker',\n    packages={},\n)\n"
 _FILES = {
@@ -43,7 +44,7 @@ class SubpackageNotInstalled(Rule):
         setup = package.setup_py
         packages = setup.packages
         keyword = setup.keyword("packages")
-        if keyword is None or isinstance(packages, FindPackages) or not packages:
+        if keyword is None or not packages or isinstance(packages, FindPackages | Unknown):
             return
         missing = sorted(
             name

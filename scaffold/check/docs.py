@@ -37,7 +37,7 @@ def page(rule: type[Rule]) -> str:
 
 def style_page(style: StyleCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
-    from scaffold.style.codes import FLAKE8, PEP257
+    from scaffold.style.finding import FLAKE8, PEP257
 
     names = [
         name

@@ -31,7 +31,7 @@ class Fixed(NamedTuple):
     removed: frozenset[str]
     executable: frozenset[str]
     """Files that get their executable bits."""
-    count: int
+    applied: int
     """How many fixes were applied."""
 
 

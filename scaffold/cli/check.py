@@ -97,7 +97,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
         if package.root is None or target.only is not None:
             raise InputError("--fix and --diff want whole packages, not single files")
         fixed = fixer.fix(package, session.check, unsafe=options.unsafe_fixes)
-        count += fixed.count
+        count += fixed.applied
         plan = _plan(package.root, fixed)
         if options.diff:
             sys.stdout.write(plan.diff())
