@@ -52,6 +52,10 @@ class FoundUndeclared(Rule):
         told: set[str] = set()
         for found in package.cmake.found_packages:
             name = found.name
+            if name == "rosidl_default_generators" and package.cmake.find(
+                "rosidl_generate_interfaces"
+            ):
+                continue  # interface-declarations-missing says it, with what else is missing
             if name in told or name in declared or name in along or name == package.name:
                 continue
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:

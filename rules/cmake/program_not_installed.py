@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, programs
@@ -64,7 +65,7 @@ class ProgramNotInstalled(Rule):
         for module in package.modules():
             if module.path in known or not self._is_started(module):
                 continue
-            if self._is_named(package, module.path):
+            if self._is_named(package, module.path) or self._is_misspelt(package, module.path):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
             message = (
@@ -81,6 +82,11 @@ class ProgramNotInstalled(Rule):
             and not module.in_tests
             and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
         )
+
+    def _is_misspelt(self, package: Package, path: str) -> bool:
+        """Tell whether an installed file that does not exist must be this one."""
+        missing = [one.path for one in programs(package) if not package.has(one.path)]
+        return bool(get_close_matches(path, missing, n=1, cutoff=0.8))
 
     def _is_named(self, package: Package, path: str) -> bool:
         """Tell whether the file, or a directory around it, is installed in some other way."""

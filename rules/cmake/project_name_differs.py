@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.identity import other_name
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
 
@@ -37,7 +38,7 @@ class ProjectNameDiffers(Rule):
         at = package.cmake.project_name_location
         if not written or not name or at is None or written == name:
             return
-        if package.build_type == "cmake":
+        if package.build_type == "cmake" or other_name(package):
             return
         line = package.manifest.all("name")[0].location.line
         message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"

@@ -64,8 +64,18 @@ class ExecutableMissing(Rule):
             programs = programs_of(other)
             if not programs.complete or name in programs.sources:
                 continue
+            if other is package and self._is_script(package, name):
+                continue
             have = ", ".join(sorted(programs.sources)) or "none"
             near = get_close_matches(name, programs.sources, 1, 0.7)
             hint = f"; {near[0]!r} is meant" if near else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
             yield self.report(use.executable_location, message)
+
+    def _is_script(self, package: Package, name: str) -> bool:
+        """Tell whether the package has such a script: that it is not installed is said there."""
+        return any(
+            path.rpartition("/")[2] == name and package.module(path).is_script
+            for path in package.python_files
+            if path.endswith(name)
+        )

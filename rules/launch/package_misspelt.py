@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.identity import other_name
 from scaffold.model.launch_uses import Use, meant_package, package_uses
 
 _LAUNCH = (
@@ -62,6 +63,8 @@ class PackageMisspelt(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for use in package_uses(package):
+            if use.name == other_name(package):
+                continue
             meant = meant_package(package, use)
             if meant is None:
                 continue

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Location, Package, Rule
 from scaffold.model.launch_markup import markup_files
+from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_py import LaunchFile
 
 _HOME = (
@@ -22,7 +23,7 @@ _LAUNCH = (
 
 
 class PathOfAuthor(Rule):
-    """A launch file names a path in somebody's home or workspace.
+    """A launch file names a path in somebody's home or workspace, or in the current directory.
 
     **Why.** On every other machine it is not there: ``[WARNING] Parameter file path is not a
     file: /home/me/ros2_ws/...``, and the node runs with its defaults.
@@ -38,14 +39,21 @@ class PathOfAuthor(Rule):
     examples = (
         Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
         Example(
-            "of a home, of a workspace",
+            "of a home, of a workspace, of the current directory",
             {
                 "launch/a.launch.py": _LAUNCH.format("/home/me/ros2_ws/src/talker/talker.yaml"),
                 "launch/b.launch.py": _LAUNCH.format("/ros2_ws/src/talker/talker.yaml"),
+                "config/talker.yaml": "",
+                "launch/d.launch.py": _LAUNCH.format("config/talker.yaml"),
                 "launch/c.launch.xml": "<launch>\n"
                 '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
             },
-            at=("launch/a.launch.py:7", "launch/b.launch.py:7", "launch/c.launch.xml:2"),
+            at=(
+                "launch/a.launch.py:7",
+                "launch/b.launch.py:7",
+                "launch/c.launch.xml:2",
+                "launch/d.launch.py:7",
+            ),
         ),
     )
 
@@ -55,6 +63,14 @@ class PathOfAuthor(Rule):
             if found:
                 message = f"{text!r} exists on one machine only; build it from the share directory"
                 yield self.report(at, message)
+        for node in consumers(package):
+            for item in node.parameters:
+                value = node.launch.evaluator.evaluate(item)
+                if not isinstance(value, str) or value.startswith(("/", "~")):
+                    continue
+                if package.has(value) or value.startswith("src/"):
+                    message = f"{value!r} is looked for where `ros2 launch` is started, not here"
+                    yield self.report(node.launch.location(item), message)
 
 
 def _texts(package: Package) -> Iterator[tuple[Location, str]]:

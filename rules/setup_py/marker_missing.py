@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.model.identity import other_name
 
 INDEX = "share/ament_index/resource_index/packages"
 _MANIFEST = (
@@ -62,7 +63,8 @@ class MarkerMissing(Rule):
                 yield self.report(at, message, fix)
             known = [source for source in data.sources if isinstance(source, str)]
             names = [source.rpartition("/")[2] for source in known]
-            if data.complete and len(known) == len(data.sources) and package.name not in names:
+            complete = data.complete and len(known) == len(data.sources)
+            if complete and package.name not in names and not other_name(package):
                 message = f"installs {', '.join(names)} as marker; the package is {package.name!r}"
                 if all(package.has(source) for source in known):
                     yield self.report(data.destination_location, message)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.licences import spdx_of
 from scaffold.model.manifest import Manifest
+from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 
 _MANIFEST = (
     '<package format="3">\n'
@@ -62,7 +63,9 @@ class MetadataDiffers(Rule):
         setup = package.setup_py
         for name, wanted in _expected(manifest).items():
             keyword = setup.keyword(name)
-            if keyword is None or not isinstance(keyword.value, str) or not wanted:
+            if keyword is None or not isinstance(keyword.value, str) or not any(wanted):
+                continue
+            if is_placeholder(wanted[0]) or is_placeholder_address(wanted[0]):
                 continue
             if _normal(keyword.value) in {_normal(one) for one in wanted}:
                 continue
@@ -85,7 +88,7 @@ def _expected(manifest: Manifest) -> dict[str, list[str]]:
     addresses = [element.get("email") or "" for element in maintainers]
     licenses = [element.text for element in manifest.all("license")]
     return {
-        "version": [manifest.version] if manifest.version else [],
+        "version": [manifest.version] if manifest.version.count(".") == 2 else [],  # noqa: PLR2004
         "description": [manifest.description] if manifest.description else [],
         "maintainer": _or_all(names),
         "maintainer_email": _or_all(addresses),

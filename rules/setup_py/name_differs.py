@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
 from scaffold.model import setup_keywords
+from scaffold.model.identity import other_name
 
 _MANIFEST = '<package format="3"><name>talker</name></package>\n'
 
@@ -47,7 +48,7 @@ class NameDiffers(Rule):
         keyword = package.setup_py.keyword("name")
         if keyword is None or not isinstance(keyword.value, str) or not name:
             return
-        if keyword.value.replace("-", "_") == name.replace("-", "_"):
+        if keyword.value.replace("-", "_") == name.replace("-", "_") or other_name(package):
             return
         setup = package.setup_py
         line = package.manifest.all("name")[0].location.line

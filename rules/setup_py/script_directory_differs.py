@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.executables import node_scripts
+from scaffold.model.identity import other_name
 
 KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
 _MANIFEST = "<package><name>talker</name></package>\n"
@@ -64,6 +65,8 @@ class ScriptDirectoryDiffers(Rule):
         cfg = package.setup_cfg
         wanted = f"$base/lib/{package.name}"
         if not package.setup_py.console_scripts or not package.manifest.name:
+            return
+        if other_name(package):
             return
         for section, key in KEYS:
             entry = cfg.option(section, key, key.replace("_", "-"))

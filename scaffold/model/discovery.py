@@ -85,8 +85,10 @@ def _package_directories(path: str) -> list[str]:
     found = list(_walk(path))
     if found:
         return found
-    if any(True for _ in _walk(path, ignored=True)):
-        raise InputError(f"{path}: every package in it is hidden by a COLCON_IGNORE or alike")
+    # Nothing else is there, so these are meant; a rule says that colcon does not see them.
+    hidden = list(_walk(path, ignored=True))
+    if hidden:
+        return hidden
     if os.path.isfile(os.path.join(path, "setup.py")):
         raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
     raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")

@@ -1,0 +1,69 @@
+"""LF017: actions get keywords that they have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_py import LaunchFile
+
+_PROCESS = (
+    "cmd prefix cwd env additional_env shell sigterm_timeout sigkill_timeout emulate_tty output "
+    "output_format cached_output log_cmd on_exit respawn respawn_delay respawn_max_retries "
+    "process_description condition"
+)
+_NODE = "executable package name namespace exec_name parameters remappings ros_arguments arguments"
+_KEYWORDS = {
+    "Node": f"{_NODE} {_PROCESS}",
+    "ComposableNode": (
+        "package plugin name namespace parameters remappings extra_arguments condition"
+    ),
+    "DeclareLaunchArgument": "name default_value description choices condition",
+    "IncludeLaunchDescription": "launch_description_source launch_arguments condition",
+    "LaunchConfiguration": "variable_name default",
+}
+_OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('rate', {}='2.0'),\n    ])\n"
+)
+
+
+class KeywordUnknown(Rule):
+    """An action or a substitution gets a keyword argument that it does not have.
+
+    **Why.** ``ros2 launch`` stops: ``TypeError: Action.__init__() got an unexpected keyword
+    argument 'default'``.
+
+    **Fix.** Write the name of the argument: ``default_value``.
+
+    **Source.** The modules of ``launch.actions``, ``launch.substitutions``, ``launch_ros.actions``
+    and ``launch_ros.descriptions``.
+    """
+
+    code = "LF017"
+    name = "keyword-unknown"
+    examples = (
+        Example("known", {"launch/a.launch.py": _LAUNCH.format("default_value")}),
+        Example(
+            "of another class",
+            {"launch/a.launch.py": _LAUNCH.format("default")},
+            at=("launch/a.launch.py:7",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*_KEYWORDS):
+                known = _KEYWORDS[call.kind].split()
+                for name, word in call.words.items():
+                    if name in known or name in _OLD:
+                        continue
+                    near = get_close_matches(name, known, 1, 0.6)
+                    hint = f"; {near[0]!r} is meant" if near else ""
+                    start, _ = launch.module.span(word)
+                    at = launch.module.source.location(start, start + len(name))
+                    yield self.report(at, f"{call.kind} has no argument {name!r}{hint}")

@@ -1,0 +1,47 @@
+"""PX017: package.xml has the name that everything else of the package has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.identity import other_name
+
+_MANIFEST = '<package format="3">\n  <name>{}</name>\n</package>\n'
+_FILES = {"CMakeLists.txt": "project(talker)\n", "talker/__init__.py": ""}
+
+
+class NameDiffersFromFiles(Rule):
+    """The name in package.xml is another one than that of all other files.
+
+    **Why.** ``ament_package()`` stops the build; for ament_python ``ros2 run`` looks below the one
+    name and finds nothing, since the executables are below the other.
+
+    **Fix.** Write the name that the build file and the directories have.
+
+    **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``;
+    ``colcon_ros/task/ament_python/build.py``.
+    """
+
+    code = "PX017"
+    name = "name-differs-from-files"
+    examples = (
+        Example("one name", {**_FILES, "package.xml": _MANIFEST.format("talker")}),
+        Example(
+            "renamed here alone",
+            {**_FILES, "package.xml": _MANIFEST.format("robot_talker")},
+            at=("package.xml:2",),
+            fixed={"package.xml": _MANIFEST.format("talker")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        other = other_name(package)
+        element = package.manifest.one("name")
+        if other is None or element is None:
+            return
+        where = "CMakeLists.txt" if package.has("CMakeLists.txt") else "setup.py"
+        message = f"the name is {element.text!r}, but {other!r} in {where} and the files around it"
+        edit = Edit("package.xml", *element.text_span, other)
+        fix = Fix(f"write {other}", (edit,), Safety.UNSAFE)
+        yield self.report(element.text_location, message, fix)
