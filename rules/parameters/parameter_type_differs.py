@@ -96,7 +96,7 @@ def _article(kind: str) -> str:
 
 def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:
     value = entry.value
-    if not isinstance(value, Scalar) or not value.is_plain:
+    if not isinstance(value, Scalar) or value.end - value.start != len(value.text):
         return None
     if kind == "double" and given == "integer" and value.text.lstrip("+-").isdecimal():
         return Fix("write it with a point", (Edit(path, value.end, value.end, ".0"),))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 KEY = "ros__parameters"
 ENDINGS = (".yaml", ".yml")
-_NEAR = r"(?i)ros[_\- .]*param(?:eter)?s?"
+_NEAR = r"(?i)(?:ros[_\- .]*)?param(?:eter)?s?"
 _MENTION = r"(?im)^[ \t]*[\"']?ros[_\- .]*param(?:eter)?s?[\"']?[ \t]*:"
 _WORDS = ("y", "yes", "true", "on", "n", "no", "false", "off")
 BOOLEANS = frozenset(
@@ -31,7 +31,7 @@ _LONGEST_NUMBER = 100
 _INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
 _DOUBLE = (
     r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?i:inf|infinity|nan)|\.(?:inf|Inf|INF))"
-    r"|\.(?:nan|NaN|NAN)"
+    r"|\.(?:nan|NaN|NAN)|[+-]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)[pP][+-]?\d{1,4}"
 )
 
 
@@ -60,8 +60,13 @@ class Section(NamedTuple):
 
     @property
     def is_pattern(self) -> bool:
-        """Whether it has wildcards."""
-        return "*" in self.node
+        """Whether it is for nodes of any name."""
+        return self.name in {"*", "**"}
+
+    @property
+    def name(self) -> str:
+        """The name of the node alone."""
+        return self.node.rpartition("/")[2]
 
     def fits(self, full_name: str) -> bool:
         """Tell whether it is for a node, ``/robot1/talker``."""
@@ -81,6 +86,13 @@ class Misplaced(NamedTuple):
     """How many keys stand above that one."""
 
 
+class Refused(NamedTuple):
+    """Something that is YAML, and that rcl does not take."""
+
+    location: Location
+    message: str
+
+
 class ParameterFile:
     """A parameter file that could be read."""
 
@@ -88,27 +100,33 @@ class ParameterFile:
         self.path = path
         self.sections: list[Section] = []
         self.misplaced: list[Misplaced] = []
+        self.refused: list[Refused] = []
         for root in roots:
             if isinstance(root, Mapping):
                 self._read(root, (), None)
 
     def _read(self, mapping: Mapping, above: tuple[Scalar, ...], near: Scalar | None) -> None:
         for key, value in mapping.pairs:
-            if key.text == KEY and above and near is None:
-                if isinstance(value, Mapping):
-                    node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
-                    self.sections.append(Section(node, above[-1], list(_entries(value, ""))))
+            if key.text == KEY and near is None:
+                self._read_section(key, value, above)
             elif isinstance(value, Mapping):
-                found = near or (key if re.fullmatch(_NEAR, key.text) else None)
-                self._read(value, (*above, key), found)
+                is_near = near is None and re.fullmatch(_NEAR, key.text) is not None
+                self._read(value, (*above, key), key if is_near else near)
             else:
                 depth = above.index(near) if near is not None else len(above)
                 self.misplaced.append(Misplaced(key, near, depth))
 
-    @property
-    def node_names(self) -> list[str]:
-        """The names in front of the sections, wildcards too."""
-        return [section.node for section in self.sections]
+    def _read_section(self, key: Scalar, value: YamlNode, above: tuple[Scalar, ...]) -> None:
+        if not above:
+            self.refused.append(Refused(key.location, f"no node name stands above {KEY}"))
+        elif isinstance(value, Mapping):
+            node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
+            section = Section(node, above[-1], list(_entries(value, "")))
+            self.sections.append(section)
+            for entry in section.entries:
+                self.refused.extend(_refused(entry.name, entry.key, entry.value))
+        elif isinstance(value, Scalar):
+            self.refused.append(Refused(key.location, f"{KEY} holds no parameters"))
 
 
 def parameter_file(package: Package, path: str) -> ParameterFile | None:
@@ -173,16 +191,34 @@ def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
                 yield Entry(name, key, value)
 
 
+def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
+    """Yield what rcl does not take in a value: nothing, aliases, lists in lists."""
+    for item in value.items if isinstance(value, Sequence) else (value,):
+        if is_empty(item):
+            at = key.location if item is value else item.location
+            yield Refused(at, f"{name} has no value; write ~ or '' for an empty string")
+        elif isinstance(item, Alias):
+            yield Refused(item.location, f"{name} is the alias *{item.name}; rcl has no aliases")
+        elif isinstance(item, Sequence) and item is not value:
+            yield Refused(item.location, f"{name} is a list of lists; rcl has none")
+            return
+
+
 # -- types
 
 
 def scalar_type(node: Scalar) -> str | None:
     """Return the type that rcl gives a value; ``None`` when launch replaces it first."""
-    if "$(" in node.text:
+    if "$(" in node.text or is_empty(node):
         return None
-    if not node.is_plain or node.tag not in {None, "!"}:
-        return "string" if node.tag in {None, "!", "tag:yaml.org,2002:str", "!!str"} else None
+    if not node.is_plain or node.tag == "tag:yaml.org,2002:str":
+        return "string"
     return text_type(node.text)
+
+
+def is_empty(node: YamlNode) -> bool:
+    """Tell whether nothing is written where a value should be."""
+    return isinstance(node, Scalar) and node.is_plain and node.start == node.end
 
 
 def text_type(text: str) -> str:
@@ -193,7 +229,8 @@ def text_type(text: str) -> str:
         return "string"
     if re.fullmatch(_INTEGER, text) and abs(_integer(text)) < 2**63:
         return "integer"
-    return "double" if re.fullmatch(_DOUBLE, text) else "string"
+    is_double = re.fullmatch(_DOUBLE, text) is not None and not _overflows(text)
+    return "double" if is_double else "string"
 
 
 def value_type(node: YamlNode) -> str | None:
@@ -223,13 +260,9 @@ def mixed(node: YamlNode) -> tuple[Scalar, str, Scalar, str] | None:
     return None
 
 
-def aliases(node: YamlNode) -> Iterator[Alias]:
-    """Yield the aliases in a value: rcl has none."""
-    if isinstance(node, Alias):
-        yield node
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from aliases(item)
+def _overflows(text: str) -> bool:
+    is_decimal = text[-1].isdigit() and "x" not in text.lower()
+    return is_decimal and abs(float(text)) == float("inf")
 
 
 def _integer(text: str) -> int:

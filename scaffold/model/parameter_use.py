@@ -43,9 +43,9 @@ def use_of(package: Package, path: str) -> FileUse:
 def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
     """Return the code of the node that a section is for; none when that is not sure."""
     use = use_of(package, path)
-    name = section.node.rpartition("/")[2]
+    name = section.name
     if section.is_pattern:
-        if not use.nodes or name not in {"*", "**"}:
+        if not use.nodes:
             return []
         owners = [node.owner for node in use.nodes]
     else:

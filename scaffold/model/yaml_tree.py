@@ -36,7 +36,7 @@ class Scalar(NamedTuple):
 
     text: str
     is_plain: bool
-    """Written without quotes, so what it looks like decides its type."""
+    """Without quotes, so what it looks like decides its type; blocks too, for rcl."""
     tag: str | None
     location: Location
     start: int
@@ -136,7 +136,7 @@ class _Reader:
     def _scalar(self, event: yaml.ScalarEvent) -> None:
         start, end = self._offset(event.start_mark), self._offset(event.end_mark)
         at = self.source.location(start, end)
-        is_plain = event.style is None or event.style == ""
+        is_plain = event.style not in {"'", '"'}
         self._add(Scalar(event.value, is_plain, event.tag, at, start, end))
 
     def _enter(self, node: Sequence | Mapping) -> None:
@@ -165,8 +165,9 @@ class _Reader:
     def _offset(self, mark: _Mark | None) -> int:
         if mark is None:
             return 0
-        # Not mark.index: libyaml does not count a byte order mark.
-        return self.source.offset(mark.line + 1, mark.column + 1)
+        # The parsers do not count a byte order mark.
+        skipped = 1 if mark.line == 0 and self.source.text.startswith("\ufeff") else 0
+        return self.source.offset(mark.line + 1, mark.column + 1 + skipped)
 
     def _location(self, event: yaml.Event) -> Location:
         start = self._offset(event.start_mark)
