@@ -26,10 +26,14 @@ def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> l
     for block in _blocks(text, tree):
         first, last = block[0].statement.line, block[-1].statement.end_line
         sorted_block = _sorted(block)
+        if sorted_block == "".join(text.lines[first - 1 : last]).rstrip("\n"):
+            continue
         end = len(text.lines[last - 1].rstrip("\n")) + 1
         fix = ((first, 1, last, end, sorted_block),)
         for at, finding in enumerate(fixed):
-            if finding.code in CODES and first <= finding.line <= last:
+            # What stands before the block is not moved, so its first line gains nothing.
+            gains = finding.line > first or finding.code == "I101"
+            if finding.code in CODES and gains and first <= finding.line <= last:
                 fixed[at] = finding._replace(fix=fix, fix_title="sort the imports")
     return fixed
 
