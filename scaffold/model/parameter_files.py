@@ -23,9 +23,7 @@ ENDINGS = (".yaml", ".yml")
 _NEAR = r"(?i)(?:ros[_\- .]*)?param(?:eter)?s?"
 _MENTION = r"(?im)^[ \t]*[\"']?ros[_\- .]*param(?:eter)?s?[\"']?[ \t]*:"
 _WORDS = ("y", "yes", "true", "on", "n", "no", "false", "off")
-BOOLEANS = frozenset(
-    {form for word in _WORDS for form in (word, word.capitalize(), word.upper())}
-)
+BOOLEANS = frozenset({form for word in _WORDS for form in (word, word.capitalize(), word.upper())})
 """The words that rcl takes for booleans."""
 _LONGEST_NUMBER = 100
 _INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
