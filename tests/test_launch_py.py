@@ -222,9 +222,7 @@ def test_types_are_those_of_rcl(tmp_path: Path) -> None:
     entries = file.sections[0].entries
     assert [entry.name for entry in entries] == [f"p{index}" for index in range(len(WORDS))]
     ours = [parameter_files.value_type(entry.value) for entry in entries]
-    assert dict(zip(WORDS, ours, strict=True)) == dict(
-        zip(WORDS, done.stdout.split(), strict=True)
-    )
+    assert dict(zip(WORDS, ours, strict=True)) == dict(zip(WORDS, done.stdout.split(), strict=True))
 
 
 @pytest.mark.parametrize(
