@@ -138,6 +138,26 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
     assert error.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["chekc"], "argument VERB: invalid choice: 'chekc'"),
+        (["check", "--formt", "json"], "unrecognized arguments: --formt json"),
+        (["new"], "the following arguments are required: PACKAGE"),
+    ],
+)
+def test_wrong_words_get_one_line(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    with pytest.raises(SystemExit) as exit_:
+        main(arguments)
+    assert exit_.value.code == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"ros2-scaffold: error: {message}")
+    assert error.endswith("--help`\n")
+    assert error.count("\n") == 1
+
+
 def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
     assert main(["check"]) == 1

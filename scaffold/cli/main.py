@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from typing import NoReturn
 
 from scaffold import __version__
 from scaffold.errors import ScaffoldError
@@ -27,6 +28,14 @@ VERBS = {
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, as every other error of this tool."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the line and exit."""
+        self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
+
+
 def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
     """Return the parser.
 
@@ -34,7 +43,7 @@ def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
         verb: The only verb to define in full; the others are listed but not imported. ``None``
             defines all, as tab completion needs.
     """
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="ros2-scaffold",
         description="Generate, lint, fix, build and prove ROS 2 Python packages.",
     )
