@@ -45,12 +45,13 @@ class ExecutableMissing(Rule):
             at=("launch/a.launch.py:7",),
         ),
         Example(
-            "in another package of the workspace",
+            "in another package of the workspace, in XML and in YAML",
             {
                 "package.xml": '<package format="3"><name>bringup</name></package>\n',
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
+                "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            at=("launch/a.launch.xml:2",),
+            at=("launch/a.launch.xml:2", "launch/b.launch.yaml:4"),
             neighbours={"talker": _FILES},
         ),
     )

@@ -12,7 +12,7 @@ from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_py import LaunchFile
 
 _HOME = (
-    r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
+    r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|~?/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
 )
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

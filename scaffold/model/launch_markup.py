@@ -1,4 +1,4 @@
-"""What launch files in XML say: nodes and packages, with places."""
+"""What launch files in XML and YAML say: nodes and packages, with places."""
 
 from __future__ import annotations
 
@@ -7,14 +7,19 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.errors import ViewError
-from scaffold.model import xml_tree
-from scaffold.model.source import Location
+from scaffold.model import xml_tree, yaml_tree
+from scaffold.model.source import Location, Source
+from scaffold.model.xml_tree import Attribute
+from scaffold.model.yaml_tree import Mapping, Scalar, Sequence, YamlNode
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.xml_tree import Attribute, Document, Element
+    from scaffold.model.xml_tree import Document
 
 _FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
+
+
+_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
 
 
 class MarkupNode(NamedTuple):
@@ -37,7 +42,7 @@ class MarkupPath(NamedTuple):
 
 
 class MarkupFile(NamedTuple):
-    """A launch file in XML."""
+    """A launch file in XML or YAML."""
 
     path: str
     nodes: list[MarkupNode]
@@ -46,10 +51,10 @@ class MarkupFile(NamedTuple):
 
 
 def markup_files(package: Package) -> list[MarkupFile]:
-    """Return the launch files in XML that can be read; tests are left out."""
+    """Return the launch files in XML and YAML that can be read; tests are left out."""
 
     def read() -> list[MarkupFile]:
-        paths = [path for path in package.files if path.endswith("launch.xml")]
+        paths = [path for path in package.files if path.endswith(_ENDINGS)]
         found = [_read(package, path) for path in paths if not _in_tests(path)]
         return [file for file in found if file is not None]
 
@@ -66,33 +71,55 @@ def _in_tests(path: str) -> bool:
 
 
 def _read(package: Package, path: str) -> MarkupFile | None:
-    try:
-        document = _document(package, path)
-    except ViewError:
-        return None  # another rule reports what is not well-formed
     nodes: list[MarkupNode] = []
     attributes: list[Attribute] = []
-    for element in document.root.descendants():
-        given = element.attributes
+    try:
+        elements = _elements(package, path)
+    except ViewError:
+        return None  # another rule reports what is not well-formed
+    for tag, at, given in elements:
         attributes.extend(given.values())
-        if element.tag == "node":
-            nodes.append(_node(path, element, given))
+        if tag == "node":
+            nodes.append(
+                MarkupNode(path, given.get("pkg"), given.get("exec"), given.get("name"), at)
+            )
     paths = [found for attribute in attributes for found in _paths(attribute)]
     return MarkupFile(path, nodes, paths, attributes)
 
 
-def _document(package: Package, path: str) -> Document:
+def _elements(package: Package, path: str) -> list[tuple[str, Location, dict[str, Attribute]]]:
+    """Return tag, place and attributes of everything in a launch file."""
+    if path.endswith(".xml"):
+        root = _document(package, path).root
+        return [(one.tag, one.name_location, one.attributes) for one in root.descendants()]
+    found: list[tuple[str, Location, dict[str, Attribute]]] = []
+    roots = yaml_tree.parse(Source.decode(path, _bytes(package, path)))
+    pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
+    for tag, node in pending:  # grows on the way
+        if isinstance(node, Sequence):
+            pending += [(tag, item) for item in node.items]
+        elif isinstance(node, Mapping):
+            found.append((tag, node.location, dict(_scalars(node))))
+            pending += [(key.text, value) for key, value in node.pairs]
+    return found
+
+
+def _scalars(node: Mapping) -> Iterator[tuple[str, Attribute]]:
+    """Yield the values of a mapping as attributes."""
+    for key, value in node.pairs:
+        if isinstance(value, Scalar):
+            yield key.text, Attribute(key.text, value.text, value.location, key.location)
+
+
+def _bytes(package: Package, path: str) -> bytes:
     try:
-        data = package.tree.read(path)
+        return package.tree.read(path)
     except OSError as error:
         raise ViewError(path) from error
-    return xml_tree.parse(xml_tree.decode(path, data))
 
 
-def _node(path: str, element: Element, given: dict[str, Attribute]) -> MarkupNode:
-    return MarkupNode(
-        path, given.get("pkg"), given.get("exec"), given.get("name"), element.name_location
-    )
+def _document(package: Package, path: str) -> Document:
+    return xml_tree.parse(xml_tree.decode(path, _bytes(package, path)))
 
 
 def _paths(attribute: Attribute) -> Iterator[MarkupPath]:

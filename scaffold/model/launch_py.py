@@ -308,7 +308,7 @@ def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
     """Return the view of a call if it is one of launch's."""
     names = module.qualified_names(node.func)
     kinds = {name.rpartition(".")[2] for name in names if name.startswith(_MODULES)}
-    if len(kinds) != 1:
+    if len(kinds) != 1 or any(".events." in name for name in names):
         return None
     kind = kinds.pop()
     words = {word.arg: word for word in node.keywords if word.arg}
