@@ -142,7 +142,7 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
     ("arguments", "message"),
     [
         (["chekc"], "argument VERB: invalid choice: 'chekc'"),
-        (["check", "--formt", "json"], "unrecognized arguments: --formt json"),
+        (["check", "--formt", "json"], "unrecognized arguments: --formt"),
         (["new"], "the following arguments are required: PACKAGE"),
     ],
 )
