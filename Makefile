@@ -31,7 +31,7 @@ help:
 .PHONY: demo
 demo: $(VENV)/demo.stamp
 	@rm -rf $(DEMO) && mkdir $(DEMO)
-	$(RUN) new talker --topic chatter --rate 10
+	$(RUN) new talker --topic chatter
 	$(RUN) check talker
 	$(RUN) smoke talker
 	@echo; echo 'The package is in $(DEMO)/talker.'
