@@ -19,6 +19,7 @@ from scaffold.model import parameter_files, yaml_tree
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_py import LaunchFile, returns, share_path
 from scaffold.model.package import Package
+from scaffold.model.package_programs import programs_of
 from scaffold.model.share_files import share_of
 from scaffold.model.source import Source
 from scaffold.model.yaml_tree import Mapping, Scalar
@@ -161,6 +162,30 @@ def test_share_directory_of_both_build_types() -> None:
         }
     )
     assert share_of(python).files == {"config/a.yaml": "config/a.yaml"}
+
+
+@pytest.mark.parametrize(
+    ("commands", "names", "complete"),
+    [
+        ("add_executable(a a.cpp)\ninstall(TARGETS a DESTINATION lib/demo)", {"a"}, True),
+        (
+            "foreach(x a b)\ninstall(TARGETS ${x} DESTINATION lib/demo)\nendforeach()",
+            {"a", "b"},
+            True,
+        ),
+        ("rclcpp_components_register_node(c PLUGIN P EXECUTABLE d)", {"d"}, True),
+        ("install(PROGRAMS demo/e.py DESTINATION lib/demo)", {"e.py"}, True),
+        ("install(PROGRAMS demo/e.py DESTINATION bin)", set(), True),
+        ("install(TARGETS ${SOME} DESTINATION lib/demo)", set(), False),
+        ("make_programs()", set(), False),
+        ("add_subdirectory(src)", set(), False),
+    ],
+)
+def test_programs_of_cmake(commands: str, names: set[str], *, complete: bool) -> None:
+    lists = f"project(demo)\nfind_package(ament_cmake)\n{commands}\nament_package()\n"
+    files = {"package.xml": MANIFEST, "CMakeLists.txt": lists, "demo/e.py": ""}
+    found = programs_of(Package.of(files))
+    assert (set(found.sources), found.complete) == (names, complete)
 
 
 # -- parameter files

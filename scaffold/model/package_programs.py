@@ -14,20 +14,22 @@ if TYPE_CHECKING:
 
 _PLAIN_COMMANDS = frozenset(
     """
-    add_compile_options add_definitions add_library ament_add_gtest ament_add_pytest_test
+    add_compile_options add_definitions add_dependencies add_executable add_library
+    ament_add_gmock ament_add_gtest ament_add_pytest_test
     ament_environment_hooks ament_export_dependencies ament_export_include_directories
     ament_export_interfaces ament_export_libraries ament_export_targets
     ament_index_register_resource
     ament_lint_auto_find_test_dependencies ament_package ament_python_install_package
-    ament_target_dependencies cmake_minimum_required cmake_policy else elseif endif
-    find_package if include_directories install list message option
+    ament_target_dependencies cmake_minimum_required cmake_policy else elseif endforeach endif
+    find_package foreach if include_directories install list message option
     pluginlib_export_plugin_description_file
-    project rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
+    project rclcpp_components_register_node rclcpp_components_register_nodes return
+    rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
     set_property set_target_properties string target_compile_definitions target_compile_features
     target_compile_options target_include_directories target_link_libraries
     """.split()  # noqa: SIM905 - a column of quoted names would hide them
 )
-"""Commands that make no programs."""
+"""Commands that make no programs, or such whose names are plain to see."""
 
 
 class Programs(NamedTuple):
@@ -118,9 +120,17 @@ def _by_cmake(package: Package) -> Programs:
             is_python = program.path in package.python_files
             sources[program.name] = program.path if is_python else ""
     for install in cmake.installs:
-        if install.kind == "TARGETS" or any(item.path is None for item in install.items):
+        if install.kind == "TARGETS":
+            complete = complete and all(item.value is not None for item in install.items)
+            sources.update({item.value: "" for item in install.items if item.value})
+        elif any(item.path is None for item in install.items):
             complete = False
-        if install.destination is None or install.kind == "DIRECTORY":
+        elif install.destination is None or install.kind == "DIRECTORY":
             lib = install.destination is None or install.destination.startswith("lib")
             complete = complete and not lib
-    return Programs(sources, complete)
+    for command in cmake.find("rclcpp_components_register_node"):
+        names = cmake.expand_list(command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"}), command)
+        complete = complete and names is not None
+        sources.update(dict.fromkeys(names or (), ""))
+    renames = any("OUTPUT_NAME" in command.values for command in cmake.commands)
+    return Programs(sources, complete and not renames)
