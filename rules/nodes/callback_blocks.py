@@ -1,0 +1,68 @@
+"""ND030: a callback comes to its end soon."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_waits import has_more_threads, in_callbacks
+from scaffold.model.nodes import NodeFacts
+
+SHORT = 0.05
+"""Seconds of sleep that nobody notices."""
+_NODE = (
+    "import time\n\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        {}\n"
+)
+
+
+class CallbackBlocks(Rule):
+    """A callback sleeps, or waits for somebody to type.
+
+    **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
+    of the node is served, and a timer runs slower than its period says.
+
+    **Fix.** Use a timer for what comes later, and a thread of its own for what has to wait.
+
+    **Source.** ROS 2 documentation, "Executors"; "Migrating a Python package example".
+    """
+
+    code = "ND030"
+    name = "callback-blocks"
+    severity = Severity.WARNING
+    examples = (
+        Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
+        Example("so short that it does no harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
+        Example("a sleep", {"talker.py": _NODE.format("time.sleep(1.0)")}, at=("talker.py:12",)),
+        Example("a question", {"talker.py": _NODE.format("input()")}, at=("talker.py:12",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if has_more_threads(facts):
+                continue
+            for function, origin in in_callbacks(facts):
+                for call in facts.calls_in(function):
+                    name = _blocking(facts, call)
+                    if name:
+                        message = f"{name} holds up {origin}, and with it all others of the node"
+                        yield self.report(facts.module.location(call), message)
+
+
+def _blocking(facts: NodeFacts, call: ast.Call) -> str:
+    """Return how a call reads that surely takes long; empty for any other."""
+    name = facts.module.qualified_name(call.func)
+    if name == "time.sleep" and call.args:
+        seconds = facts.evaluator.evaluate(call.args[0])
+        if isinstance(seconds, int | float) and seconds >= SHORT:
+            return f"time.sleep({seconds:g})"
+    is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
+    if is_builtin and facts.module.index.lookup("input", call.func) is None:
+        return "input()"
+    return ""

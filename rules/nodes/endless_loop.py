@@ -1,0 +1,81 @@
+"""ND031: constructors and callbacks return."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_waits import Executed, has_more_threads, in_callbacks, in_constructors
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "{}"
+    "    def tick(self):\n        pass\n"
+)
+_LOOP = "        while rclpy.ok():\n            self.tick()\n\n"
+
+
+class EndlessLoop(Rule):
+    """A constructor or a callback of a node loops for ever.
+
+    **Why.** The node never comes to ``rclpy.spin``, or never back to it: it may publish, but
+    subscriptions, services and parameters do not answer.
+
+    **Fix.** Do one step of the loop in the callback of a timer.
+
+    **Source.** ROS 2 documentation, "Migrating a Python package example"; "Executors".
+    """
+
+    code = "ND031"
+    name = "endless-loop"
+    examples = (
+        Example(
+            "a timer", {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n")}
+        ),
+        Example("a loop", {"talker.py": _NODE.format(_LOOP)}, at=("talker.py:8",)),
+        Example(
+            "a loop that ends",
+            {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if has_more_threads(facts):
+                continue
+            seen: set[ast.AST] = set()
+            for executed in (*in_constructors(facts), *in_callbacks(facts)):
+                for loop in _endless(facts, executed):
+                    if loop not in seen:
+                        seen.add(loop)
+                        message = f"this loop never ends, and {executed.origin} never returns"
+                        yield self.report(facts.module.location(loop), message)
+
+
+def _endless(facts: NodeFacts, executed: Executed) -> Iterator[ast.While]:
+    for loop in ast.walk(executed.function):
+        if not isinstance(loop, ast.While) or facts.function_of(loop) is not executed.function:
+            continue
+        if _is_for_ever(facts, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
+            yield loop
+
+
+def _is_for_ever(facts: NodeFacts, test: ast.expr) -> bool:
+    if isinstance(test, ast.Constant):
+        return bool(test.value)
+    return isinstance(test, ast.Call) and facts.module.qualified_name(test.func) == "rclpy.ok"
+
+
+def _leaves(node: ast.AST) -> bool:
+    """Tell whether a node may end a loop, or lets callbacks run in it."""
+    match node:
+        case ast.Break() | ast.Return() | ast.Raise() | ast.Yield() | ast.Await():
+            return True
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return "spin" in name or "exit" in name or "shutdown" in name
+    return False

@@ -1,0 +1,79 @@
+"""ND035: a callback made in a loop keeps what it was made with."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        for name in ('left', 'right'):\n"
+    "            self.create_subscription(String, name, {}, 10)\n\n"
+    "    def hear(self, message, name):\n        pass\n"
+)
+
+
+class LoopVariableInLambda(Rule):
+    """A lambda that is made in a loop reads the loop's variable when it is called.
+
+    **Why.** By then the loop is over: all callbacks get the last value.
+
+    **Fix.** Bind it: ``lambda message, name=name: ...``, or use ``functools.partial``.
+
+    **Source.** Python documentation, "Why do lambdas defined in a loop with different values all
+    return the same result?".
+    """
+
+    code = "ND035"
+    name = "loop-variable-in-lambda"
+    examples = (
+        Example(
+            "bound",
+            {"listener.py": _NODE.format("lambda m, name=name: self.hear(m, name)")},
+        ),
+        Example(
+            "late",
+            {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
+            at=("listener.py:9",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for _, callback in facts.callbacks:
+                function = callback.function
+                if isinstance(function, ast.Lambda) and callback.node is function:
+                    name = _late_name(facts, function)
+                    if name:
+                        message = f"{name} is read when the callback runs: it is the last of the"
+                        yield self.report(callback, f"{message} loop, in all callbacks")
+
+
+def _late_name(facts: NodeFacts, function: ast.Lambda) -> str:
+    """Return a variable of the loops around a lambda that its body reads; empty if none."""
+    given = {arg.arg for arg in ast.walk(function.args) if isinstance(arg, ast.arg)}
+    read = {
+        node.id
+        for node in ast.walk(function.body)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
+    }
+    for parent in facts.module.parents(function):
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            break
+        if isinstance(parent, ast.For) and not _leaves(parent):
+            names = {node.id for node in ast.walk(parent.target) if isinstance(node, ast.Name)}
+            late = sorted((names & read) - given)
+            if late:
+                return late[0]
+    return ""
+
+
+def _leaves(loop: ast.For) -> bool:
+    """Tell whether a loop may be left in its first turn."""
+    return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))

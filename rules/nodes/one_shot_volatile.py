@@ -1,0 +1,60 @@
+"""ND039: what is published once is kept for who comes later."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.publish_rate import publish_calls
+
+_NODE = (
+    "from rclpy.node import Node\n"
+    "from rclpy.qos import DurabilityPolicy\nfrom rclpy.qos import QoSProfile\n"
+    "from std_msgs.msg import String\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.map_pub = self.create_publisher(String, 'map', {})\n"
+    "        self.map_pub.publish(String(data='map'))\n"
+)
+_LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
+
+
+class OneShotVolatile(Rule):
+    """A message is published once, in the constructor, with volatile durability.
+
+    **Why.** Subscribers are found only after the constructor: nobody ever gets the message.
+
+    **Fix.** Publish with ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)``,
+    and subscribe with the same.
+
+    **Source.** ROS 2 documentation, "Quality of Service settings".
+    """
+
+    code = "ND039"
+    name = "one-shot-volatile"
+    severity = Severity.WARNING
+    examples = (
+        Example("kept", {"server.py": _NODE.format(_LATCHED)}),
+        Example("lost", {"server.py": _NODE.format("1")}, at=("server.py:11",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for publisher in facts.publishers:
+                owner = publisher.owner
+                if not isinstance(owner, NodeClass) or owner.constructor is None:
+                    continue
+                if publisher.qos is None or publisher.qos.durability != "VOLATILE":
+                    continue
+                calls = publish_calls(facts, publisher)
+                if not calls or len(calls) != 1:
+                    continue
+                call = calls[0]
+                if facts.function_of(call) is not owner.constructor or facts.is_conditional(call):
+                    continue
+                topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
+                message = f"the only message{topic} is published in the constructor, as volatile"
+                at = facts.module.location(call)
+                yield self.report(at, f"{message}: before any subscriber is found")

@@ -1,0 +1,52 @@
+"""ND036: nodes log."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tick(self):\n"
+    "        {}('tick')\n"
+)
+
+
+class PrintInNode(Rule):
+    """A node prints, and does not log.
+
+    **Why.** Under ``ros2 launch`` the output is held back in a buffer, so nothing is seen while
+    the node runs; it has no time, no name and no severity, and never gets to ``/rosout``.
+
+    **Fix.** Use ``self.get_logger().info(...)``.
+
+    **Source.** launch issue 188; ROS 2 documentation, "Logging".
+    """
+
+    code = "ND036"
+    name = "print-in-node"
+    severity = Severity.INFO
+    examples = (
+        Example("a log", {"talker.py": _NODE.format("self.get_logger().info")}),
+        Example("a print", {"talker.py": _NODE.format("print")}, at=("talker.py:6",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for node in facts.classes:
+                found = [
+                    call
+                    for method in node.methods.values()
+                    for call in facts.calls_in(method)
+                    if isinstance(call.func, ast.Name)
+                    and call.func.id == "print"
+                    and not any(word.arg in {"file", "flush"} for word in call.keywords)
+                    and facts.module.index.lookup("print", call.func) is None
+                ]
+                if found:
+                    more = f": {len(found)} times, first here" if len(found) > 1 else ""
+                    at = facts.module.location(found[0])
+                    yield self.report(at, f"{node.name} prints instead of logging{more}")

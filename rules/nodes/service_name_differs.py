@@ -1,0 +1,75 @@
+"""ND038: a client asks for the service that its package offers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_entities import Client, Endpoint
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_service(Trigger, 'report', self.on_report)\n\n"
+    "    def on_report(self, request, response):\n        return response\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, '{}')\n"
+)
+_ALIKE = 4
+"""Letters that a name needs before one letter more or less is a slip."""
+
+
+class ServiceNameDiffers(Rule):
+    """A client's service is offered nowhere, but one with almost the same name and type is.
+
+    **Why.** Nothing answers, and nothing says so: the client waits for ever.
+
+    **Fix.** Use one name on both sides, best from one constant.
+
+    **Source.** ROS 2 documentation, "Understanding services".
+    """
+
+    code = "ND038"
+    name = "service-name-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example("one name", {"nodes.py": _NODE.format("report")}),
+        Example("a slip", {"nodes.py": _NODE.format("reports")}, at=("nodes.py:17",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        files = list(package.rclpy_files())
+        offered = [item for facts in files for item in facts.services]
+        wanted = [item for facts in files for item in facts.clients]
+        served = {item.name for item in offered}
+        clients = {item.name for item in wanted}
+        for client in wanted:
+            for service in offered if client.name not in served else ():
+                # A service that has its own client is no misspelling of another one.
+                if service.name not in clients and _is_slip(client, service):
+                    at = client.name_argument.location if client.name_argument else client.location
+                    place = f"{service.location.path}:{service.location.line}"
+                    message = f"nobody offers {client.name!r}; {place} offers {service.name!r}"
+                    yield self.report(at, message)
+                    break
+
+
+def _is_slip(client: Client, service: Endpoint) -> bool:
+    """Tell whether two names of one type differ by one letter, dropped, added or changed."""
+    one, other = client.name, service.name
+    if not isinstance(one, str) or not isinstance(other, str):
+        return False
+    if client.interface is None or client.interface != service.interface:
+        return False
+    short, long = sorted((one, other), key=len)
+    if len(short) < _ALIKE or len(long) - len(short) > 1 or any(map(str.isdigit, one + other)):
+        return False
+    if short.strip("/") == long.strip("/"):
+        return False
+    same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
+    rest = same if len(long) > len(short) else same + 1
+    return short[rest:] == long[same + 1 :]

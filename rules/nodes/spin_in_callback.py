@@ -1,0 +1,62 @@
+"""ND033: callbacks do not spin the node that runs them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_waits import in_callbacks
+
+MOST = 2
+"""Arguments that name no executor: the node, and a future."""
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.create_timer(1.0, self.ask)\n\n"
+    "    def ask(self):\n"
+    "        future = self.client.call_async(self.request)\n"
+    "        {}\n\n"
+    "    def answer(self, future):\n        pass\n"
+)
+
+
+class SpinInCallback(Rule):
+    """A callback spins the node whose callback it is.
+
+    **Why.** ``rclpy.spin_...`` moves the node to another executor and takes it off that when done:
+    the first call works, then none of its callbacks is run any more. In the same executor it
+    raises ``RuntimeError: Executor is already spinning``.
+
+    **Fix.** Use ``future.add_done_callback``, or an ``async`` callback that awaits the future.
+
+    **Source.** rclpy issue 1313; ROS 2 documentation, "Synchronous vs. asynchronous service
+    clients".
+    """
+
+    code = "ND033"
+    name = "spin-in-callback"
+    examples = (
+        Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
+        Example(
+            "a spin",
+            {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
+            at=("caller.py:12",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for function, origin in in_callbacks(facts):
+                for call in facts.spin_calls:
+                    if call.name.startswith("executor.") or len(call.call.args) > MOST:
+                        continue
+                    node = call.call.args[0] if call.call.args else None
+                    if facts.function_of(call.call) is not function or call.call.keywords:
+                        continue
+                    if not isinstance(node, ast.Name) or not facts.evaluator.self_class(node):
+                        continue
+                    message = f"rclpy.{call.name}({node.id}) runs in {origin} of this very node"
+                    yield self.report(call, f"{message}, which gets no callback after that")

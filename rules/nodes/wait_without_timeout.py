@@ -1,0 +1,52 @@
+"""ND034: who waits for a server says so."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_waits import in_callbacks, in_constructors
+
+WAITS = frozenset({"wait_for_service", "wait_for_server"})
+_NODE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, 'report')\n"
+    "        self.client.wait_for_service({})\n"
+)
+
+
+class WaitWithoutTimeout(Rule):
+    """A constructor or a callback waits for a server, without a time limit.
+
+    **Why.** Without the server the node hangs and says nothing: no message, no other callback.
+
+    **Fix.** Give ``timeout_sec``, and log what is missing.
+
+    **Source.** rclpy, ``Client.wait_for_service``; ROS 2 documentation, "Writing a simple service
+    and client (Python)".
+    """
+
+    code = "ND034"
+    name = "wait-without-timeout"
+    severity = Severity.WARNING
+    examples = (
+        Example("with one", {"caller.py": _NODE.format("timeout_sec=1.0")}),
+        Example("without", {"caller.py": _NODE.format("")}, at=("caller.py:9",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            seen: set[ast.AST] = set()
+            for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
+                for call in facts.calls_in(function):
+                    match call:
+                        case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
+                            if name in WAITS and call not in seen:
+                                seen.add(call)
+                                message = f"without timeout_sec, {name}() lets {origin} hang"
+                                at = facts.module.location(call)
+                                yield self.report(at, f"{message} until the server is there")
