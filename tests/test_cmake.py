@@ -70,7 +70,9 @@ def joined(lists: CMakeLists) -> str:
 
 # -- CMake itself
 
-CMAKE = shutil.which("cmake", path=os.pathsep.join([str(Path(sys.executable).parent), os.defpath]))
+CMAKE = shutil.which(
+    "cmake", path=os.pathsep.join([os.environ["PATH"], str(Path(sys.executable).parent)])
+)
 with_cmake = pytest.mark.skipif(CMAKE is None, reason="cmake, the oracle, is not installed")
 
 
@@ -570,11 +572,12 @@ def test_install_in_a_loop() -> None:
     ]
 
 
-def test_directories_of_ament_auto_package() -> None:
-    found = install("ament_auto_package(INSTALL_TO_SHARE launch config)")
+@pytest.mark.parametrize("name", ["ament_auto_package", "autoware_ament_auto_package"])
+def test_directories_of_ament_auto_package(name: str) -> None:
+    found = install(f"{name}(INSTALL_TO_SHARE launch config)")
     assert (found.kind, found.destination) == ("DIRECTORY", "share/p")
     assert items(found) == [("launch", "launch"), ("config", "config")]
-    assert read("project(p)\nament_auto_package()").installs == []
+    assert read(f"project(p)\n{name}()").installs == []
 
 
 # -- edits

@@ -26,6 +26,9 @@ __all__ = [
 FINDS_DEPENDENCIES = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
 """Commands that find every build dependency of the manifest, or hide one that does."""
 
+LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_ament_auto_package")
+"""Commands that register the package: ``ament_package`` and what calls it."""
+
 _INSTALL_KINDS = ("PROGRAMS", "FILES", "DIRECTORY", "TARGETS", "SCRIPT", "CODE", "EXPORT")
 _INSTALL_KEYWORDS = frozenset(
     """
@@ -282,9 +285,9 @@ class CMakeLists:
 
     @cached_property
     def installs(self) -> list[Install]:
-        """What is installed, with ``install`` and with ``ament_auto_package``."""
+        """What is installed, with ``install`` and with ``ament_auto_package`` and its like."""
         found: list[Install] = []
-        for command in self.find("install", "ament_auto_package", "autoware_package"):
+        for command in self.find("install", *LAST_CALLS[1:]):
             # A loop over something unknown still tells what is written down.
             for bindings in self._variables.combinations(command) or ({},):
                 found.extend(self._installs_of(command, bindings))

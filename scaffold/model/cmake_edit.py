@@ -10,13 +10,12 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from scaffold.check.diagnostic import Edit
-from scaffold.model.cmake import CMakeLists
+from scaffold.model.cmake import LAST_CALLS, CMakeLists
 from scaffold.model.cmake_parser import Argument, Command
 
 Edits = tuple[Edit, ...]
 
 _INDENT = "  "
-_LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_package")
 
 
 def insert_find_package(lists: CMakeLists, name: str, *, testing: bool = False) -> Edits | None:
@@ -73,7 +72,7 @@ def insert_in_testing(lists: CMakeLists, lines: Sequence[str]) -> Edits | None:
     block = testing_block(lists)
     if block is None:
         body = [f"{_INDENT}{line}" for line in lines]
-        calls = [command for name in _LAST_CALLS for command in lists.find(name)]
+        calls = [command for name in LAST_CALLS for command in lists.find(name)]
         anchor = next((call for call in calls if call.depth == 0), None)
         written = ["if(BUILD_TESTING)", *body, "endif()"]
         if anchor is None:
@@ -292,7 +291,7 @@ def _end_anchor(lists: CMakeLists) -> Command | None:
     """Return the command that new things stand above: the tests, else ament_package()."""
     calls = [
         command
-        for name in _LAST_CALLS
+        for name in LAST_CALLS
         for command in lists.find(name)
         if command.depth == 0 and _begins_line(lists, command)
     ]
