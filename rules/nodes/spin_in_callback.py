@@ -27,8 +27,7 @@ class SpinInCallback(Rule):
     """A callback spins the node whose callback it is.
 
     **Why.** ``rclpy.spin_...`` moves the node to another executor and takes it off that when done:
-    the first call works, then none of its callbacks is run any more. In the same executor it
-    raises ``RuntimeError: Executor is already spinning``.
+    the first call works, then none of its callbacks is run any more.
 
     **Fix.** Use ``future.add_done_callback``, or an ``async`` callback that awaits the future.
 
