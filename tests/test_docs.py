@@ -16,7 +16,8 @@ def test_pages_are_current(tmp_path: Path) -> None:
     docs.write(str(tmp_path), RULES)
     made = {path.name: path.read_text() for path in tmp_path.iterdir()}
     kept = {path.name: path.read_text() for path in (ROOT / "docs" / "rules").glob("*.md")}
-    assert kept == made, "run `make docs`"
+    stale = [name for name in sorted({*made, *kept}) if kept.get(name) != made.get(name)]
+    assert stale == [], "run `make docs`"
 
 
 def test_table_lists_every_rule() -> None:
