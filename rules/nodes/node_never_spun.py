@@ -1,0 +1,64 @@
+"""ND014: a node that waits for something is spun."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_owners import NodeOwner
+from scaffold.model.nodes import NodeFacts
+
+_RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait", "sleep")
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        pass\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    node = Talker()\n"
+    "{}    node.destroy_node()\n"
+)
+
+
+class NodeNeverSpun(Rule):
+    """A node has timers or subscriptions, and nothing in its program spins it.
+
+    **Why.** Callbacks run only while the node is spun: the program ends at once, or hangs without
+    doing anything.
+
+    **Fix.** Call ``rclpy.spin(node)``.
+
+    **Source.** ``rclpy/__init__.py``, ``spin``; ROS 2 documentation, "About executors".
+    """
+
+    code = "ND014"
+    name = "node-never-spun"
+    examples = (
+        Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
+        Example("never", {"talker.py": _NODE.format("")}, at=("talker.py:16",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if not facts.init_calls or facts.spin_calls or self._may_run(facts):
+                continue
+            waiting = {node.name: node for node in facts.classes if _waits(node)}
+            for call in facts.module.walk(ast.Call):
+                if isinstance(call.func, ast.Name) and call.func.id in waiting:
+                    message = f"nothing spins this {call.func.id}: its callbacks never run"
+                    yield self.report(facts.module.location(call), message)
+
+    def _may_run(self, facts: NodeFacts) -> bool:
+        """Tell whether anything in the file may run callbacks in some other way."""
+        names = {node.attr for node in facts.module.walk(ast.Attribute)}
+        names |= {node.id for node in facts.module.walk(ast.Name)}
+        return any(word in name.lower() for name in names for word in _RUNNING)
+
+
+def _waits(node: NodeOwner) -> bool:
+    return bool(node.timers or node.subscriptions or node.services or node.action_servers)
