@@ -48,7 +48,8 @@ def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
         description="Generate, lint, fix, build and prove ROS 2 Python packages.",
     )
     parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
-    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
+    # Without the name argparse would lay out a usage text to find it.
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
     for name, text in VERBS.items():
         one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
         if verb is None or verb == name:

@@ -70,6 +70,8 @@ def _sort_files(paths: Sequence[str]) -> tuple[dict[str, set[str]], dict[str, se
     for path in paths:
         if not os.path.exists(path):
             raise InputError(f"{path}: no such file or directory")
+        if not os.path.isfile(path):
+            raise InputError(f"{path}: neither a file nor a directory")
         root = _package_of(path)
         if root is not None:
             partial.setdefault(root, set()).add(_relative(path, root))

@@ -90,7 +90,11 @@ class DiskTree:
 
     def read(self, path: str) -> bytes:
         """Return what is in a file; raises OSError."""
-        with open(os.path.join(self.root, path), "rb") as file:
+        full = os.path.join(self.root, path)
+        if not os.path.isfile(full):
+            # Reading a pipe waits for ever, and a device may have no end.
+            raise FileNotFoundError(path)
+        with open(full, "rb") as file:
             return file.read()
 
     def is_executable(self, path: str) -> bool:
@@ -159,7 +163,11 @@ def _list(directory: str) -> tuple[list[str], list[str], list[str]]:
             for entry in entries:
                 if entry.is_dir(follow_symlinks=False):
                     directories.append(entry.name)
-                elif not entry.is_symlink() or entry.is_file():
+                elif not entry.is_symlink():
+                    # Pipes, sockets and devices are nobody's source.
+                    if entry.is_file():
+                        files.append(entry.name)
+                elif os.path.isfile(entry.path):
                     files.append(entry.name)
                 elif not os.path.exists(entry.path):
                     broken.append(entry.name)

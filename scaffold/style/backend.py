@@ -123,8 +123,12 @@ class StyleCheck:
         return files
 
     def _place(self, package: Package, file: _File, number: int) -> str:
-        """Return where ruff finds the file; a package in memory is written out for it."""
-        if package.root is not None:
+        """Return where ruff finds the file.
+
+        A package in memory is written out for it, and so is a file whose name is no text: ruff
+        does not give such a name back.
+        """
+        if package.root is not None and _is_text(package.root) and _is_text(file.path):
             return os.path.abspath(os.path.join(package.root, file.path))
         if not self._scratch:
             import tempfile
@@ -132,10 +136,15 @@ class StyleCheck:
             self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
         directory = os.path.join(self._scratch, f"{id(package):x}-{number}")
         os.makedirs(directory, exist_ok=True)
-        on_disk = os.path.join(directory, file.path.rpartition("/")[2])
+        name = file.path.rpartition("/")[2]
+        on_disk = os.path.join(directory, name if _is_text(name) else "module.py")
         with open(on_disk, "wb") as out:
             out.write(file.data)
         return on_disk
+
+
+def _is_text(path: str) -> bool:
+    return not any("\ud800" <= character <= "\udfff" for character in path)
 
 
 def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:

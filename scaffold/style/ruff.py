@@ -8,6 +8,7 @@ user's configuration is read.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
@@ -82,8 +83,10 @@ class Run:
             for at, chunk in enumerate(self._chunks):
                 if at:
                     self._running = self._start(chunk)
-                while self._running:
-                    for path, said in _parse(_collect(*self._running.pop(0))):
+                for arguments in PASSES:
+                    output = _collect(*self._running.pop(0))
+                    answer = _apart(arguments, chunk) if output is None else _parse(output)
+                    for path, said in answer:
                         found.setdefault(path, []).append(said)
         finally:
             self.close()
@@ -99,6 +102,17 @@ class Run:
     @staticmethod
     def _start(chunk: Sequence[str]) -> list[tuple[int, int]]:
         return [_spawn([*arguments, "--", *chunk]) for arguments in PASSES]
+
+
+def _apart(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, Said]]:
+    """Ask about files among which one ends ruff, by halves, so that the others are judged."""
+    if len(files) == 1:
+        yield files[0], Said("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
+        return
+    middle = len(files) // 2
+    for half in (files[:middle], files[middle:]):
+        output = _collect(*_spawn([*arguments, "--", *half]))
+        yield from _apart(arguments, half) if output is None else _parse(output)
 
 
 def _chunked(files: Sequence[str]) -> list[Sequence[str]]:
@@ -135,7 +149,12 @@ def _spawn(arguments: Sequence[str]) -> tuple[int, int]:
     return process, reading
 
 
-def _collect(process: int, pipe: int) -> bytes:
+def _collect(process: int, pipe: int) -> bytes | None:
+    """Wait for ruff and return what it wrote; ``None`` if its stack overflowed.
+
+    Raises:
+        EnvironmentMissingError: it failed otherwise.
+    """
     parts: list[bytes] = []
     while part := os.read(pipe, 1 << 20):
         parts.append(part)
@@ -143,6 +162,8 @@ def _collect(process: int, pipe: int) -> bytes:
     _, status = os.waitpid(process, 0)
     output = b"".join(parts)
     code = os.waitstatus_to_exitcode(status)
+    if code in (-signal.SIGABRT, -signal.SIGSEGV):
+        return None
     if code not in (0, 1) or not output.lstrip().startswith(b"["):
         raise EnvironmentMissingError(
             f"{executable()} failed (exit status {code}); is it ruff 0.17?"

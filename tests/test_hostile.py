@@ -1,0 +1,265 @@
+"""`check` on packages made to break it: a diagnostic or silence, never a traceback or a hang."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+MANIFEST = """<?xml version="1.0"?>
+<package format="3">
+  <name>hostile</name>
+  <version>0.1.0</version>
+  <description>Input that nobody would write by hand.</description>
+  <maintainer email="ann@ros.example.org">Ann</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+PLACES = {
+    "python": "hostile/node.py",
+    "setup.py": "setup.py",
+    "setup.cfg": "setup.cfg",
+    "manifest": "package.xml",
+    "cmake": "CMakeLists.txt",
+    "message": "msg/Odd.msg",
+    "service": "srv/Odd.srv",
+    "launch": "launch/odd.launch.py",
+    "launch xml": "launch/odd.launch.xml",
+    "launch yaml": "launch/odd.launch.yaml",
+    "parameters": "config/odd.yaml",
+    "changelog": "CHANGELOG.rst",
+}
+
+NESTED = 4000
+LONG = 10_000_000
+
+BYTES = {
+    "empty": b"",
+    "nul": b"\0" * 4096,
+    "nul inside": b"# a\n\0\n# b\n",
+    "not utf-8": b"# caf\xe9 \xff\xfe\n",
+    "unknown encoding": b"# -*- coding: no-such-codec -*-\n<?xml version='1.0' encoding='x-no'?>\n",
+    "utf-16": "# text\n<a/>\n".encode("utf-16"),
+    "bom": b"\xef\xbb\xbf# text\n",
+    "two boms": b"\xef\xbb\xbf\xef\xbb\xbf# text\n",
+    "crlf": b"# one\r\n# two\r\n",
+    "lone cr": b"# one\r# two\r",
+    "mixed ends": b"# one\r# two\r\n# three\n\x0c\x0b\x1c\xc2\x85\xe2\x80\xa8# four",
+    "surrogate": b"# \xed\xa0\x80\n",
+    "brackets": b"(" * NESTED,
+    "unclosed quote": b'"""\n' + b"'" * NESTED,
+    "minus": b"-" * NESTED + b"1",
+    "backslashes": b"\\" * NESTED + b"\n" + b"\\\n" * NESTED,
+}
+
+NESTS = {
+    "python": b"x = " + b"(" * NESTED + b"1" + b")" * NESTED + b"\n",
+    "setup.py": b"from setuptools import setup\nsetup(name=" + b"[" * 150 + b"]" * 150 + b")\n",
+    "manifest": b"<a>" * NESTED + b"</a>" * NESTED,
+    "cmake": b"project(hostile)\nif("
+    + b"(" * NESTED
+    + b"A"
+    + b")" * NESTED
+    + b")\nendif()\n"
+    + b"if(A)\n" * NESTED
+    + b"endif()\n" * NESTED,
+    "message": b"int32" + b"[" * NESTED + b"]" * NESTED + b" values\n",
+    "launch": b"x = " + b"[" * NESTED + b"]" * NESTED + b"\n",
+    "launch xml": b"<launch>" + b"<group>" * NESTED + b"</group>" * NESTED + b"</launch>",
+    "launch yaml": b"launch: " + b"[" * NESTED + b"]" * NESTED + b"\n",
+    "parameters": b"a: " + b"{a: " * NESTED + b"1" + b"}" * NESTED + b"\n",
+    "setup.cfg": b"[" * NESTED + b"a" + b"]" * NESTED + b"\n",
+}
+
+CHAINS = {
+    "sum": b"x = " + b"1 + " * NESTED + b"1\n",
+    "attributes": b"x = a" + b".b" * NESTED + b"\n",
+    "calls": b"x = f" + b"()" * NESTED + b"\n",
+    "conditions": b"if a:\n    pass\n" + b"elif a:\n    pass\n" * NESTED,
+    "names": b"import rclpy\nx0 = 1\n"
+    + b"".join(b"x%d = x%d + x%d\n" % (n + 1, n, n) for n in range(NESTED)),
+}
+
+LINES = {
+    "python": b"x = '" + b"a" * LONG + b"'\n",
+    "manifest": b"<package format='3'><name>" + b"a" * LONG + b"</name></package>",
+    "cmake": b"project(" + b"a " * (LONG // 2) + b")",
+    "message": b"int32 " + b"a" * LONG,
+    "parameters": b"a: " + b"a" * LONG,
+    "setup.cfg": b"[a]\nb = " + b"a" * LONG,
+}
+
+LAUGHS = (
+    b'<?xml version="1.0"?>\n<!DOCTYPE package [\n<!ENTITY a0 "ha">\n'
+    + b"".join(b'<!ENTITY a%d "%s">\n' % (n, b"&a%d;" % (n - 1) * 10) for n in range(1, 20))
+    + b']>\n<package format="3"><name>&a19;</name></package>\n'
+)
+
+YAML_LAUGHS = b"a0: &a0 [ha]\n" + b"".join(
+    b"a%d: &a%d [%s]\n" % (n, n, b", ".join([b"*a%d" % (n - 1)] * 10)) for n in range(1, 20)
+)
+
+
+def _package(directory: Path, files: dict[str, bytes]) -> Path:
+    """Write a package and return its directory."""
+    given = {
+        "package.xml": MANIFEST.encode(),
+        "CMakeLists.txt": b"cmake_minimum_required(VERSION 3.8)\nproject(hostile)\n",
+        **files,
+    }
+    for path, data in given.items():
+        (directory / path).parent.mkdir(parents=True, exist_ok=True)
+        (directory / path).write_bytes(data)
+    return directory
+
+
+def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[bytes]:
+    """Run ``check`` with memory for no more than a few of the largest files."""
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+    done = subprocess.run(
+        [sys.executable, "-m", "scaffold", "check", *arguments],
+        env={**os.environ, "SCAFFOLD_NO_CACHE": "1", "SCAFFOLD_DEBUG": "1"},
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=limit,
+    )
+    assert b"Traceback" not in done.stderr, done.stderr.decode(errors="replace")[-2000:]
+    return done
+
+
+def _check(package: Path) -> list[dict[str, Any]]:
+    """Return what is said about a package."""
+    done = _run("--format", "json", package)
+    assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
+    found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
+    assert "SC002" not in {one["code"] for one in found}
+    return found
+
+
+@pytest.mark.parametrize("kind", BYTES)
+def test_bytes_everywhere(tmp_path: Path, kind: str) -> None:
+    """The same odd bytes as every file that is not the manifest."""
+    files = {path: BYTES[kind] for name, path in PLACES.items() if name != "manifest"}
+    _check(_package(tmp_path, files))
+
+
+@pytest.mark.parametrize("kind", BYTES)
+def test_bytes_as_manifest(tmp_path: Path, kind: str) -> None:
+    """A manifest that is none, or one behind odd bytes."""
+    found = _check(_package(tmp_path, {"package.xml": BYTES[kind]}))
+    assert "package.xml" in {one["path"].rpartition("/")[2] for one in found}
+
+
+@pytest.mark.parametrize("place", NESTS)
+def test_nesting(tmp_path: Path, place: str) -> None:
+    """Deeper than any recursion goes."""
+    _check(_package(tmp_path, {PLACES[place]: NESTS[place]}))
+
+
+@pytest.mark.parametrize("kind", CHAINS)
+def test_chains(tmp_path: Path, kind: str) -> None:
+    """Syntax trees that are deep, or values that double, without a bracket."""
+    _check(_package(tmp_path, {PLACES["python"]: CHAINS[kind], PLACES["launch"]: CHAINS[kind]}))
+
+
+@pytest.mark.parametrize("place", LINES)
+def test_one_long_line(tmp_path: Path, place: str) -> None:
+    """Ten megabytes without a line end."""
+    _check(_package(tmp_path, {PLACES[place]: LINES[place]}))
+
+
+@pytest.mark.parametrize("place", ["manifest", "launch xml"])
+def test_entities_are_not_expanded(tmp_path: Path, place: str) -> None:
+    """Twenty lines of XML that stand for 10^19 words."""
+    _check(_package(tmp_path, {PLACES[place]: LAUGHS}))
+
+
+@pytest.mark.parametrize("place", ["parameters", "launch yaml"])
+def test_aliases_are_not_expanded(tmp_path: Path, place: str) -> None:
+    """The same in YAML."""
+    _check(_package(tmp_path, {PLACES[place]: YAML_LAUGHS}))
+
+
+@pytest.mark.parametrize("place", [name for name in PLACES if name != "manifest"])
+def test_only_regular_files_are_read(tmp_path: Path, place: str) -> None:
+    """A pipe that nobody writes to, a device without an end, a loop, and a directory."""
+    package = _package(tmp_path, {})
+    name = package / PLACES[place]
+    name.parent.mkdir(parents=True, exist_ok=True)
+    os.mkfifo(name)
+    _check(package)
+    for target in ("/dev/zero", name.name, "."):
+        name.unlink()
+        name.symlink_to(target)
+        _check(package)
+    name.unlink()
+    name.mkdir()
+    _check(package)
+
+
+@pytest.mark.parametrize("name", ["package.xml", "node.py"])
+def test_pipe_named_on_the_command_line(tmp_path: Path, name: str) -> None:
+    """What is no file is not waited for."""
+    os.mkfifo(tmp_path / name)
+    for path in (tmp_path / name, tmp_path):
+        assert _run(path).returncode == 2
+
+
+def test_loop_of_directories(tmp_path: Path) -> None:
+    """Links to directories are not followed."""
+    package = _package(tmp_path, {"hostile/__init__.py": b""})
+    (package / "hostile" / "up").symlink_to(package)
+    (package / "left").symlink_to("right")
+    (package / "right").symlink_to("left")
+    _check(package)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_unreadable(tmp_path: Path) -> None:
+    """A file and a directory without permission."""
+    package = _package(tmp_path, {"hostile/node.py": b"x = 1\n", "launch/a.launch.py": b""})
+    (package / "hostile" / "node.py").chmod(0)
+    (package / "launch").chmod(0)
+    try:
+        _check(package)
+    finally:
+        (package / "launch").chmod(0o755)
+
+
+def test_odd_names(tmp_path: Path) -> None:
+    """Names that are no text, hold line ends or escapes, or are as long as they get."""
+    package = _package(tmp_path / "package", {})
+    names = [b"caf\xe9.py", b"a\nb.py", b"a\x1b[31mb.py", b"n" * 252 + b".py", b"-x.py", b" .py"]
+    for name in names:
+        with open(os.path.join(os.fsencode(package), name), "wb") as file:
+            file.write(b"import os\n")
+    paths = {one["path"] for one in _check(package) if one["code"] == "F401"}
+    assert len(paths) == len(names)
+    done = _run(package)
+    assert done.returncode == 1
+    text = done.stdout.decode()
+    assert "\x1b" not in text
+    assert "caf\\xe9.py:1:1: " in text
+    assert "a\\nb.py:1:1: " in text
+
+
+def test_many_files(tmp_path: Path) -> None:
+    """Five thousand files of one package."""
+    files = {f"hostile/m{n}/f{n}.py": b"import os\n" for n in range(2500)}
+    files |= {f"config/c{n}.yaml": b"a: 1\n" for n in range(2500)}
+    found = _check(_package(tmp_path, files))
+    assert sum(one["code"] == "F401" for one in found) == 2500
