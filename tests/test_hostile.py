@@ -133,8 +133,7 @@ def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[byte
         env={**os.environ, "SCAFFOLD_NO_CACHE": "1", "SCAFFOLD_DEBUG": "1"},
         check=False,
         stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        capture_output=True,
         preexec_fn=limit,
     )
     assert b"Traceback" not in done.stderr, done.stderr.decode(errors="replace")[-2000:]
