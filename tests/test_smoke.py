@@ -209,7 +209,7 @@ def test_crash_later(packages: dict[str, Result]) -> None:
     assert problem.splitlines()[0].endswith("s, exit code 1: ValueError: the counter is worn out")
     assert problem.startswith("crashed after ")
     assert found["nodes"] == ["/talker"]
-    assert found["topics"][0]["count"] == 8
+    assert 5 <= found["topics"][0]["count"] <= 8
 
 
 def test_hangs_before_there_is_a_node(packages: dict[str, Result]) -> None:

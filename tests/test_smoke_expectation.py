@@ -195,6 +195,27 @@ def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:  # 
     assert len(found.publications) == (1 if guard else 0)
 
 
+@pytest.mark.parametrize(
+    ("lines", "names"),
+    [
+        ("install(PROGRAMS run.py tool.py DESTINATION lib/demo)", ["run.py", "tool.py"]),
+        ("install(PROGRAMS run.py tool.py DESTINATION bin)", ["run.py"]),
+        ("if(BUILD_TESTING)\ninstall(PROGRAMS run.py DESTINATION lib/demo)\nendif()", []),
+        ("install(FILES run.py DESTINATION lib/demo)", []),
+    ],
+)
+def test_programs_that_ros2_run_has_to_find(lines: str, names: list[str]) -> None:
+    package = Package.of(
+        {
+            "package.xml": MANIFEST.format(name="demo", build_type="ament_cmake", buildtool=""),
+            "CMakeLists.txt": f"project(demo)\n{lines}\n",
+            "run.py": talker("/words"),
+            "tool.py": ONCE,
+        }
+    )
+    assert list(expectations(package)) == names
+
+
 # -- comparison
 
 

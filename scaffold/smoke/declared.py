@@ -56,13 +56,15 @@ def _file_of(package: Package, module: str) -> str | None:
 
 def _programs(package: Package) -> Iterator[tuple[str, str, str | None]]:
     for install in package.cmake.installs:
-        if install.kind != "PROGRAMS" or install.destination != f"lib/{package.name}":
+        if install.kind != "PROGRAMS" or package.cmake.guarded_by_testing(install.command):
             continue
         for item in install.items:
-            if item.path is not None and package.has(item.path):
-                name = install.rename or item.path.rpartition("/")[2]
-                if item.path in package.python_files:
-                    yield name, item.path, None
+            path = item.path
+            if path is None or path not in package.python_files:
+                continue
+            # A node is meant for `ros2 run` wherever it is installed.
+            if install.destination == f"lib/{package.name}" or package.node_facts(path).nodes:
+                yield install.rename or path.rpartition("/")[2], path, None
 
 
 # -- what one of them does

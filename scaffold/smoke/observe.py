@@ -104,7 +104,8 @@ class Observer:
         self._topics: dict[str, dict[str, Any]] = {}
         self._services: dict[str, str] = {}
         self._counts: dict[str, int] = {}
-        self._reports: list[dict[str, dict[str, Any]]] = []
+        self._reports: list[Mapping[str, Any]] = []
+        self._graph_changed = time.monotonic()
 
     @property
     def pid(self) -> int:
@@ -143,6 +144,16 @@ class Observer:
         """Go on observing for a while, or until the executable ends."""
         await self.wait_for(lambda: False, seconds, running)
 
+    async def settle(self, seconds: float, timeout: float, running: process.Running) -> None:
+        """Wait until nothing has been added for a while: then it has made all it needs."""
+        deadline = time.monotonic() + timeout
+        while running.exit_code is None:
+            now = time.monotonic()
+            left = min(self._graph_changed + seconds, deadline) - now
+            if left <= 0:
+                return
+            await self.pause(left, running)
+
     def guard(self, group: int) -> None:
         """Have the process group killed if this process goes away without a word."""
         self._tell(f"guard {group}")
@@ -165,7 +176,8 @@ class Observer:
             if left <= 0:
                 raise ObserverError(f"the observer did not answer within {ANSWER_TIMEOUT:g} s")
             await self._event_or(None, left)
-        return self._as_observation(self._reports.pop(), asked)
+        report = self._reports.pop()
+        return self._as_observation(report["topics"], report["now"])
 
     async def get_ready(self) -> None:
         """Wait until the probe watches.
@@ -214,12 +226,13 @@ class Observer:
         elif kind == "message":
             self._counts[event["topic"]] = event["count"]
         elif kind == "report":
-            self._reports.append(event["topics"])
+            self._reports.append(event)
         else:
             self._take_graph(event)
 
     def _take_graph(self, graph: Mapping[str, Any]) -> None:
         """Keep the most that was ever seen: an executable that has ended takes all away."""
+        self._graph_changed = time.monotonic()
         self._nodes.update(graph["nodes"])
         self._services.update(graph["services"])
         for topic in graph["topics"]:

@@ -6,7 +6,7 @@ the standard library and rclpy. Events on stdout::
     {"event": "ready"}
     {"event": "graph", "nodes": [...], "topics": [...], "services": [...]}    on every change
     {"event": "message", "topic": "/t", "count": 1}               the first ones of every topic
-    {"event": "report", "topics": {"/t": {"count", "first", "last", "messages", "error"}}}
+    {"event": "report", "now": 0.0, "topics": {"/t": {"count", "first", "last", ...}}}
 
 Commands on stdin: ``report`` asks for the last of these events; ``guard PID`` names a process
 group to be killed if the one who asked goes away; the end of stdin ends the probe.
@@ -43,7 +43,7 @@ _UNWATCHED = ("/rosout", "/parameter_events")
 
 
 class Topic:
-    """What was received on a topic; times are those of ``time.monotonic``, in seconds."""
+    """What was received on a topic; times are those of ``time.time``, in seconds."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -107,7 +107,7 @@ class Probe:
 
     def _report(self) -> None:
         topics = {name: topic.as_data() for name, topic in self._topics.items()}
-        say({"event": "report", "topics": topics})
+        say({"event": "report", "now": time.time(), "topics": topics})
 
     # -- the graph
 
@@ -174,8 +174,8 @@ class Probe:
             topic.error = f"{type(error).__name__}: {error}"
 
     def _subscribe(self, name: str, topic: Topic, message_type: Ros) -> Ros:
-        def receive(data: bytes) -> None:
-            topic.last = time.monotonic()
+        def receive(data: bytes, info: dict[str, int]) -> None:
+            topic.last = arrival(info)
             topic.count += 1
             if topic.count == 1:
                 topic.first = topic.last
@@ -256,6 +256,12 @@ def say(event: dict[str, object]) -> None:
         sys.stdout.flush()
     except BrokenPipeError:
         os._exit(1)
+
+
+def arrival(info: dict[str, int]) -> float:
+    """Return when a message came, as the middleware knows it: this process may be late."""
+    stamp = info.get("received_timestamp") or info.get("source_timestamp")
+    return stamp / 1e9 if stamp else time.time()
 
 
 def find_type(name: str) -> Ros:

@@ -16,7 +16,7 @@ from scaffold.smoke.result import Observation, Problem, Stop
 from scaffold.smoke.station import Station, Stations
 
 SETTLING = 1.0
-"""Seconds between the first sign of life and the signal, where nothing else is waited for."""
+"""Seconds between the last change of the graph and the signal."""
 CHILDREN_LOOKS = 20
 CHILDREN_PERIOD = 0.05
 """The children of an executable may live so often so many seconds longer than itself."""
@@ -136,14 +136,12 @@ class _Run:
             if running.exit_code is None:
                 self._never_joined()
             return
-        heard = self._heard_all()
-        if self._brief:
-            await observer.wait_for(heard, SETTLING, running)
-            await observer.pause(SETTLING / 2, running)
-            return
-        await observer.pause(plan.duration, running)
+        if not self._brief:
+            await observer.pause(plan.duration, running)
         left = running.started + plan.timeout - time.monotonic()
-        await observer.wait_for(heard, left, running)
+        await observer.wait_for(self._heard_all(), left, running)
+        # A signal in the middle of a constructor would tell about nothing but that.
+        await observer.settle(SETTLING, plan.timeout, running)
 
     def _heard_all(self) -> Callable[[], bool]:
         topics = [one.topic for one in self._expectation.publications if one.certain]
