@@ -94,8 +94,11 @@ def _read(package: Package, path: str) -> bytes | None:
         pass
     if package.root is None or not path.startswith(".."):
         return None
+    full = os.path.join(package.root, path)
+    if not os.path.isfile(full):  # a pipe would never end
+        return None
     try:  # beside the package, in the same repository
-        with open(os.path.join(package.root, path), "rb") as file:
+        with open(full, "rb") as file:
             return file.read()
     except OSError:
         return None
