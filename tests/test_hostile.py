@@ -199,6 +199,7 @@ def test_only_regular_files_are_read(tmp_path: Path, place: str) -> None:
     package = _package(tmp_path, {})
     name = package / PLACES[place]
     name.parent.mkdir(parents=True, exist_ok=True)
+    name.unlink(missing_ok=True)
     os.mkfifo(name)
     _check(package)
     for target in ("/dev/zero", name.name, "."):
