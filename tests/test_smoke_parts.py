@@ -152,7 +152,7 @@ def test_signal_that_is_obeyed(tmp_path: Path) -> None:
         return await process.end(running, signal.SIGINT), running.exit_code
 
     ending, code = asynchronously(run)
-    assert (ending.asked, ending.signal, code) == ("SIGINT", "SIGINT", -2)
+    assert (ending.sent, ending.was_ignored, code) == (("SIGINT",), False, -2)
 
 
 def test_signal_that_is_ignored(tmp_path: Path) -> None:
@@ -168,7 +168,25 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
         return await process.end(running, signal.SIGINT, grace=0.2), running.exit_code
 
     ending, exit_code = asynchronously(run)
-    assert (ending.asked, ending.signal, exit_code) == ("SIGINT", "SIGTERM", -15)
+    assert (ending.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
+    assert (ending.was_ignored, ending.was_missed) == (True, False)
+
+
+def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
+    code = (
+        "import signal, time\n"
+        "def once(number, frame): signal.signal(number, signal.SIG_DFL)\n"
+        "signal.signal(signal.SIGTERM, once)\n"
+        "print(1)\n"
+        "while True: time.sleep(60)\n"
+    )
+
+    async def run() -> process.Ending:
+        running = await started(code, tmp_path, "a")
+        return await process.end(running, signal.SIGTERM, grace=0.2)
+
+    ending = asynchronously(run)
+    assert (ending.sent, ending.was_missed) == (("SIGTERM", "SIGTERM"), True)
 
 
 def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
@@ -303,6 +321,25 @@ def test_warnings_of_a_build() -> None:
         "  Careful: this",
         "/x/dist.py:1: UserWarning: Unknown distribution option: 'tests_require'",
     ]
+
+
+def test_complaints_of_colcon() -> None:
+    text = (
+        "[0.2s] WARNING:colcon.colcon_core.x:Failed to parse in '/ws/demo': Error:\n"
+        "Package version is wrong\n"
+        "[0.3s] WARNING:colcon.colcon_core.x:Failed to parse in '/ws/other': Error\n"
+        "Starting >>> demo\n"
+    )
+    assert output.complaints(text, "/ws/demo") == [
+        "Failed to parse in '/ws/demo': Error:",
+        "Package version is wrong",
+    ]
+
+
+def test_error_without_a_traceback() -> None:
+    text = '  File "talker.py", line 3\n    print x\n    ^^^^^^^\nSyntaxError: invalid\n'
+    assert output.named_error(text) == "SyntaxError: invalid"
+    assert output.named_error("usage: talker\ntalker: error: no argument\n") is None
 
 
 def test_long_output_is_cut(tmp_path: Path) -> None:

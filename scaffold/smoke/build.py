@@ -84,7 +84,7 @@ async def build(
         later = [one for one in left if log.had_no_turn(one.name)] if in_time else []
         if len(later) == len(left):
             later = []
-        done.update({one.name: log.result(one.name) for one in left if one not in later})
+        done.update({one.name: log.result(one) for one in left if one not in later})
         left = later
     return done
 
@@ -201,9 +201,11 @@ class _Log:
         job = (self.jobs or {}).get(name)
         return job is not None and job.skipped and not self._failed_dependencies(job)
 
-    def result(self, name: str) -> Build:
+    def result(self, package: Source) -> Build:
+        name = package.name
         written = output.read(self.directory / name / "stdout_stderr.log")
-        warnings = tuple(output.warnings(written))
+        of_colcon = output.complaints(self.said, os.path.realpath(package.directory))
+        warnings = (*of_colcon, *output.warnings(written))
         if self.jobs is None:
             errors = () if self.succeeded else tuple(output.errors(self.said))
             return Build(ok=self.succeeded, errors=errors, warnings=warnings)

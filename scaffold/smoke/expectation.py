@@ -15,7 +15,7 @@ ENOUGH_MESSAGES = 5
 ENOUGH_SECONDS = 1.0
 ENOUGH_SECONDS_SLOW = 3.0
 """A rate is judged over the first two, or, for slow topics, over the last."""
-LATENESS = 0.02
+LATENESS = 0.05
 """Seconds by which the first or the last message may be late."""
 PATIENCE = 2
 """Periods that have to pass before silence means something."""

@@ -26,6 +26,13 @@ _CMAKE_ERROR = re.compile(r"CMake Error")
 _CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
 _ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
 _WARNING_LINE = re.compile(r"\bwarning: |\w+Warning: ")
+_COMPLAINT = re.compile(
+    r"^\[[\d.]+s\] (?:WARNING|ERROR):[\w.]+:"
+    r"(?P<text>.*(?:\n(?!\[|---|[A-Z][a-z]+ (?:>>>|<<<)|\s).+)*)",
+    re.MULTILINE,
+)
+"""What colcon itself complains about."""
+_NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
 _OWN_DOING = "byte-compiling is disabled"
 """setuptools says so because the build is told to write nothing into the sources."""
 _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -116,6 +123,18 @@ def warnings(text: str) -> list[str]:
         if _WARNING_LINE.search(line) and _OWN_DOING not in line and line not in in_blocks
     ]
     return _limited(found)
+
+
+def complaints(text: str, directory: str) -> list[str]:
+    """Return what colcon itself says about the package in a directory."""
+    found = [match["text"] for match in _COMPLAINT.finditer(text) if directory in match["text"]]
+    return _limited([line for one in found for line in one.splitlines()])
+
+
+def named_error(text: str) -> str | None:
+    """Return the exception in the last line, as a syntax error has it without a traceback."""
+    last = "".join(tail(text, 1))
+    return last if _NAMED_ERROR.match(last) else None
 
 
 def _cmake_blocks(text: str, start: re.Pattern[str]) -> Iterator[list[str]]:

@@ -39,6 +39,9 @@ GRAPH_PERIOD = 0.05
 QUEUE_DEPTH = 1000
 """Messages that may wait: two seconds of a topic at 500 Hz."""
 
+GRACE = 2.0
+"""Seconds that a guarded group has to obey."""
+
 _UNWATCHED = ("/rosout", "/parameter_events")
 
 
@@ -242,11 +245,22 @@ class Commands:
         return commands
 
     def _kill_guarded(self) -> None:
-        for group in self._guarded:
-            try:
-                os.killpg(group, signal.SIGKILL)
-            except ProcessLookupError:
-                continue
+        """End the guarded groups: first so that they can leave nothing behind, then for good."""
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            alive = {group for group in self._guarded if send(group, number)}
+            deadline = time.monotonic() + GRACE
+            while alive and time.monotonic() < deadline:
+                time.sleep(GRAPH_PERIOD)
+                alive = {group for group in alive if send(group, 0)}
+
+
+def send(group: int, number: int) -> bool:
+    """Send a signal to a process group; tell whether there is one."""
+    try:
+        os.killpg(group, number)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 def say(event: dict[str, object]) -> None:

@@ -98,21 +98,32 @@ class Ending:
 
     asked: str
     """The first signal that was sent."""
-    signal: str
-    """The last one: the same if it was obeyed."""
+    sent: tuple[str, ...]
+    """All of them: one if it was obeyed."""
     seconds: float
+
+    @property
+    def was_ignored(self) -> bool:
+        """Tell whether the first signal did not end it."""
+        return len(self.sent) > 1
+
+    @property
+    def was_missed(self) -> bool:
+        """Tell whether it did not react once, and then did."""
+        return self.sent == (self.asked, self.asked)
 
 
 async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:
-    """Send a signal to the group; where it is ignored, send what is harder to ignore."""
+    """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
     begun = time.monotonic()
-    sent = number
-    for sent in dict.fromkeys((number, signal.SIGTERM, signal.SIGKILL)):
-        running.signal(sent)
+    sent: list[str] = []
+    for one in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
+        sent.append(one.name)
+        running.signal(one)
         if await running.ended_within(grace):
             break
         grace = GRACE_OF_NEXT
-    return Ending(number.name, sent.name, time.monotonic() - begun)
+    return Ending(number.name, tuple(sent), time.monotonic() - begun)
 
 
 def marked(mark: str) -> dict[int, str]:

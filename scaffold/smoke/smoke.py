@@ -233,29 +233,30 @@ class _Session:
 
     def _of_package(self, plan: Plan, package: str) -> list[Coroutine[Any, Any, Executable]]:
         expected = self._expected[package]
-        found = {path.name: path for path in installed(package, plan.variables)}
+        paths = installed(package, plan.variables)
+        found = {path.name: path for path in paths or ()}
+        where = f"in lib/{package}" if paths is not None else "in a package of the ament index"
         return [
-            self._one(plan, package, name, found.get(name), expected.get(name, Expectation()))
+            self._one(plan, f"{package}/{name}", found[name], expected.get(name, Expectation()))
+            if name in found
+            else _missing(name, where)
             for name in sorted({*found, *expected})
         ]
 
     async def _one(
-        self, plan: Plan, package: str, name: str, path: Path | None, expectation: Expectation
+        self, plan: Plan, label: str, path: Path, expectation: Expectation
     ) -> Executable:
-        if path is None:
-            message = f"ros2 run does not find it: it is declared, but not in lib/{package}"
-            return Executable(name, problems=(Problem(message),))
         async with self._slots:
-            self._tell_running(f"{package}/{name}", started=True)
+            self._tell_running(label, started=True)
             trials: list[Trial] = []
             for number in self._options.signals:
-                label = f"{package}/{name}/{number.name}"
+                run = f"{label}/{number.name}"
                 brief = bool(trials)
                 if brief and not trials[0].joined:
                     break
-                trials.append(await trial.run(plan, path, expectation, label, number, brief=brief))
-            self._tell_running(f"{package}/{name}", started=False)
-        return _judge(name, trials, expectation)
+                trials.append(await trial.run(plan, path, expectation, run, number, brief=brief))
+            self._tell_running(label, started=False)
+        return _judge(path.name, trials, expectation)
 
     def _tell_running(self, label: str, *, started: bool) -> None:
         (self._running.add if started else self._running.discard)(label)
@@ -284,8 +285,8 @@ async def _together(runs: Sequence[Coroutine[Any, Any, Result]]) -> list[Result]
     return [task.result() for task in tasks]
 
 
-def installed(package: str, variables: Mapping[str, str]) -> list[Path]:
-    """Return the executables of a package as ``ros2 run`` finds them."""
+def installed(package: str, variables: Mapping[str, str]) -> list[Path] | None:
+    """Return the executables of a package as ``ros2 run`` finds them; ``None``: no package."""
     for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         if not os.path.exists(f"{prefix}/share/ament_index/resource_index/packages/{package}"):
             continue
@@ -295,7 +296,13 @@ def installed(package: str, variables: Mapping[str, str]) -> list[Path]:
             paths = (Path(parent, name) for name in sorted(names))
             found += [path for path in paths if os.access(path, os.X_OK)]
         return found
-    return []
+    return None
+
+
+async def _missing(name: str, where: str) -> Executable:
+    return Executable(
+        name, problems=(Problem(f"ros2 run does not find it: it is declared, but not {where}"),)
+    )
 
 
 def _judge(name: str, trials: Sequence[Trial], expectation: Expectation) -> Executable:
@@ -311,6 +318,7 @@ def _judge(name: str, trials: Sequence[Trial], expectation: Expectation) -> Exec
     if finished and not problems:
         notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
     for other in trials[1:]:
+        notes += other.notes
         problems += [problem for problem in other.problems if problem not in problems]
     return Executable(
         name=name,
