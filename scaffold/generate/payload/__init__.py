@@ -12,6 +12,10 @@ from difflib import get_close_matches
 from typing import NamedTuple
 
 from scaffold.errors import InputError
+from scaffold.generate.payload.records import ActionPayload, Part, Payload, ServicePayload
+
+
+__all__ = ["ActionPayload", "Part", "Payload", "ServicePayload", "payload"]
 
 
 class Field(NamedTuple):
@@ -31,37 +35,6 @@ class Sample(NamedTuple):
     check: str
     """A Python expression that is true of a received ``{value}``."""
     imports: tuple[str, ...] = ()
-
-
-class Payload(NamedTuple):
-    """How a node fills one message and how its test judges it."""
-
-    package: str
-    name: str
-    imports: tuple[str, ...]
-    """Import statements of the node, the message's own included."""
-    statements: tuple[str, ...]
-    """They fill ``msg``."""
-    shown: str
-    """An expression for the log."""
-    says: str
-    """What the message holds, without an article's capital and without a full stop."""
-    checks: tuple[str, ...]
-    """Python expressions that are true of every received ``message``."""
-    is_stamped: bool
-    """Whether it names a frame, which the node takes from its parameter ``frame_id``."""
-    is_counted: bool
-    """Whether the statements use ``self.count``."""
-
-    @property
-    def type(self) -> str:
-        """The full name, as ``ros2 topic info`` shows it."""
-        return f"{self.package}/msg/{self.name}"
-
-    @property
-    def import_line(self) -> str:
-        """The import of the message alone."""
-        return f"from {self.package}.msg import {self.name}"
 
 
 def _integer(bits: int, *, signed: bool) -> Sample:
@@ -157,6 +130,7 @@ def _of(package: str, name: str, fields: Sequence[Field]) -> Payload:
         ),
         is_stamped=any("self.frame_id" in step.sample.expression for step in steps),
         is_counted=any("self.count" in step.sample.expression for step in steps),
+        packages=(package,),
     )
 
 

@@ -1,0 +1,155 @@
+"""What templates get for an interface: code that fills it, and words about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+
+class Payload(NamedTuple):
+    """How a node fills one message and how its test judges it."""
+
+    package: str
+    name: str
+    imports: tuple[str, ...]
+    """Import statements of the node, the message's own included."""
+    statements: tuple[str, ...]
+    """Lines of a method, without its indentation; they fill ``msg``.
+
+    They may use ``self.count`` (messages so far), ``self.frame_id`` and ``self.get_clock()``.
+    """
+    shown: str
+    """An expression for the log, to stand in an f-string in single quotes; short for large
+    messages."""
+    says: str
+    """What the message holds, without an article's capital and without a full stop."""
+    checks: tuple[str, ...]
+    """Python expressions that are true of every received ``message``."""
+    is_stamped: bool
+    """Whether it names a frame, which the node takes from its parameter ``frame_id``."""
+    is_counted: bool
+    """Whether the statements use ``self.count``."""
+    packages: tuple[str, ...]
+    """The interface packages that the imports need, in alphabetical order."""
+    constants: tuple[str, ...] = ()
+    """Lines of the module, such as ``WIDTH = 64  # pixels``."""
+    is_changing: bool = True
+    """Whether one message differs from the next; an empty one cannot."""
+
+    @property
+    def type(self) -> str:
+        """The full name, as ``ros2 topic info`` shows it."""
+        return f"{self.package}/msg/{self.name}"
+
+    @property
+    def import_line(self) -> str:
+        """The import of the message alone."""
+        return f"from {self.package}.msg import {self.name}"
+
+
+class Part(NamedTuple):
+    """How a node fills a part of a service or an action, and how the other side judges it."""
+
+    statements: tuple[str, ...]
+    """Lines of a method, without its indentation; they fill the variable of the part's name:
+    ``request``, ``response``, ``goal``, ``feedback`` or ``result``. Empty if there are no
+    fields. They may use ``self.count``, ``self.frame_id`` and ``self.get_clock()``."""
+    shown: str
+    """An expression for the log, to stand in an f-string in single quotes; empty if there is
+    nothing to show."""
+    says: str
+    """What it holds, to be read after "the request holds"; empty if there are no fields."""
+    checks: tuple[str, ...]
+    """Python expressions that are true of it, with the same variables as the statements."""
+    imports: tuple[str, ...] = ()
+    """Import statements that the statements need, that of the interface left out."""
+    packages: tuple[str, ...] = ()
+    """The interface packages that the imports need, in alphabetical order."""
+    is_stamped: bool = False
+    """Whether the statements use ``self.frame_id``."""
+    is_counted: bool = False
+    """Whether the statements use ``self.count``."""
+
+
+class ServicePayload(NamedTuple):
+    """How a client fills the request of a service, and how a server answers it."""
+
+    package: str
+    name: str
+    says: str
+    """What the service does, to be read after "a service that", such as ``adds two integers``."""
+    request: Part
+    """Filled by the client: ``request``; ``self.count`` is the number of requests so far."""
+    response: Part
+    """Filled by the server from ``request``: ``response``; the checks may use both.
+    ``self.count`` is the number of requests answered so far."""
+
+    @property
+    def type(self) -> str:
+        """The full name, as ``ros2 service type`` shows it."""
+        return f"{self.package}/srv/{self.name}"
+
+    @property
+    def import_line(self) -> str:
+        """The import of the service alone."""
+        return f"from {self.package}.srv import {self.name}"
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """All interface packages that server and client need, in alphabetical order."""
+        return _union([(self.package,), self.request.packages, self.response.packages])
+
+
+class ActionPayload(NamedTuple):
+    """How a client fills the goal of an action, and how a server works on it.
+
+    A server accepts a ``goal`` unless ``refused``, runs the statements of ``start`` once, then
+    those of ``feedback`` for each ``step`` in ``steps`` and publishes it, and at the end those
+    of ``result``::
+
+        feedback = Fibonacci.Feedback()
+        feedback.sequence = [0, 1]              # start
+        for step in range(1, goal.order):       # steps
+            ...                                 # feedback.statements
+            goal_handle.publish_feedback(feedback)
+        result = Fibonacci.Result()
+        result.sequence = feedback.sequence     # result.statements
+    """
+
+    package: str
+    name: str
+    says: str
+    """What the action does, to be read after "an action that", such as ``computes ...``."""
+    goal: Part
+    """Filled by the client: ``goal``; ``self.count`` is the number of goals so far."""
+    refused: str
+    """An expression that is true of a ``goal`` that makes no sense; empty: all make sense."""
+    start: tuple[str, ...]
+    """Lines that prepare ``feedback`` from ``goal`` before the first step."""
+    steps: str
+    """What the server loops over, such as ``range(1, goal.order)``; it may use ``goal``."""
+    feedback: Part
+    """Filled by the server at each step: ``feedback``, from ``goal`` and the number ``step``."""
+    result: Part
+    """Filled by the server at the end: ``result``, from ``goal`` and ``feedback``; the checks
+    may use ``goal`` and ``result``."""
+
+    @property
+    def type(self) -> str:
+        """The full name, as ``ros2 action type`` shows it."""
+        return f"{self.package}/action/{self.name}"
+
+    @property
+    def import_line(self) -> str:
+        """The import of the action alone."""
+        return f"from {self.package}.action import {self.name}"
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """All interface packages that server and client need, in alphabetical order."""
+        parts = (self.goal, self.feedback, self.result)
+        return _union([(self.package,), *(part.packages for part in parts)])
+
+
+def _union(groups: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
+    return tuple(sorted({name for group in groups for name in group}))
