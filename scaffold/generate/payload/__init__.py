@@ -14,7 +14,6 @@ from typing import NamedTuple
 from scaffold.errors import InputError
 from scaffold.generate.payload.records import ActionPayload, Part, Payload, ServicePayload
 
-
 __all__ = ["ActionPayload", "Part", "Payload", "ServicePayload", "payload"]
 
 
@@ -121,7 +120,7 @@ def _of(package: str, name: str, fields: Sequence[Field]) -> Payload:
         name=name,
         imports=(*imports, f"from {package}.msg import {name}"),
         statements=tuple(f"msg.{step.path} = {step.sample.expression}" for step in steps),
-        shown="msg.data" if paths == ["data"] else "msg",
+        log="{msg.data}" if paths == ["data"] else "{msg}",
         says=" and ".join(step.sample.says for step in steps),
         checks=tuple(
             step.sample.check.format(value=f"message.{step.path}")

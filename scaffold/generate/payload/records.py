@@ -18,9 +18,9 @@ class Payload(NamedTuple):
 
     They may use ``self.count`` (messages so far), ``self.frame_id`` and ``self.get_clock()``.
     """
-    shown: str
-    """An expression for the log, to stand in an f-string in single quotes; short for large
-    messages."""
+    log: str
+    """The inside of an f-string in single quotes, such as ``{msg.data}``; short for large
+    messages, and without braces only for empty ones."""
     says: str
     """What the message holds, without an article's capital and without a full stop."""
     checks: tuple[str, ...]
@@ -31,6 +31,8 @@ class Payload(NamedTuple):
     """Whether the statements use ``self.count``."""
     packages: tuple[str, ...]
     """The interface packages that the imports need, in alphabetical order."""
+    frame: str = "base_link"
+    """The default of the parameter ``frame_id``."""
     constants: tuple[str, ...] = ()
     """Lines of the module, such as ``WIDTH = 64  # pixels``."""
     is_changing: bool = True
@@ -54,9 +56,9 @@ class Part(NamedTuple):
     """Lines of a method, without its indentation; they fill the variable of the part's name:
     ``request``, ``response``, ``goal``, ``feedback`` or ``result``. Empty if there are no
     fields. They may use ``self.count``, ``self.frame_id`` and ``self.get_clock()``."""
-    shown: str
-    """An expression for the log, to stand in an f-string in single quotes; empty if there is
-    nothing to show."""
+    log: str
+    """The inside of an f-string in single quotes, such as ``{response.sum}``; without braces
+    (then it is no f-string) if there are no fields."""
     says: str
     """What it holds, to be read after "the request holds"; empty if there are no fields."""
     checks: tuple[str, ...]
@@ -69,6 +71,8 @@ class Part(NamedTuple):
     """Whether the statements use ``self.frame_id``."""
     is_counted: bool = False
     """Whether the statements use ``self.count``."""
+    constants: tuple[str, ...] = ()
+    """Lines of the module that the statements need, such as ``WIDTH = 64  # pixels``."""
 
 
 class ServicePayload(NamedTuple):
