@@ -1,0 +1,97 @@
+"""ND040: the functions of rclpy get arguments that they have."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_signatures import Excess, excess_arguments
+
+_CODE = (
+    "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
+    "from std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_service(Trigger, 'reset', self.reset{})\n"
+    "        self.create_timer(0.1, self.tick{})\n\n\n"
+    "def main():\n"
+    "    rclpy.init({}sys.argv)\n"
+    "    rclpy.spin_once(Server(){})\n"
+)
+_RIGHT = _CODE.format("", "", "args=", ", timeout_sec=0.1")
+
+
+class ArgumentUnknown(Rule):
+    """A function of rclpy is given an argument that it does not take.
+
+    **Why.** ``TypeError: init() takes 0 positional arguments but 1 was given`` as soon as the
+    call is made. Many arguments of rclpy can be given by name only, other than in ROS 1 or C++.
+
+    **Fix.** Give the argument by its name, or leave it out.
+
+    **Source.** ``rclpy/__init__.py``, ``rclpy/node.py``, ``rclpy/qos.py`` of Jazzy.
+    """
+
+    code = "ND040"
+    name = "argument-unknown"
+    examples = (
+        Example("by name", {"server.py": _RIGHT}),
+        Example(
+            "by position",
+            {"server.py": _CODE.format("", "", "", ", 0.1")},
+            at=("server.py:16", "server.py:17"),
+            fixed={"server.py": _RIGHT},
+        ),
+        Example(
+            "a depth for a service, and a keyword of ROS 1",
+            {"server.py": _CODE.format(", 10", ", oneshot=True", "args=", "")},
+            at=("server.py:11", "server.py:12"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for excess in excess_arguments(facts):
+                fix = _fix(facts, excess)
+                yield self.report(facts.module.location(excess.node), _message(excess), fix)
+
+
+def _message(excess: Excess) -> str:
+    signature = excess.signature
+    if excess.keyword:
+        known = sorted({*signature.positional, *signature.keywords})
+        near = get_close_matches(excess.keyword, known, n=1)
+        hint = f", but {near[0]!r}" if near else ""
+        return f"{excess.function}() has no argument {excess.keyword!r}{hint}: TypeError"
+    count = len(signature.positional)
+    most = f"at most {count}" if count else "no"
+    plural = "" if count == 1 else "s"
+    by_name = sorted(signature.keywords)
+    hint = f"; by name: {', '.join(by_name)}" if by_name else ""
+    return f"{excess.function}() takes {most} positional argument{plural}: TypeError{hint}"
+
+
+def _fix(facts: NodeFacts, excess: Excess) -> Fix | None:
+    """Name an argument where its name is plain."""
+    if excess.keyword or excess.node is not excess.call.args[-1]:
+        return None
+    name = ""
+    if excess.function == "rclpy.init" and _is_command_line(facts, excess.node):
+        name = "args"
+    elif excess.function == "rclpy.spin_once":
+        value = facts.evaluator.evaluate(excess.node)
+        name = "timeout_sec" if type(value) in {int, float} else ""
+    if not name or any(word.arg in {name, None} for word in excess.call.keywords):
+        return None
+    start, _ = facts.module.span(excess.node)
+    return Fix(f"give it as {name}=", (Edit(facts.module.path, start, start, f"{name}="),))
+
+
+def _is_command_line(facts: NodeFacts, node: ast.expr) -> bool:
+    if isinstance(node, ast.Name) and node.id in {"args", "argv"}:
+        return True
+    return facts.module.qualified_name(node) == "sys.argv"

@@ -1,0 +1,142 @@
+"""Which arguments the functions of rclpy take on Jazzy, and whether a call gives others."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.model.node_owners import NodeClass, NodeObject
+
+if TYPE_CHECKING:
+    from scaffold.model.nodes import NodeFacts
+
+_NODE_KEYWORDS = (
+    "context cli_args namespace use_global_arguments enable_rosout start_parameter_services "
+    "parameter_overrides allow_undeclared_parameters enable_logger_service "
+    "automatically_declare_parameters_from_overrides"
+)
+_EVENTS = "callback_group event_callbacks qos_overriding_options"
+_GOALS = "goal_service_qos_profile result_service_qos_profile cancel_service_qos_profile"
+
+
+class Signature(NamedTuple):
+    """The parameters of a function of rclpy, without ``self``."""
+
+    positional: tuple[str, ...]
+    """By position or by name."""
+    keywords: frozenset[str]
+    """By name only."""
+
+
+def _signature(positional: str, keywords: str = "") -> Signature:
+    return Signature(tuple(positional.split()), frozenset(keywords.split()))
+
+
+FUNCTIONS: Mapping[str, Signature] = {
+    "rclpy.init": _signature("", "args context domain_id signal_handler_options"),
+    "rclpy.shutdown": _signature("", "context uninstall_handlers"),
+    "rclpy.try_shutdown": _signature("", "context"),
+    "rclpy.ok": _signature("", "context"),
+    "rclpy.spin": _signature("node executor"),
+    "rclpy.spin_once": _signature("node", "executor timeout_sec"),
+    "rclpy.spin_until_future_complete": _signature("node future executor timeout_sec"),
+    "rclpy.create_node": _signature("node_name", _NODE_KEYWORDS),
+    "rclpy.node.Node": _signature("node_name", _NODE_KEYWORDS),
+    "rclpy.action.ActionServer": _signature(
+        "node action_type action_name execute_callback",
+        f"callback_group goal_callback handle_accepted_callback cancel_callback {_GOALS} "
+        "feedback_pub_qos_profile status_pub_qos_profile result_timeout",
+    ),
+    "rclpy.action.ActionClient": _signature(
+        "node action_type action_name",
+        f"callback_group {_GOALS} feedback_sub_qos_profile status_sub_qos_profile",
+    ),
+    "rclpy.executors.SingleThreadedExecutor": _signature("", "context"),
+    "rclpy.executors.MultiThreadedExecutor": _signature("num_threads", "context"),
+    "rclpy.qos.QoSProfile": _signature(
+        "",
+        "history depth reliability durability lifespan deadline liveliness "
+        "liveliness_lease_duration avoid_ros_namespace_conventions",
+    ),
+}
+"""By full name."""
+
+METHODS: Mapping[str, Signature] = {
+    "create_publisher": _signature("msg_type topic qos_profile", f"{_EVENTS} publisher_class"),
+    "create_subscription": _signature("msg_type topic callback qos_profile", f"{_EVENTS} raw"),
+    "create_service": _signature("srv_type srv_name callback", "qos_profile callback_group"),
+    "create_client": _signature("srv_type srv_name", "qos_profile callback_group"),
+    "create_timer": _signature("timer_period_sec callback callback_group clock autostart"),
+    "create_rate": _signature("frequency clock"),
+    "declare_parameter": _signature("name value descriptor ignore_override"),
+    "declare_parameters": _signature("namespace parameters ignore_override"),
+    "get_parameter": _signature("name"),
+    "get_parameter_or": _signature("name alternative_value"),
+    "get_parameters": _signature("names"),
+    "has_parameter": _signature("name"),
+}
+"""Of ``rclpy.node.Node``, by name."""
+
+
+class Excess(NamedTuple):
+    """An argument that the called function does not take."""
+
+    call: ast.Call
+    function: str
+    """How the function is called: ``rclpy.init``, ``create_service``."""
+    signature: Signature
+    keyword: str
+    """The unknown keyword; empty for one position too many."""
+    node: ast.expr
+    """The first such argument."""
+
+
+def excess_arguments(facts: NodeFacts) -> Iterator[Excess]:
+    """Yield the calls of rclpy's functions that end in a TypeError, in the order of the text."""
+    for call in facts.module.walk(ast.Call):
+        named = _called(facts, call)
+        if named is not None:
+            yield from _excess(call, *named)
+    for node in facts.classes:
+        base = node.constructor_call if node.base is None and not node.is_lifecycle else None
+        if base is not None:
+            yield from _excess(base, "Node.__init__", FUNCTIONS["rclpy.node.Node"])
+
+
+def _called(facts: NodeFacts, call: ast.Call) -> tuple[str, Signature] | None:
+    for name in facts.module.qualified_names(call.func):
+        if name in FUNCTIONS:
+            return name, FUNCTIONS[name]
+    func = call.func
+    if not isinstance(func, ast.Attribute) or func.attr not in METHODS:
+        return None
+    return (func.attr, METHODS[func.attr]) if _is_plain(facts, func) else None
+
+
+def _is_plain(facts: NodeFacts, func: ast.Attribute) -> bool:
+    """Tell whether a method is rclpy's own, not one of a class in between."""
+    owner = facts.owner_of(func.value)
+    if isinstance(owner, NodeObject):
+        return not owner.is_lifecycle
+    while isinstance(owner, NodeClass):
+        if owner.base_index or func.attr in owner.methods:
+            return False
+        if owner.base is None:
+            return True
+        owner = owner.base
+    return False
+
+
+def _excess(call: ast.Call, function: str, signature: Signature) -> Iterator[Excess]:
+    """Yield the first argument that does not fit."""
+    for position, arg in enumerate(call.args):
+        if isinstance(arg, ast.Starred):
+            break
+        if position >= len(signature.positional):
+            yield Excess(call, function, signature, "", arg)
+            return
+    for word in call.keywords:
+        if word.arg and word.arg not in {*signature.positional, *signature.keywords}:
+            yield Excess(call, function, signature, word.arg, word.value)
+            return
