@@ -720,7 +720,10 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
     ("text", "message"),
     [
         ("rte: 2\n", "answers.yaml: 'rte' is no question of the templates; did you mean rate?"),
-        ("zzz: 2\n", "answers.yaml: 'zzz' is no question of the templates; known are build_type"),
+        (
+            "zzz: 2\n",
+            "answers.yaml: 'zzz' is no question of the templates; known are add, build_type",
+        ),
         ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
         ("a: [\n", "answers.yaml: not YAML: while parsing"),
         ("rate: 0\n", "answers.yaml: rate: 0 Hz is not between"),
@@ -1007,7 +1010,10 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
         ("summary: x\nrole: knot", "role must be one of package, build_type, node"),
         ("summary: x\nrole: node\nfiles: []", "unknown key 'files'"),
         ("summary: x\nrole: node\ninclude: []", "include must be a dict"),
-        ("summary: x\nrole: node\ndepends: {run: [a]}", "depends must map buildtool, exec, test"),
+        (
+            "summary: x\nrole: node\ndepends: {run: [a]}",
+            "depends must map buildtool, build, build_export, depend, exec, test",
+        ),
         ("summary: x\nrole: node\nquestions: {a: 1}", "the question 'a' must be a mapping"),
         (
             "summary: x\nrole: node\nquestions: {a: {help: x, typ: text}}",
@@ -1018,11 +1024,11 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
             "a has the unknown type 'txt'",
         ),
         (
-            "summary: x\nrole: node\nquestions: {a: {help: x, choices: none}}",
+            "summary: x\nrole: extra\nquestions: {a: {help: x, choices: none}}",
             "a must have a list of choices, or a role",
         ),
         (
-            "summary: x\nrole: node\nquestions: {topic: {help: x, type: rate}}",
+            "summary: x\nrole: extra\nquestions: {topic: {help: x, type: rate}}",
             "topic has the type topic, but rate in",
         ),
     ],
@@ -1063,18 +1069,95 @@ def test_the_page_on_templates_names_everything() -> None:
 
 def package_variables() -> list[str]:
     """Return the names that a template may use."""
-    from scaffold.generate import context, questions
+    from scaffold.generate import context, parts, questions
     from scaffold.generate.render import Renderer
 
-    layers = [TEMPLATES[name] for name in ("package", "ament_cmake", "publisher")]
+    given = {"package": Given("talker", "PACKAGE")}
+    order = draft.choose(TEMPLATES, given)
     renderer = Renderer(ROOTS, TEMPLATES, is_tutorial=False)
-    answers = questions.resolve(
-        questions.unique(layers),
-        {"package": Given("talker", "PACKAGE")},
-        render=renderer.text,
-        fallback=User(".").answer,
-    )
+
+    def answers(asked: list[template.Question]) -> dict[str, object]:
+        return questions.resolve(
+            asked,
+            given,
+            known={"contents": "a node"},
+            render=renderer.text,
+            fallback=User(".").answer,
+        ).values
+
+    publisher = TEMPLATES["publisher"]
+    part = parts.Part(publisher, answers(list(publisher.questions)))
     of_publisher = {question.name for question in TEMPLATES["publisher"].questions}
-    made = context.package_context(answers, layers, renderer)
+    frame = answers(questions.unique(order.frame))
+    made = context.package_context(frame, order.layers, [part], renderer)
     node = made["nodes"][0]
     return [*(set(made) - of_publisher), *(set(node) - of_publisher)]
+
+
+# -- several parts
+
+
+def test_several_nodes_in_one_package() -> None:
+    made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
+    files = made.rendered.files
+    assert draft.defects(made, rules()) == []
+    assert made.executables == ("talker.py", "announcer.py")
+    assert {"conversation/talker.py", "conversation/announcer.py"} < set(files)
+    assert {"test/test_talker.py", "test/test_announcer.py"} < set(files)
+    for name in ("talker", "announcer"):
+        assert f"    ${{PROJECT_NAME}}/{name}.py\n" in files["CMakeLists.txt"]
+        assert f"test_{name} test/test_{name}.py" in files["CMakeLists.txt"]
+        assert f"ros2 run conversation {name}.py\n" in files["README.md"]
+        assert "declare_parameter('rate', 5.0)" in files[f"conversation/{name}.py"]
+    description = "with the publisher node talker and the publisher node announcer</description>"
+    assert description in files["package.xml"]
+
+
+def test_answers_for_one_node_of_several() -> None:
+    made = make(
+        package="conversation",
+        topic="chatter",
+        add=[{"kind": "publisher", "name": "fast", "rate": 50}, "publisher:slow"],
+    )
+    assert "('rate', 50.0)" in made.rendered.files["conversation/fast.py"]
+    assert "('rate', 2.0)" in made.rendered.files["conversation/slow.py"]
+    assert "('topic', 'chatter')" in made.rendered.files["conversation/fast.py"]
+    assert "('topic', 'chatter')" in made.rendered.files["conversation/slow.py"]
+
+
+def test_the_written_answers_make_the_same_package() -> None:
+    made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
+    assert make(**made.answers).rendered == made.rendered
+
+
+@pytest.mark.parametrize(
+    ("add", "message"),
+    [
+        ("publsher:talker", "'publsher' is not one of "),
+        ("publsher:talker", "did you mean publisher?"),
+        ("publisher:", "'publisher:' is not KIND:NAME, such as publisher:talker"),
+        ("publisher:Talker", "'Talker' must be lower-case words"),
+        ("publisher:conversation", "is the name of the package"),
+    ],
+)
+def test_parts_that_are_refused(capsys: pytest.CaptureFixture[str], add: str, message: str) -> None:
+    assert_refused(capsys, ["new", "conversation", "--add", add], message)
+
+
+def test_two_nodes_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["new", "conversation", "--add", "publisher:talker", "--add", "publisher:talker"]
+    assert_refused(capsys, command, "two parts of the package have the name 'talker'")
+    command = ["new", "conversation", "--add", "publisher:talker", "--node-name", "announcer"]
+    assert_refused(capsys, command, "--node-name: of no use with --add")
+
+
+def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("answers.yaml").write_text(
+        "add:\n- {kind: publisher, name: talker, rate: 7}\n- publisher:announcer\n"
+    )
+    assert main(["new", "conversation", "--answers", "answers.yaml"]) == 0
+    assert "('rate', 7.0)" in Path("conversation/conversation/talker.py").read_text()
+    capsys.readouterr()
+    Path("answers.yaml").write_text("add: [{kind: publisher, colour: red}]\n")
+    command = ["new", "another", "--answers", "answers.yaml"]
+    assert_refused(capsys, command, "'colour' is no question of publisher, which asks message_type")

@@ -3,28 +3,35 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import date, datetime, timezone
 from typing import Any
 
 from scaffold.errors import InputError
 from scaffold.generate import licenses, names
+from scaffold.generate.parts import Part
+from scaffold.generate.questions import flag
 from scaffold.generate.render import Renderer
-from scaffold.generate.template import DEPEND_KINDS, Role, Template
+from scaffold.generate.template import DEPEND_KINDS, PARTS, Question, Role, Template
 
 VERSION = "0.1.0"
 """Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""
 
 
 def package_context(
-    answers: Mapping[str, Any], layers: Sequence[Template], renderer: Renderer
+    answers: Mapping[str, Any],
+    layers: Sequence[Template],
+    parts: Sequence[Part],
+    renderer: Renderer,
 ) -> dict[str, Any]:
     """Return the variables of all files.
 
     Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the licence as
-    comment lines), ``license_text`` (the template of the full text), ``nodes`` and ``depends``
-    (names by kind). A node has the answers of its template and ``kind``, ``name``, ``module``,
-    ``class_name``, ``executable`` and ``topic_name``.
+    comment lines), ``license_text`` (the template of the full text), ``nodes``, ``interfaces``
+    and ``programs``, ``depends`` (names by kind), ``groups`` and ``share_directories``. A part has
+    the answers of its template, ``kind`` and ``name``; a node also has ``module``,
+    ``class_name``, ``executable`` and the full names of its topics, services and actions; an
+    interface has ``file`` and ``type``.
 
     Raises:
         InputError: two answers contradict each other.
@@ -39,11 +46,28 @@ def package_context(
         "license_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.TEXT}",
     }
     context["header"] = renderer.license_header(answers["license"], context)
-    context["nodes"] = [
-        _node(layer, layers, context, renderer) for layer in layers if layer.role is Role.NODE
-    ]
-    context["depends"] = _depends(layers, context, renderer)
+    for role in PARTS:
+        context[f"{role.value}s"] = [
+            _part(part, layers, context, renderer) for part in parts if part.template.role is role
+        ]
+    scopes = list(part_scopes(layers, context))
+    context["depends"] = _depends(scopes, context, renderer)
+    context["groups"] = _texts("groups", scopes, renderer)
+    context["share_directories"] = _texts("installs", scopes, renderer)
     return context
+
+
+def part_scopes(
+    layers: Iterable[Template], context: Mapping[str, Any]
+) -> Iterator[tuple[Template, Mapping[str, Any]]]:
+    """Yield each template with the variables of its files, once for each of its parts."""
+    for layer in layers:
+        if layer.role not in PARTS:
+            yield layer, context
+            continue
+        for part in context[f"{layer.role.value}s"]:
+            if part["kind"] == layer.name:
+                yield layer, {**context, layer.role.value: part}
 
 
 def today() -> date:
@@ -61,55 +85,91 @@ def today() -> date:
         raise InputError(f"SOURCE_DATE_EPOCH: {epoch!r} is not a number of seconds") from None
 
 
-def _node(
-    layer: Template, layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
+def _part(
+    part: Part, layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
 ) -> dict[str, Any]:
-    name = context["node_name"]
-    package = context["package"]
+    found = {**part.answers, "kind": part.template.name, "name": part.name}
+    if part.template.role is Role.NODE:
+        return _node(found, part, layers, context, renderer)
+    if part.template.role is Role.INTERFACE:
+        ending = part.template.definition
+        found["file"] = f"{ending}/{part.name}.{ending}"
+        found["type"] = f"{context['package']}/{ending}/{part.name}"
+    return found
+
+
+def _node(
+    node: dict[str, Any],
+    part: Part,
+    layers: Iterable[Template],
+    context: Mapping[str, Any],
+    renderer: Renderer,
+) -> dict[str, Any]:
+    name, package = part.name, context["package"]
     if name == package:
         raise InputError(
             f"--node-name: {name!r} is the name of the package, its script would hide it"
         )
-    node = {question.name: context[question.name] for question in layer.questions}
-    message = node.get("message_type")
-    node |= {
-        "kind": layer.name,
-        "name": name,
-        "module": name,
-        "class_name": names.class_name(name, [message.name] if message else []),
-    }
-    if "topic" in node:
-        node["topic_name"] = _topic_name(node["topic"], name)
+    taken = [value.name for value in part.answers.values() if hasattr(value, "import_line")]
+    node |= {"module": name, "class_name": names.class_name(name, taken)}
+    for question in part.template.questions:
+        if question.type in _GRAPH_NAMES:
+            node[f"{question.name}_name"] = _full_name(question, node[question.name], name)
     build = next(one for one in layers if one.role is Role.BUILD_TYPE)
     node["executable"] = renderer.text(build.executable_name, {**context, "node": node})
     return node
 
 
-def _topic_name(topic: str, node: str) -> str:
-    name = names.resolve(topic, node)
+_GRAPH_NAMES = frozenset({"topic", "service_name", "action_name"})
+"""The types of answers that ROS resolves to a full name."""
+
+
+def _full_name(question: Question, given: str, node: str) -> str:
+    name = names.resolve(given, node)
     if len(name) > names.MAX_TOPIC:
         raise InputError(
-            f"--topic: {topic!r} is {name!r} in full, {len(name)} characters long; "
+            f"{flag(question.name)}: {given!r} is {name!r} in full, {len(name)} characters long; "
             f"the limit is {names.MAX_TOPIC}"
         )
     return name
 
 
+_WIDER: Mapping[str, str] = {
+    "exec": "depend",
+    "build": "depend",
+    "build_export": "depend",
+    "test": "exec",
+}
+"""A kind of dependency, and the one that covers it."""
+
+
 def _depends(
-    layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
+    scopes: Iterable[tuple[Template, Mapping[str, Any]]],
+    context: Mapping[str, Any],
+    renderer: Renderer,
 ) -> dict[str, list[str]]:
     """Return the dependencies of all layers by kind, each once and in alphabetical order."""
     found: dict[str, set[str]] = {kind: set() for kind in DEPEND_KINDS}
-    for layer in layers:
-        nodes = [n for n in context["nodes"] if n["kind"] == layer.name]
-        for scope in [{**context, "node": n} for n in nodes] or [dict(context)]:
-            for kind, texts in layer.depends.items():
-                found[kind].update(renderer.text(text, scope) for text in texts)
+    for layer, scope in scopes:
+        for kind, texts in layer.depends.items():
+            found[kind].update(filter(None, (renderer.text(text, scope) for text in texts)))
     for name in context["dependencies"]:
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")
         if name in found["buildtool"]:
             raise InputError(f"--dependencies: {name} builds the package; nodes do not need it")
-        found["test"].discard(name)
         found["exec"].add(name)
-    return {kind: sorted(found[kind]) for kind in DEPEND_KINDS}
+    for kind in ("test", "exec", "build", "build_export"):
+        wider: str | None = _WIDER[kind]
+        while wider is not None:
+            found[kind] -= found[wider]
+            wider = _WIDER.get(wider)
+    return {kind: sorted(found[kind] - {context["package"]}) for kind in DEPEND_KINDS}
+
+
+def _texts(
+    key: str, scopes: Iterable[tuple[Template, Mapping[str, Any]]], renderer: Renderer
+) -> list[str]:
+    """Return the texts that the layers have under a key, each once, in alphabetical order."""
+    found = {renderer.text(text, scope) for layer, scope in scopes for text in getattr(layer, key)}
+    return sorted(found - {""})

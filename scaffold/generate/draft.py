@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ContentError, InputError
-from scaffold.generate import questions
-from scaffold.generate.context import package_context
+from scaffold.generate import parts, questions
+from scaffold.generate.context import package_context, part_scopes
 from scaffold.generate.defaults import User
+from scaffold.generate.parts import Part, Request
 from scaffold.generate.questions import Given
 from scaffold.generate.render import Rendered, Renderer
-from scaffold.generate.template import BASE, Question, Role, Template
+from scaffold.generate.template import BASE, PARTS, Question, Role, Template
 
 if TYPE_CHECKING:
     from scaffold.check.diagnostic import Diagnostic
@@ -25,10 +26,25 @@ class Draft(NamedTuple):
     name: str
     build_type: str
     executables: tuple[str, ...]
-    """What ``ros2 run`` calls its nodes."""
+    """What ``ros2 run`` calls its nodes and programs."""
     rendered: Rendered
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
+    answers: Mapping[str, Any]
+    """Every answer, as in an answers file."""
+
+
+class Order(NamedTuple):
+    """The templates that the user chose."""
+
+    layers: list[Template]
+    """Package, build type, each kind of part once, extras."""
+    requests: list[Request]
+
+    @property
+    def frame(self) -> list[Template]:
+        """The templates whose questions are asked once for the package."""
+        return [layer for layer in self.layers if layer.role not in PARTS]
 
 
 def draft(
@@ -46,20 +62,28 @@ def draft(
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
-    layers = _layers(templates, given)
-    asked = questions.unique(layers)
-    _refuse_useless(given, asked, layers)
+    order = choose(templates, given)
+    asked = questions.unique(order.frame)
+    _refuse_useless(given, order)
     comments = _answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
-    answers = questions.resolve(asked, given, render=renderer.text, fallback=user.answer)
-    context = package_context(answers, layers, renderer)
-    rendered = renderer.package(layers, context, context["nodes"])
+    known = {"contents": parts.contents(order.requests)}
+    answers = questions.resolve(
+        asked, given, known=known, render=renderer.text, fallback=user.answer
+    )
+    made, written = _parts(order.requests, given, answers.values, renderer)
+    parts.refuse_impossible(made, answers.values["package"], answers.values["build_type"])
+    context = package_context(answers.values, order.layers, made, renderer)
     return Draft(
         name=context["package"],
         build_type=context["build_type"],
-        executables=tuple(node["executable"] for node in context["nodes"]),
-        rendered=rendered,
-        remarks=_remarks(renderer, context, answers, user),
+        executables=(
+            *(node["executable"] for node in context["nodes"]),
+            *(program["name"] for program in context["programs"]),
+        ),
+        rendered=renderer.package(part_scopes(order.layers, context)),
+        remarks=_remarks(renderer, context, answers.values, user),
+        answers={**_without(answers.written, "node_kind"), parts.ADD: written},
     )
 
 
@@ -74,20 +98,80 @@ def defects(package: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
     return Session(rules, Selection()).check(Package(tree, directory=package.name))
 
 
-def _layers(templates: Mapping[str, Template], given: Mapping[str, Given]) -> list[Template]:
-    """Return the templates that the user chose: base, build type, kind of node."""
+def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Order:
+    """Return the templates that the user's answers choose.
+
+    Raises:
+        InputError: there are no such templates, or they do not fit together.
+        ContentError: the questions of the base do not choose templates.
+    """
     base = templates[BASE]
-    chosen = [base]
-    for name in ("build_type", "node_kind"):
-        answer = _answer(name, base.questions, given)
-        if answer not in templates:
-            raise ContentError(f"{base.directory}: the question {name} must choose a template")
-        chosen.append(templates[answer])
-    roles = [template.role for template in chosen]
-    if roles != [Role.PACKAGE, Role.BUILD_TYPE, Role.NODE]:
-        names = ", ".join(template.name for template in chosen)
-        raise ContentError(f"the templates {names} must be a package, a build type and a node")
-    return chosen
+    build = _template("build_type", Role.BUILD_TYPE, templates, given)
+    wanted = _requests(templates, given)
+    extras = [templates[name] for name in _several("extras", base.questions, given)]
+    for extra in extras:
+        parts.refuse_build_type(extra, build.name)
+    kinds = {request.template.name: request.template for request in wanted}
+    return Order([base, build, *kinds.values(), *extras], wanted)
+
+
+def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> list[Request]:
+    """Return the parts: those of ``add``, or the one node of ``node_kind``."""
+    if parts.ADD not in given:
+        node = _template("node_kind", Role.NODE, templates, given)
+        return [Request(node, {}, "--node-kind")]
+    for name in ("node_kind", "node_name"):
+        if name in given and given[name].origin.startswith("--"):
+            raise InputError(f"{given[name].origin}: of no use with {questions.flag(parts.ADD)}")
+    question = next(one for one in templates[BASE].questions if one.name == parts.ADD)
+    wanted = questions.parse(question, given[parts.ADD])
+    return parts.requests(wanted, given[parts.ADD].origin, templates)
+
+
+def _parts(
+    wanted: Sequence[Request],
+    given: Mapping[str, Given],
+    answers: Mapping[str, Any],
+    renderer: Renderer,
+) -> tuple[list[Part], list[dict[str, Any]]]:
+    """Return the parts with their answers, and those answers as in an answers file."""
+    made: list[Part] = []
+    written: list[dict[str, Any]] = []
+    for request in wanted:
+        own = questions.resolve(
+            request.template.questions,
+            {**given, **request.given},
+            known=answers,
+            render=renderer.text,
+            fallback=lambda _: None,
+        )
+        made.append(Part(request.template, own.values))
+        written.append({parts.KIND: request.template.name, **own.written})
+    return made, written
+
+
+def _without(table: Mapping[str, Any], key: str) -> dict[str, Any]:
+    return {name: value for name, value in table.items() if name != key}
+
+
+def _template(
+    name: str, role: Role, templates: Mapping[str, Template], given: Mapping[str, Given]
+) -> Template:
+    """Return the template that a question of the base chooses."""
+    answer = _answer(name, templates[BASE].questions, given)
+    if answer not in templates or templates[answer].role is not role:
+        raise ContentError(
+            f"{templates[BASE].directory}: the question {name} must choose a {role.value}"
+        )
+    return templates[answer]
+
+
+def _several(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> tuple[str, ...]:
+    found: tuple[str, ...] = ()
+    for question in asked:
+        if question.name == name:
+            found = questions.parse(question, given.get(name, Given(question.default, "default")))
+    return found
 
 
 def _answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> str:
@@ -99,13 +183,11 @@ def _answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) ->
     raise ContentError(f"the template {BASE!r} must ask for {name}")
 
 
-def _refuse_useless(
-    given: Mapping[str, Given], asked: Sequence[Question], layers: Sequence[Template]
-) -> None:
-    known = {question.name for question in asked}
+def _refuse_useless(given: Mapping[str, Given], order: Order) -> None:
+    known = {question.name for question in questions.unique(order.layers)}
     for name, answer in given.items():
         if name not in known and answer.origin.startswith("--"):
-            chosen = " and ".join(template.name for template in layers[1:])
+            chosen = " and ".join(template.name for template in order.layers[1:])
             raise InputError(f"{answer.origin}: of no use for {chosen}")
 
 

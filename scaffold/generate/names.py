@@ -112,8 +112,38 @@ def _shortened(text: str) -> str:
     return text if len(text) <= MAX_LENGTH else text[: MAX_LENGTH - 3] + "..."
 
 
-def topic(text: str) -> str:
-    """Return the name of a topic: relative, absolute (``/x``) or private (``~/x``).
+def interface_name(text: str) -> str:
+    """Return the name of a new message, service or action.
+
+    Raises:
+        InputError: the parsers of ROS refuse it.
+    """
+    if re.fullmatch(r"[A-Z][A-Za-z0-9]*", text) and len(text) <= MAX_LENGTH:
+        return text
+    better = "".join(word[:1].upper() + word[1:] for word in re.findall("[A-Za-z0-9]+", text))
+    hint = f", such as {better}" if re.fullmatch(r"[A-Z][A-Za-z0-9]{0,47}", better) else ""
+    raise InputError(
+        f"the interface name {_shortened(text)!r} must be words of letters and digits, each with a "
+        f"capital and nothing between them, {MAX_LENGTH} characters at most{hint}"
+    )
+
+
+def program_name(text: str) -> str:
+    """Return the name of a new C++ program: its source, its target and its executable.
+
+    Raises:
+        InputError: it is none, or CMake has a target of that name.
+    """
+    _check_form(text, "program name")
+    if text in _CMAKE_TARGETS:
+        raise InputError(f"the program name {text!r} is the name of a CMake target")
+    return text
+
+
+def topic(text: str, what: str = "topic") -> str:
+    """Return the name of a topic, service or action.
+
+    It is relative, absolute (``/x``) or private (``~/x``).
 
     Raises:
         InputError: ROS forbids it.
@@ -121,17 +151,17 @@ def topic(text: str) -> str:
     plain = text.removeprefix("~/") if text.startswith("~") else text.removeprefix("/")
     if len(text) > MAX_TOPIC:
         raise InputError(
-            f"the topic {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
+            f"the {what} {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
         )
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", plain):
         raise InputError(
-            f"the topic {text!r} must be words of letters, digits and underscores joined by '/', "
+            f"the {what} {text!r} must be words of letters, digits and underscores joined by '/', "
             "none starting with a digit, such as battery/voltage"
         )
     if "__" in text:
-        raise InputError(f"the topic {text!r} has two underscores in a row, which ROS reserves")
+        raise InputError(f"the {what} {text!r} has two underscores in a row, which ROS reserves")
     if resolve(text, "node") in _RESERVED_TOPICS:
-        raise InputError(f"the topic {text!r} is one that ROS itself uses")
+        raise InputError(f"the {what} {text!r} is one that ROS itself uses")
     return text
 
 

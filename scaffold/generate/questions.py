@@ -15,6 +15,9 @@ from scaffold.errors import InputError
 from scaffold.generate.template import Question, Template, read_yaml
 from scaffold.generate.values import TYPES
 
+SEVERAL = "several"
+"""The type of a question that takes several of its choices."""
+
 
 class Given(NamedTuple):
     """What the user wrote for one question, and where."""
@@ -40,8 +43,10 @@ def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) ->
     """
     for question in questions:
         options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
-        if question.type == "dependencies":
+        if question.type in {"dependencies", SEVERAL}:
             options |= {"nargs": "+", "action": "extend"}
+        elif question.type == "parts":
+            options |= {"action": "append"}
         if question.is_positional:
             parser.add_argument(question.name, **options)
             continue
@@ -126,13 +131,22 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
     return found
 
 
+class Answers(NamedTuple):
+    """The answers to some questions by name."""
+
+    values: dict[str, Any]
+    written: dict[str, Any]
+    """The same as a user would write them into an answers file."""
+
+
 def resolve(
     questions: Sequence[Question],
     given: Mapping[str, Given],
     *,
+    known: Mapping[str, Any],
     render: Callable[[str, Mapping[str, Any]], str],
     fallback: Callable[[str], Given | None],
-) -> dict[str, Any]:
+) -> Answers:
     """Return an answer for every question.
 
     Defaults without Jinja come first, so that the others may use them.
@@ -140,13 +154,19 @@ def resolve(
     Args:
         questions: Of the chosen templates.
         given: What the user said, the winning source of each.
+        known: What defaults may use besides the answers.
         render: Renders a Jinja text over answers.
         fallback: Finds an answer for a question without a default, by its name.
 
     Raises:
         InputError: an answer is missing or not acceptable; the message says whose it is.
     """
-    answers: dict[str, Any] = {}
+    answers = Answers({}, {})
+
+    def add(question: Question, found: Given) -> None:
+        answers.values[question.name] = parse(question, found)
+        answers.written[question.name] = found.value
+
     later: list[Question] = []
     for question in questions:
         found = given.get(question.name)
@@ -159,10 +179,10 @@ def resolve(
             found = Given(question.default, "default")
         if found is None:
             raise InputError(f"{flag(question.name)} is needed: {question.help}")
-        answers[question.name] = parse(question, found)
+        add(question, found)
     for question in later:
-        text = render(question.default, answers)
-        answers[question.name] = parse(question, Given(text, "default"))
+        text = render(question.default, {**known, **answers.values})
+        add(question, Given(text, "default"))
     return answers
 
 
@@ -172,15 +192,27 @@ def parse(question: Question, given: Given) -> Any:  # noqa: ANN401  as its type
     Raises:
         InputError: it is not acceptable.
     """
+    if question.choices and question.type == SEVERAL:
+        words = given.value if isinstance(given.value, list | tuple) else [given.value]
+        return tuple(dict.fromkeys(choose(word, question.choices, given.origin) for word in words))
     if question.choices:
-        word = str(given.value)
-        if word not in question.choices:
-            raise InputError(f"{given.origin}: {_no_choice(word, question.choices)}")
-        return word
+        return choose(given.value, question.choices, given.origin)
     try:
         return TYPES[question.type](given.value)
     except InputError as error:
         raise InputError(f"{given.origin}: {error}") from error
+
+
+def choose(given: object, choices: Sequence[str], origin: str) -> str:
+    """Return the choice that was given.
+
+    Raises:
+        InputError: it is none; the nearest ones are named.
+    """
+    word = str(given)
+    if word not in choices:
+        raise InputError(f"{origin}: {_no_choice(word, choices)}")
+    return word
 
 
 def _no_choice(word: str, choices: Sequence[str]) -> str:

@@ -15,7 +15,7 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
-from scaffold.generate.template import ENDING, MANIFEST, Role, Template
+from scaffold.generate.template import ENDING, MANIFEST, Template
 
 _COMMENT = re.compile(r"^([ \t]*)(?:#:(?: (.*))?|<!--: (.*))$", re.MULTILINE)
 """``#: text`` or ``<!--: text -->``: a line for learners; a bare ``#:`` is an empty line."""
@@ -119,18 +119,11 @@ class Renderer:
             return None
         return self.file(name, context).strip()
 
-    def package(
-        self,
-        layers: Iterable[Template],
-        context: Mapping[str, Any],
-        nodes: Sequence[Mapping[str, Any]],
-    ) -> Rendered:
+    def package(self, scopes: Iterable[tuple[Template, Mapping[str, Any]]]) -> Rendered:
         """Render all files of a package.
 
         Args:
-            layers: The templates; those of nodes are rendered for each node of their kind.
-            context: What all files may use.
-            nodes: What the files of a node find as ``node``.
+            scopes: The templates, each with the variables of its files.
 
         Raises:
             ContentError: a file cannot be rendered, or two have the same path.
@@ -138,7 +131,7 @@ class Renderer:
         files: dict[str, str] = {}
         executable: set[str] = set()
         notes: dict[str, str] = {}
-        for layer, scope in _scopes(layers, context, nodes):
+        for layer, scope in scopes:
             for source in _sources(layer.directory):
                 if not self._is_included(layer, source, scope):
                     continue
@@ -169,18 +162,6 @@ class Renderer:
         if not self._is_tutorial:
             lines = [line.partition("  #")[0] for line in lines]
         return filters.import_block(lines)
-
-
-def _scopes(
-    layers: Iterable[Template], context: Mapping[str, Any], nodes: Sequence[Mapping[str, Any]]
-) -> Iterator[tuple[Template, Mapping[str, Any]]]:
-    for layer in layers:
-        if layer.role is not Role.NODE:
-            yield layer, context
-            continue
-        for node in nodes:
-            if node["kind"] == layer.name:
-                yield layer, {**context, "node": node}
 
 
 def _sources(directory: str) -> Iterator[str]:

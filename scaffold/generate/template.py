@@ -1,8 +1,8 @@
 """Templates: directories with a ``template.yaml`` and ``*.jinja`` files.
 
-A package is made of layers: the one for every package, one for its build type, one for the kind
-of its node. The name of a directory is the name of the template; a later content directory
-replaces a template of the same name.
+A package is made of layers: the one for every package, one for its build type, those of its parts
+(nodes, interfaces, programs) and of its extras. The name of a directory is the name of the
+template; a later content directory replaces a template of the same name.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ MANIFEST = "template.yaml"
 ENDING = ".jinja"
 BASE = "package"
 """The template that every package is made of."""
-DEPEND_KINDS = ("buildtool", "exec", "test")
-"""The kinds of dependencies that a template may declare."""
+DEPEND_KINDS = ("buildtool", "build", "build_export", "depend", "exec", "test")
+"""The kinds of dependencies that a template may declare; ``depend`` is the tag of that name."""
 
 
 class Role(Enum):
@@ -31,7 +31,17 @@ class Role(Enum):
     BUILD_TYPE = "build_type"
     """Files of a build system; its name is the build type in package.xml."""
     NODE = "node"
-    """A node and its test; rendered once for each node."""
+    """A Python node and its test; rendered once for each node."""
+    INTERFACE = "interface"
+    """A definition of a message, a service or an action; rendered once for each."""
+    PROGRAM = "program"
+    """A C++ program; rendered once for each."""
+    EXTRA = "extra"
+    """Something that a package may have besides: a launch file, a CI workflow."""
+
+
+PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
+"""What a package has several of; the value of the role is the variable in its files."""
 
 
 class Question(NamedTuple):
@@ -58,8 +68,16 @@ class Template(NamedTuple):
     questions: tuple[Question, ...]
     executable_name: str
     """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
+    definition: str
+    """Of an interface: the directory and the ending of its file, ``msg``, ``srv`` or ``action``."""
+    build_types: Sequence[str]
+    """The build types that it is for; all when empty."""
     depends: Mapping[str, Sequence[str]]
-    """Dependencies by kind (``buildtool``, ``exec``, ``test``), Jinja texts."""
+    """Dependencies by kind, Jinja texts; an empty one is no dependency."""
+    groups: Sequence[str]
+    """What the package is a member of, for package.xml."""
+    installs: Sequence[str]
+    """Directories that are installed to ``share/<package>``."""
     include: Mapping[str, str]
     """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
     executable: Sequence[str]
@@ -69,18 +87,28 @@ class Template(NamedTuple):
     examples: Mapping[str, Mapping[str, Any]]
     """Answers by title: tests, and documentation."""
 
+    @property
+    def name_question(self) -> str:
+        """The question for the name of a part: ``node_name``, ``interface_name`` ..."""
+        return f"{self.role.value}_name"
+
 
 _KEYS = {
     "summary": str,
     "role": str,
     "questions": dict,
     "executable_name": str,
+    "definition": str,
+    "build_types": list,
     "depends": dict,
+    "groups": list,
+    "installs": list,
     "include": dict,
     "executable": list,
     "notes": dict,
     "examples": dict,
 }
+_DEFINITIONS = frozenset({"msg", "srv", "action"})
 _QUESTION_KEYS = frozenset({"type", "help", "default", "choices", "positional", "metavar"})
 
 
@@ -131,19 +159,30 @@ def _load_one(name: str, directory: str) -> Template:
             kinds = ", ".join(DEPEND_KINDS)
             raise ContentError(f"{path}: depends must map {kinds} to lists of names")
     asked = manifest.get("questions", {}).items()
-    return Template(
+    found = Template(
         name=name,
         directory=directory,
         role=role,
         summary=manifest["summary"],
         questions=tuple(_question(path, key, value) for key, value in asked),
         executable_name=manifest.get("executable_name", "{{ node.name }}"),
+        definition=manifest.get("definition", ""),
+        build_types=manifest.get("build_types", []),
         depends=manifest.get("depends", {}),
+        groups=manifest.get("groups", []),
+        installs=manifest.get("installs", []),
         include=manifest.get("include", {}),
         executable=manifest.get("executable", []),
         notes=manifest.get("notes", {}),
         examples=manifest.get("examples", {}),
     )
+    if (role is Role.INTERFACE) is not (found.definition in _DEFINITIONS):
+        raise ContentError(
+            f"{path}: interfaces, and no others, have definition: msg, srv or action"
+        )
+    if role in PARTS and found.name_question not in [one.name for one in found.questions]:
+        raise ContentError(f"{path}: the questions must have {found.name_question}")
+    return found
 
 
 def _manifest(path: str) -> dict[str, Any]:

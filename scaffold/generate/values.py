@@ -109,6 +109,37 @@ def dependencies(given: object) -> tuple[str, ...]:
     return tuple(sorted({names.dependency(word) for word in words}))
 
 
+def parts(given: object) -> tuple[dict[str, object], ...]:
+    """Return what each wanted part has: its ``kind``, and answers such as its ``name``.
+
+    Raises:
+        InputError: one is neither ``KIND:NAME`` nor a mapping with ``kind``.
+    """
+    entries: list[dict[str, object]] = []
+    for item in given if isinstance(given, list | tuple) else [given]:
+        if isinstance(item, Mapping) and "kind" in item:
+            entries.append({str(key): value for key, value in item.items()})
+            continue
+        if isinstance(item, Mapping):
+            raise InputError(f"{dict(item)!r} has no key 'kind'")
+        kind, colon, name = _string(item).partition(":")
+        if colon and not name:
+            raise InputError(f"{item!r} is not KIND:NAME, such as publisher:talker")
+        entries.append({"kind": kind, "name": name} if name else {"kind": kind})
+    return tuple(entries)
+
+
+def nothing(given: object) -> tuple[str, ...]:
+    """Return no choices: there are none.
+
+    Raises:
+        InputError: one is wanted.
+    """
+    if given:
+        raise InputError(f"{given!r}: there is nothing to choose from")
+    return ()
+
+
 def message(given: object) -> Payload:
     """Return how to fill messages of a type."""
     return payload(_string(given))
@@ -127,11 +158,17 @@ TYPES: Mapping[str, Callable[[object], object]] = {
     "package": lambda given: names.package_name(_string(given)),
     "node": lambda given: names.node_name(_string(given)),
     "topic": lambda given: names.topic(_string(given)),
+    "service_name": lambda given: names.topic(_string(given), "service"),
+    "action_name": lambda given: names.topic(_string(given), "action"),
+    "interface": lambda given: names.interface_name(_string(given)),
+    "program": lambda given: names.program_name(_string(given)),
     "message": message,
     "qos": quality,
     "rate": rate,
     "flag": flag,
     "dependencies": dependencies,
+    "parts": parts,
+    "several": nothing,
 }
 """The types that a question of a template may have."""
 

@@ -1,0 +1,141 @@
+"""What a package is made of besides its frame: nodes, interfaces, programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.generate.questions import Given
+from scaffold.generate.template import PARTS, Role, Template
+
+ADD = "add"
+"""The question for parts, written KIND:NAME or as a mapping with answers of their own."""
+KIND = "kind"
+"""The key for the kind in such a mapping."""
+
+_WORDS: Mapping[Role, str] = {
+    Role.NODE: "the {kind} node {name}",
+    Role.INTERFACE: "the {kind} {name}",
+    Role.PROGRAM: "the program {name}",
+}
+_MOST_NAMED = 3
+"""Parts that a sentence names one by one."""
+
+
+class Request(NamedTuple):
+    """A part that the user wants."""
+
+    template: Template
+    given: Mapping[str, Given]
+    """Answers for this part alone."""
+    origin: str
+
+    @property
+    def name(self) -> str:
+        """The name as given, or the template's default."""
+        asked = self.template.name_question
+        if asked in self.given:
+            return str(self.given[asked].value)
+        return next(str(one.default) for one in self.template.questions if one.name == asked)
+
+
+class Part(NamedTuple):
+    """A part with all its questions answered."""
+
+    template: Template
+    answers: Mapping[str, Any]
+
+    @property
+    def name(self) -> str:
+        """The name of the node, the interface or the program."""
+        return str(self.answers[self.template.name_question])
+
+
+def requests(
+    wanted: Sequence[Mapping[str, Any]], origin: str, templates: Mapping[str, Template]
+) -> list[Request]:
+    """Return the parts that the question ``add`` was answered with.
+
+    Args:
+        wanted: A mapping for each part with ``kind``, and answers to questions of that kind;
+            ``name`` is short for ``node_name``, ``interface_name`` or ``program_name``.
+        origin: Where the user wrote it.
+        templates: All templates.
+
+    Raises:
+        InputError: there is no such kind, or it does not ask what is answered.
+    """
+    return [_request(entry, origin, templates) for entry in wanted]
+
+
+def kinds(templates: Mapping[str, Template]) -> list[str]:
+    """Return the kinds of parts: nodes first, each role in alphabetical order."""
+    return [
+        name
+        for role in PARTS
+        for name, template in sorted(templates.items())
+        if template.role is role
+    ]
+
+
+def refuse_impossible(parts: Sequence[Part], package: str, build_type: str) -> None:
+    """Raise if the parts cannot be in one package of this build type.
+
+    Raises:
+        InputError: with what to do instead.
+    """
+    roles = {part.template.role for part in parts}
+    if Role.NODE in roles and Role.INTERFACE in roles:
+        raise InputError(
+            "interfaces and Python nodes cannot be in one package: both would install a Python "
+            f"package {package!r}; put the interfaces into one of their own, such as "
+            f"{package}_interfaces"
+        )
+    for part in parts:
+        refuse_build_type(part.template, build_type)
+    names: dict[str, Part] = {}
+    for part in parts:
+        other = names.setdefault(part.name, part)
+        if other is not part:
+            raise InputError(f"two parts of the package have the name {part.name!r}")
+
+
+def refuse_build_type(template: Template, build_type: str) -> None:
+    """Raise if a template is not for a build type.
+
+    Raises:
+        InputError: with those that it is for.
+    """
+    if template.build_types and build_type not in template.build_types:
+        wanted = " or ".join(template.build_types)
+        raise InputError(f"{template.name} needs the build type {wanted}, not {build_type}")
+
+
+def contents(requested: Iterable[Request]) -> str:
+    """Return the parts in words, such as "the publisher node talker and the message Status"."""
+    words = [
+        _WORDS[one.template.role].format(kind=one.template.name.replace("_", " "), name=one.name)
+        for one in requested
+    ]
+    if len(words) > _MOST_NAMED:
+        words = [*words[: _MOST_NAMED - 1], f"{len(words) - _MOST_NAMED + 1} more"]
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def _request(entry: Mapping[str, Any], origin: str, templates: Mapping[str, Template]) -> Request:
+    from scaffold.generate.questions import choose
+
+    kind = choose(str(entry.get(KIND)), kinds(templates), origin)
+    template = templates[kind]
+    known = {question.name for question in template.questions}
+    given: dict[str, Given] = {}
+    for key, value in entry.items():
+        name = template.name_question if key == "name" else key.replace("-", "_")
+        if key != KIND and name not in known:
+            raise InputError(
+                f"{origin}: {key!r} is no question of {kind}, which asks {', '.join(sorted(known))}"
+            )
+        if key != KIND and value is not None:
+            given[name] = Given(value, f"{origin}: {kind}" if key == "name" else f"{origin}: {key}")
+    return Request(template, given, origin)
