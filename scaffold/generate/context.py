@@ -152,7 +152,8 @@ def _depends(
     found: dict[str, set[str]] = {kind: set() for kind in DEPEND_KINDS}
     for layer, scope in scopes:
         for kind, texts in layer.depends.items():
-            found[kind].update(filter(None, (renderer.text(text, scope) for text in texts)))
+            for text in texts:
+                found[kind].update(renderer.text(text, scope).split())
     for name in context["dependencies"]:
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")

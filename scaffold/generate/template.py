@@ -73,7 +73,7 @@ class Template(NamedTuple):
     build_types: Sequence[str]
     """The build types that it is for; all when empty."""
     depends: Mapping[str, Sequence[str]]
-    """Dependencies by kind, Jinja texts; an empty one is no dependency."""
+    """Dependencies by kind: Jinja texts of names with blanks between them."""
     groups: Sequence[str]
     """What the package is a member of, for package.xml."""
     installs: Sequence[str]
