@@ -62,6 +62,41 @@ def draft(
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
+    composed = compose(roots, templates, given, user)
+    context, renderer = composed.context, composed.renderer
+    return Draft(
+        name=context["package"],
+        build_type=context["build_type"],
+        executables=(
+            *(node["executable"] for node in context["nodes"]),
+            *(program["name"] for program in context["programs"]),
+        ),
+        rendered=renderer.package(part_scopes(composed.layers, context)),
+        remarks=_remarks(renderer, context, user),
+        answers=composed.answers,
+    )
+
+
+class Composed(NamedTuple):
+    """All answers and what follows from them; nothing is rendered yet."""
+
+    layers: Sequence[Template]
+    context: dict[str, Any]
+    """The variables of all files."""
+    renderer: Renderer
+    answers: Mapping[str, Any]
+    """Every answer, as in an answers file."""
+
+
+def compose(
+    roots: Sequence[str], templates: Mapping[str, Template], given: Mapping[str, Given], user: User
+) -> Composed:
+    """Choose templates and settle all questions; see ``draft``.
+
+    Raises:
+        InputError: an answer is missing, not acceptable, or of no use here.
+        ContentError: a template is broken.
+    """
     order = choose(templates, given)
     asked = questions.unique(order.frame)
     _refuse_useless(given, order)
@@ -74,16 +109,11 @@ def draft(
     made, written = _parts(order.requests, given, answers.values, renderer)
     parts.refuse_impossible(made, answers.values["package"], answers.values["build_type"])
     context = package_context(answers.values, order.layers, made, renderer)
-    return Draft(
-        name=context["package"],
-        build_type=context["build_type"],
-        executables=(
-            *(node["executable"] for node in context["nodes"]),
-            *(program["name"] for program in context["programs"]),
-        ),
-        rendered=renderer.package(part_scopes(order.layers, context)),
-        remarks=_remarks(renderer, context, answers.values, user),
-        answers={**_without(answers.written, "node_kind"), parts.ADD: written},
+    return Composed(
+        order.layers,
+        context,
+        renderer,
+        {**_without(answers.written, "node_kind"), parts.ADD: written},
     )
 
 
@@ -191,15 +221,13 @@ def _refuse_useless(given: Mapping[str, Given], order: Order) -> None:
             raise InputError(f"{answer.origin}: of no use for {chosen}")
 
 
-def _remarks(
-    renderer: Renderer, context: Mapping[str, object], answers: Mapping[str, object], user: User
-) -> tuple[str, ...]:
+def _remarks(renderer: Renderer, context: Mapping[str, object], user: User) -> tuple[str, ...]:
     remarks: list[str] = []
-    note = renderer.license_note(str(answers["license"]), context)
+    note = renderer.license_note(str(context["license"]), context)
     if note:
         remarks.append(note)
     if user.guessed:
-        maintainer = f"{answers['maintainer_name']} <{answers['maintainer_email']}>"
+        maintainer = f"{context['maintainer_name']} <{context['maintainer_email']}>"
         remarks.append(
             f"the maintainer is {maintainer}, as git knows no other: set user.name and "
             "user.email with `git config --global`, or "

@@ -99,16 +99,36 @@ def testing_block(lists: CMakeLists) -> tuple[Command, Command] | None:
     return None
 
 
+def insert_below(lists: CMakeLists, command: Command, line: str) -> Edits | None:
+    """Add a line below a command, indented like it."""
+    if lists.errors:
+        return None
+    return _insert_line_after(lists, command, f"{_indent_of(lists, command)}{line}")
+
+
 def append_arguments(
-    lists: CMakeLists, command: Command, last: Argument, values: Sequence[str]
+    lists: CMakeLists,
+    command: Command,
+    last: Argument,
+    values: Sequence[str],
+    *,
+    raw: bool = False,
 ) -> Edits | None:
-    """Add arguments behind one of a command: on lines of their own if that one has its own."""
+    """Add arguments behind one of a command: on lines of their own if that one has its own.
+
+    Args:
+        lists: The file.
+        command: The command.
+        last: The argument that they go behind.
+        values: The arguments.
+        raw: They are written as they are to stand in the file.
+    """
     if lists.errors:
         return None
     source = lists.source
     start = _line_start(lists, last.start)
     indent = source.text[start : last.start]
-    added = [quote(value) for value in values]
+    added = [value if raw else quote(value) for value in values]
     if not indent.strip() and start > command.start:
         text = "".join(f"{source.newline}{indent}{value}" for value in added)
         at = _behind_comment(lists, last.end)

@@ -39,6 +39,11 @@ def insert(
     return place(manifest, tag, text, render(tag, text, attributes))
 
 
+def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
+    """Add markup behind an element, on a line of its own where that one has one."""
+    return _after(manifest, element, markup)
+
+
 def insert_build_type(manifest: Manifest, build_type: str) -> Edit:
     """Add ``<export><build_type>…`` or the part of it that is missing."""
     line = render("build_type", build_type)

@@ -28,21 +28,23 @@ def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
     if any(point.name == name for point in setup.console_scripts):
         return None
     quote = _quote_of(setup)
-    entry = f"{quote}{name} = {target}{quote}"
-    group = _Block(f"{quote}console_scripts{quote}: [", "]", (entry,))
+    texts = [point.text for point in setup.console_scripts]
+    equals = "=" if texts and not any(" = " in text for text in texts) else " = "
+    entry = f"{quote}{name}{equals}{target}{quote}"
+    group = Block(f"{quote}console_scripts{quote}: [", "]", (entry,))
     word = setup.keyword("entry_points")
     if word is None:
-        return _add_keyword(setup, "entry_points", _Block("{", "}", (group,)))
+        return _add_keyword(setup, "entry_points", Block("{", "}", (group,)))
     points = _resolved(setup.module, word.node)
     return _add_to_group(setup, points, entry, group) if isinstance(points, ast.Dict) else None
 
 
-def _add_to_group(setup: SetupPy, points: ast.Dict, entry: str, group: _Block) -> Edit | None:
+def _add_to_group(setup: SetupPy, points: ast.Dict, entry: str, group: Block) -> Edit | None:
     for key, value in zip(points.keys, points.values, strict=True):
         if setup.evaluator.evaluate(key) == "console_scripts":
             scripts = _list_to_extend(setup.module, value)
-            return _append(setup.module, scripts, scripts.elts, entry) if scripts else None
-    return None if None in points.keys else _append(setup.module, points, points.values, group)
+            return append_item(setup.module, scripts, scripts.elts, entry) if scripts else None
+    return None if None in points.keys else append_item(setup.module, points, points.values, group)
 
 
 def add_data_files(setup: SetupPy, destination: str, sources: str) -> Edit | None:
@@ -59,10 +61,10 @@ def add_data_files(setup: SetupPy, destination: str, sources: str) -> Edit | Non
         return (
             None
             if setup.has_unknown_keywords
-            else _add_keyword(setup, "data_files", _Block("[", "]", (entry,)))
+            else _add_keyword(setup, "data_files", Block("[", "]", (entry,)))
         )
     files = _list_to_extend(setup.module, word.node)
-    return _append(setup.module, files, files.elts, entry) if files else None
+    return append_item(setup.module, files, files.elts, entry) if files else None
 
 
 def package_expression(setup: SetupPy, name: str) -> str | None:
@@ -106,12 +108,12 @@ def add_import(module: PythonModule, statement: str) -> Edit | None:
 # -- what is inserted
 
 
-class _Block(NamedTuple):
+class Block(NamedTuple):
     """Text that spans several lines: items between an opening and a closing bracket."""
 
     opening: str
     closing: str
-    items: tuple[str | _Block, ...]
+    items: tuple[str | Block, ...]
 
     def render(self, indent: str, newline: str) -> str:
         """Return the text; its first line is not indented, the others by ``indent``."""
@@ -123,7 +125,7 @@ class _Block(NamedTuple):
         return newline.join([*lines, f"{indent}{self.closing}"])
 
 
-def _render(item: str | _Block, indent: str, newline: str) -> str:
+def _render(item: str | Block, indent: str, newline: str) -> str:
     return item if isinstance(item, str) else item.render(indent, newline)
 
 
@@ -158,17 +160,17 @@ def _list_to_extend(module: PythonModule, node: ast.expr) -> ast.List | None:
     return node if isinstance(node, ast.List) else None
 
 
-def _add_keyword(setup: SetupPy, name: str, value: _Block) -> Edit | None:
+def _add_keyword(setup: SetupPy, name: str, value: Block) -> Edit | None:
     call = setup.call
     if call is None or setup.has_unknown_keywords:
         return None
-    block = _Block(f"{name}={value.opening}", value.closing, value.items)
+    block = Block(f"{name}={value.opening}", value.closing, value.items)
     items = [*call.args, *(word.value for word in call.keywords)]
-    return _append(setup.module, call, items, block)
+    return append_item(setup.module, call, items, block)
 
 
-def _append(
-    module: PythonModule, holder: ast.expr, items: Sequence[ast.expr], item: str | _Block
+def append_item(
+    module: PythonModule, holder: ast.expr, items: Sequence[ast.expr], item: str | Block
 ) -> Edit:
     """Return the edit that adds an item behind the last one inside brackets."""
     text, newline = module.source.text, module.source.newline
@@ -198,7 +200,7 @@ def _append(
     return Edit(module.path, end, line_end, f",{kept}{rendered},")
 
 
-def _fill(module: PythonModule, holder: ast.expr, close: int, item: str | _Block) -> Edit:
+def _fill(module: PythonModule, holder: ast.expr, close: int, item: str | Block) -> Edit:
     """Return the edit that adds the first item between empty brackets."""
     text, newline = module.source.text, module.source.newline
     opening = module.span(holder)[0]

@@ -1,0 +1,81 @@
+"""What is added to a package, and what became of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from scaffold.check.diagnostic import Edit
+from scaffold.check.fixer import splice
+from scaffold.model.source import Source
+
+NOTHING: Mapping[str, Sequence[str]] = {}
+
+
+class Program(NamedTuple):
+    """A Python file that becomes an executable."""
+
+    path: str
+    """Relative to the root of the package."""
+    name: str
+    """What ``ros2 run`` calls it."""
+    module: str
+    """Its dotted name, for the entry point of an ament_python package."""
+    is_node: bool = True
+    """Whether a launch file may start it as a node."""
+
+    @property
+    def entry_point(self) -> str:
+        """The function that setuptools calls."""
+        return f"{self.module}:main"
+
+
+class Row(NamedTuple):
+    """A row of a table in README.md."""
+
+    header: tuple[str, ...]
+    """The cells above the columns of the table that it belongs to."""
+    cells: tuple[str, ...]
+
+
+class Addition(NamedTuple):
+    """What a package gets besides new files."""
+
+    package: str
+    """The name of the package."""
+    program: Program | None = None
+    test: str | None = None
+    """The path of a pytest file."""
+    depends: Mapping[str, Sequence[str]] = NOTHING
+    """Names by kind: ``buildtool``, ``build``, ``build_export``, ``exec``, ``depend``, ``test``."""
+    groups: Sequence[str] = ()
+    """Groups that the package becomes a member of."""
+    interfaces: Sequence[str] = ()
+    """Paths of .msg, .srv and .action files to generate code from."""
+    interface_depends: Sequence[str] = ()
+    """Packages whose types the interfaces use."""
+    directories: Sequence[str] = ()
+    """Directories that go to ``share/<package>``, their names included."""
+    rows: Sequence[Row] = ()
+    changes: Sequence[str] = ()
+    """Lines for the next release in CHANGELOG.rst."""
+
+
+class ByHand(NamedTuple):
+    """A line that the user has to write: no edit was safe."""
+
+    path: str
+    line: str
+    reason: str
+
+
+class Outcome(NamedTuple):
+    """A file after its edits."""
+
+    source: Source
+    by_hand: tuple[ByHand, ...] = ()
+
+
+def spliced(source: Source, edits: Sequence[Edit]) -> Source:
+    """Return the file with edits that do not overlap."""
+    return Source(source.path, splice(source.text, edits), source.encoding)

@@ -1,0 +1,273 @@
+"""Adds programs, tests and directories to CMakeLists.txt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome, spliced
+from scaffold.model import cmake_edit
+from scaffold.model.cmake import LAST_CALLS, CMakeLists, Install
+from scaffold.model.cmake_edit import Edits
+from scaffold.model.cmake_parser import Argument, Command
+from scaffold.model.source import Source
+
+PYTEST = "ament_cmake_pytest"
+PYTHON = "ament_cmake_python"
+ADD_PYTEST = "ament_add_pytest_test"
+INSTALL_PYTHON = "ament_python_install_package"
+_NAME = "${PROJECT_NAME}"
+
+
+def add_to_cmake(source: Source, addition: Addition, *, python_package: bool = False) -> Outcome:
+    """Install a program and directories, and run a test; nothing when they are there already.
+
+    Args:
+        source: The file.
+        addition: What is added.
+        python_package: Install the Python package with the name of the project, too.
+
+    Raises:
+        ParseError: CMake could not parse the file.
+    """
+    editor = _Editor(source, addition.package)
+    if python_package:
+        editor.install_python()
+    if addition.program is not None:
+        editor.install_program(addition.program.path)
+    for directory in addition.directories:
+        editor.install_directory(directory)
+    if addition.test is not None:
+        editor.add_test(addition.test)
+    return Outcome(editor.lists.source, tuple(editor.by_hand))
+
+
+def installs_program(lists: CMakeLists, path: str, package: str) -> bool:
+    """Tell whether a file is installed where ``ros2 run`` looks for programs."""
+    return any(
+        install.destination is not None
+        and install.destination.rstrip("/") == f"lib/{package}"
+        and _covers(lists, install, path)
+        for install in lists.installs
+    )
+
+
+def runs_test(lists: CMakeLists, path: str) -> bool:
+    """Tell whether a pytest file is run, alone or with its directory."""
+    for command in lists.commands:
+        if not (command.name.startswith("ament_add_") and command.name.endswith("pytest_test")):
+            continue
+        found = lists.expand_list(command.arguments[1:2], command)
+        for value in found or ():
+            tested = lists.path_of(value)
+            if path == tested or path.startswith(f"{tested}/"):
+                return True
+    return False
+
+
+class _Editor:
+    """A CMakeLists.txt that is edited step by step and read again after each."""
+
+    def __init__(self, source: Source, package: str) -> None:
+        self.package = package
+        self.by_hand: list[ByHand] = []
+        self.lists = _read(source)
+
+    def install_python(self) -> None:
+        if self.lists.find(INSTALL_PYTHON):
+            return
+        line = f"{INSTALL_PYTHON}({_NAME})"
+        if self._refused(line):
+            return
+        self._edit(cmake_edit.insert_find_package(self.lists, PYTHON))
+        self._edit(cmake_edit.insert_before_end(self.lists, [line]))
+
+    def install_program(self, path: str) -> None:
+        if installs_program(self.lists, path, self.package):
+            return
+        line = f"install(PROGRAMS {path} DESTINATION lib/{_NAME})"
+        if self._refused(line):
+            return
+        self._edit(_extension(self.lists, "PROGRAMS", path, f"lib/{self.package}"))
+        if not installs_program(self.lists, path, self.package):
+            self._edit(cmake_edit.install_program(self.lists, path))
+        if not installs_program(self.lists, path, self.package):
+            self._refuse(line, "no place was safe")
+
+    def install_directory(self, path: str) -> None:
+        if _installs_directory(self.lists, path):
+            return
+        line = f"install(DIRECTORY {path} DESTINATION share/{_NAME})"
+        if self._refused(line):
+            return
+        edits = _share_keyword(self.lists, path)
+        if edits is None:
+            edits = _extension(self.lists, "DIRECTORY", path, f"share/{self.package}")
+        if edits is None:
+            edits = cmake_edit.install_directory(self.lists, path)
+        self._edit(edits)
+
+    def add_test(self, path: str) -> None:
+        if runs_test(self.lists, path):
+            return
+        name = path.rpartition("/")[2].removesuffix(".py")
+        line = f"{ADD_PYTEST}({name} {path})"
+        if self._refused(line):
+            return
+        if not self.lists.finds_tests_automatically:
+            self._edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
+        self._edit(_behind_last_test(self.lists, line))
+        if not runs_test(self.lists, path):
+            self._edit(cmake_edit.insert_in_testing(self.lists, [line]))
+        if not runs_test(self.lists, path):
+            self._refuse(line, "if(BUILD_TESTING) and endif() are not on lines of their own")
+
+    def _edit(self, edits: Edits | None) -> None:
+        """Apply edits; those that CMake could not parse afterwards are not applied."""
+        if not edits:
+            return
+        changed = CMakeLists.parse(spliced(self.lists.source, edits))
+        if not changed.errors:
+            self.lists = changed
+
+    def _refused(self, line: str) -> bool:
+        """Leave a line to the user where nothing at all can be added for sure."""
+        lists = self.lists
+        if lists.project_name != self.package:
+            self._refuse(line, f"the project is not known to be named {self.package!r}")
+        elif not any(call.depth == 0 for call in lists.find(*LAST_CALLS)):
+            self._refuse(line, f"there is no {LAST_CALLS[0]}() at the top level")
+        else:
+            return False
+        return True
+
+    def _refuse(self, line: str, reason: str) -> None:
+        self.by_hand.append(ByHand(self.lists.source.path, line, reason))
+
+
+def _read(source: Source) -> CMakeLists:
+    lists = CMakeLists.parse(source)
+    lists.require()
+    return lists
+
+
+# -- what is there
+
+
+def _covers(lists: CMakeLists, install: Install, path: str) -> bool:
+    if install.kind == "PROGRAMS":
+        return any(
+            item.path == path or (item.path is None and _globs(lists, item.argument, path))
+            for item in install.items
+        )
+    if install.kind != "DIRECTORY" or not install.command.has("USE_SOURCE_PERMISSIONS"):
+        return False
+    return any(
+        item.path is not None and item.argument.value.endswith("/")
+        and path.rpartition("/")[0] == item.path
+        for item in install.items
+    )  # fmt: skip
+
+
+def _globs(lists: CMakeLists, argument: Argument, path: str) -> bool:
+    """Tell whether an argument is a list that ``file(GLOB)`` fills with such files."""
+    for command in lists.find("file"):
+        values = command.values
+        if values[:1] in (["GLOB"], ["GLOB_RECURSE"]) and argument.raw == f"${{{values[1]}}}":
+            patterns = lists.expand_list(command.arguments[2:], command) or []
+            return any(fnmatchcase(path, lists.path_of(pattern)) for pattern in patterns)
+    return False
+
+
+def _installs_directory(lists: CMakeLists, path: str) -> bool:
+    """Tell whether a directory is installed already, wherever the author wants it."""
+    return any(
+        item.path is not None and (path == item.path or path.startswith(f"{item.path}/"))
+        for install in lists.installs
+        if install.kind == "DIRECTORY"
+        for item in install.items
+    )
+
+
+# -- where things are added
+
+
+def _extension(lists: CMakeLists, kind: str, path: str, destination: str) -> Edits | None:
+    """Add to the install with the files that are most like a new one, written as they are."""
+    best: tuple[int, Install, Argument, str] | None = None
+    for install in lists.installs:
+        if not _is_extendable(install, kind, destination):
+            continue
+        neighbours = [item for item in install.items if _is_beside(item.path, path)]
+        last = (neighbours or install.items)[-1]
+        behind = install.items[-1].argument if _has_list(install) else last.argument
+        rank = len(neighbours)
+        if best is None or rank > best[0]:
+            best = rank, install, behind, _written_like(lists, last.argument, last.path, path)
+    if best is None:
+        return None
+    _, install, behind, written = best
+    return cmake_edit.append_arguments(lists, install.command, behind, [written], raw=True)
+
+
+def _is_extendable(install: Install, kind: str, destination: str) -> bool:
+    at = install.destination
+    return (
+        install.kind == kind
+        and install.command.name == "install"
+        and install.command.depth == 0
+        and install.rename is None
+        and not install.patterns
+        and not install.excludes
+        and not install.command.has("FILES_MATCHING")
+        and not install.command.has("OPTIONAL")
+        and not install.command.has("CONFIGURATIONS")
+        and at is not None
+        and at.rstrip("/") == destination
+        and bool(install.items)
+    )
+
+
+def _is_beside(one: str | None, other: str) -> bool:
+    return one is not None and one.rpartition("/")[0] == other.rpartition("/")[0]
+
+
+def _has_list(install: Install) -> bool:
+    return any(item.path is None for item in install.items)
+
+
+def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: str) -> str:
+    """Write a path the way its neighbour is: with the same variables in front, or quotes."""
+    text, project = argument.text, f"{lists.project_name}/"
+    directory, _, name = new.rpartition("/")
+    if path is not None and path.rpartition("/")[0] == directory and not argument.bracket:
+        old = path.rpartition("/")[2]
+        if text.endswith(old):
+            written = text.removesuffix(old) + name
+            return f'"{written}"' if argument.quoted else written
+    if text.startswith(f"{_NAME}/") and new.startswith(project):
+        return f"{_NAME}/{new.removeprefix(project)}"
+    return cmake_edit.quote(new)
+
+
+def _share_keyword(lists: CMakeLists, path: str) -> Edits | None:
+    """Add a directory to ``ament_auto_package(INSTALL_TO_SHARE ...)``."""
+    for command in lists.find(*LAST_CALLS[1:]):
+        words = command.keyword(
+            "INSTALL_TO_SHARE", {"INSTALL_TO_PATH", "USE_SCOPED_HEADER_INSTALL_DIR"}
+        )
+        if words and command.depth == 0:
+            return cmake_edit.append_arguments(lists, command, words[-1], [path])
+    return None
+
+
+def _behind_last_test(lists: CMakeLists, line: str) -> Edits | None:
+    """Add a call below the last one of its kind that always runs when tests are built."""
+    block = cmake_edit.testing_block(lists)
+    found = [call for call in _tests(lists) if block is not None and call.branch is block[0]]
+    found += [call for call in _tests(lists) if call.depth == 0 and lists.guarded_by_testing(call)]
+    return cmake_edit.insert_below(lists, found[-1], line) if found else None
+
+
+def _tests(lists: CMakeLists) -> Iterator[Command]:
+    yield from lists.find(ADD_PYTEST)

@@ -1,0 +1,117 @@
+"""Edits the files of a package so that they know of something new."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
+
+from scaffold.errors import ParseError, ViewError
+from scaffold.generate.edit import changelog, cmake, launch, manifest, readme, setup_cfg, setup_py
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome
+from scaffold.generate.edit.layout import layout_of
+from scaffold.model.ini import IniFile
+from scaffold.model.launch_files import launch_files
+from scaffold.model.package import CMAKE_LISTS, SETUP_CFG, SETUP_PY, Package
+from scaffold.model.source import Source
+from scaffold.model.tree import MANIFEST
+
+README = "README.md"
+CHANGELOG = "CHANGELOG.rst"
+
+
+class Edited(NamedTuple):
+    """The files that an addition changes."""
+
+    files: Mapping[str, bytes]
+    """New content by path."""
+    by_hand: tuple[ByHand, ...]
+    """What the user has to do where no edit was safe."""
+
+
+def edit(package: Package, addition: Addition) -> Edited:
+    """Return the files of a package with what an addition needs in them.
+
+    Args:
+        package: The package as it is; its new files need not be there.
+        addition: What is added.
+
+    Raises:
+        ViewError: package.xml or the file of its build system is missing or cannot be parsed.
+    """
+    files: dict[str, bytes] = {}
+    by_hand: list[ByHand] = []
+    for path, make in _editors(package, addition):
+        source = package.editable(path)
+        outcome = make(source)
+        by_hand += outcome.by_hand
+        if outcome.source.text != source.text:
+            files[path] = outcome.source.text.encode(source.encoding)
+    return Edited(files, tuple(by_hand))
+
+
+_Editor = Callable[[Source], Outcome]
+
+
+def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
+    """Yield the files to edit and what edits each."""
+    is_cmake = package.build_type == "ament_cmake"
+    installs_python = (
+        is_cmake and addition.program is not None and layout_of(package).installs_python
+    )
+    needs = _with_build(addition, is_cmake=is_cmake, installs_python=installs_python)
+    yield MANIFEST, lambda source: manifest.add_to_manifest(source, needs)
+    if is_cmake:
+        yield (
+            CMAKE_LISTS,
+            lambda source: cmake.add_to_cmake(source, addition, python_package=installs_python),
+        )
+    else:
+        yield from _python_editors(package, addition)
+    yield from _others(package, addition)
+
+
+def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) -> Addition:
+    """Return an addition that also depends on what builds and tests it."""
+    depends = {kind: list(names) for kind, names in addition.depends.items()}
+    if installs_python:
+        depends.setdefault("buildtool", []).append(cmake.PYTHON)
+    if addition.test is not None:
+        pytest = cmake.PYTEST if is_cmake else setup_py.PYTEST
+        depends.setdefault("test", []).append(pytest)
+    return addition._replace(depends=depends)
+
+
+def _python_editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
+    config = package.setup_cfg if package.has(SETUP_CFG) else None
+    in_config = config is not None and _declares_scripts(package, config)
+    extra = config is None or "extras_require" not in config.source.text
+    yield (
+        SETUP_PY,
+        lambda source: setup_py.add_to_setup(
+            source, addition, entry_point=not in_config, extra=extra
+        ),
+    )
+    if in_config:
+        yield SETUP_CFG, lambda source: setup_cfg.add_to_setup_cfg(source, addition)
+
+
+def _declares_scripts(package: Package, config: IniFile) -> bool:
+    return setup_cfg.scripts(config) is not None and not package.setup_py.console_scripts
+
+
+def _others(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
+    """Yield the files that help people: those that cannot be read are left alone."""
+    found = launch_files(package)
+    editors: dict[str, _Editor] = {
+        README: lambda source: readme.add_to_readme(source, addition),
+        CHANGELOG: lambda source: changelog.add_to_changelog(source, addition),
+    }
+    if len(found) == 1:
+        editors[found[0]] = lambda source: launch.add_to_launch(source, addition)
+    for path, make in editors.items():
+        try:
+            if package.has(path):
+                package.editable(path)
+                yield path, make
+        except (ParseError, ViewError):
+            continue

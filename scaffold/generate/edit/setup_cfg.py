@@ -1,0 +1,46 @@
+"""Adds executables to setup.cfg, where the author declares them there."""
+
+from __future__ import annotations
+
+from scaffold.check.diagnostic import Edit
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome, spliced
+from scaffold.model.ini import IniFile, IniOption
+from scaffold.model.source import Source
+
+SECTION = "options.entry_points"
+KEY = "console_scripts"
+
+
+def scripts(file: IniFile) -> IniOption | None:
+    """Return the option with the executables."""
+    return file.option(SECTION, KEY)
+
+
+def add_to_setup_cfg(source: Source, addition: Addition) -> Outcome:
+    """Declare an executable below the others.
+
+    Raises:
+        ParseError: setuptools would refuse the file.
+    """
+    found = scripts(IniFile.parse(source))
+    program = addition.program
+    if found is None or program is None:
+        return Outcome(source)
+    names = [line.text.partition("=")[0].strip() for line in found.lines]
+    if program.name in names:
+        return Outcome(source)
+    line = f"{program.name} = {program.entry_point}"
+    last = found.lines[-1].location if found.lines else found.key_location
+    if found.lines and last.line == found.key_location.line:
+        reason = f"{KEY} begins on the line of its key"
+        return Outcome(source, (ByHand(source.path, line, reason),))
+    indent = " " * (last.column - 1) if found.lines else "    "
+    at = source.offset(last.end_line, 1)
+    end = source.text.find("\n", at)
+    end = len(source.text) if end < 0 else end
+    if source.text[end - 1 : end] == "\r":
+        end -= 1
+    glue = line if not found.lines or " = " in found.lines[-1].text else line.replace(" = ", "=")
+    return Outcome(
+        spliced(source, [Edit(source.path, end, end, f"{source.newline}{indent}{glue}")])
+    )

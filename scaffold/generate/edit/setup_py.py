@@ -1,0 +1,178 @@
+"""Adds executables, packages and data files to setup.py."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from fnmatch import fnmatchcase
+
+from scaffold.check.diagnostic import Edit
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
+from scaffold.model import setup_edit, setup_keywords
+from scaffold.model.python_module import PythonModule
+from scaffold.model.setup_py import FindPackages, SetupPy
+from scaffold.model.source import Source
+
+PYTEST = "python3-pytest"
+"""The rosdep key of pytest."""
+_EXTRA = "extras_require={'test': ['pytest']}"
+
+
+def add_to_setup(
+    source: Source, addition: Addition, *, entry_point: bool = True, extra: bool = False
+) -> Outcome:
+    """Make a program an executable, and install its package and new directories.
+
+    Args:
+        source: The file.
+        addition: What is added.
+        entry_point: Declare the executable here, and not in setup.cfg.
+        extra: Say that the tests need pytest.
+
+    Raises:
+        ViewError: the file cannot be parsed.
+    """
+    editor = _Editor(source, addition.package)
+    if addition.program is not None:
+        editor.install_package(addition.program)
+        if entry_point:
+            editor.add_entry_point(addition.program)
+    for directory in addition.directories:
+        editor.install_directory(directory)
+    if extra and addition.test is not None:
+        editor.add_extra()
+    return Outcome(editor.setup.module.source, tuple(editor.by_hand))
+
+
+def installs_package(setup: SetupPy, name: str) -> bool | None:
+    """Tell whether an import package is installed; ``None`` if nobody can say."""
+    packages = setup.packages
+    if isinstance(packages, FindPackages):
+        if not isinstance(packages.include, tuple) or not isinstance(packages.exclude, tuple):
+            return None
+        return any(fnmatchcase(name, one) for one in packages.include) and not any(
+            fnmatchcase(name, one) for one in packages.exclude
+        )
+    if isinstance(packages, list | tuple) and name in packages:
+        return True
+    if any(point.module.rpartition(".")[0] == name for point in setup.console_scripts):
+        return True  # the author's programs of that package are installed somehow
+    return False if isinstance(packages, list | tuple) else None
+
+
+class _Editor:
+    """A setup.py that is edited step by step and read again after each."""
+
+    def __init__(self, source: Source, package: str) -> None:
+        self.package = package
+        self.by_hand: list[ByHand] = []
+        self.setup = _read(source)
+
+    def install_package(self, program: Program) -> None:
+        name = program.module.rpartition(".")[0]
+        installed = installs_package(self.setup, name)
+        if installed:
+            return
+        line = f"packages=['{name}'],"
+        if installed is None:
+            self._refuse(line, f"whether packages= has {name!r} cannot be seen")
+            return
+        self._edit(lambda setup: _package_edit(setup, self._expression(name)))
+        if not installs_package(self.setup, name):
+            self._refuse(line, f"packages= leaves {name!r} out")
+
+    def add_entry_point(self, program: Program) -> None:
+        if self._has(program):
+            return
+        line = f"'{program.name} = {program.entry_point}',"
+        self._edit(
+            lambda setup: (
+                setup_edit.add_console_script(setup, program.name, program.entry_point)
+                or _text_entry(setup, program)
+            )
+        )
+        if not self._has(program):
+            self._refuse(line, "the list of console_scripts is not written out in setup()")
+
+    def install_directory(self, path: str) -> None:
+        share = f"share/{self.package}/{path}"
+        if any(
+            str(data.destination).rstrip("/") == share
+            or any(str(source).startswith(f"{path}/") for source in data.sources)
+            for data in self.setup.data_files
+        ):
+            return
+        name = self._expression(self.package)
+        literal = name.startswith("'")
+        where = f"'{share}'" if literal else f"'share/' + {name} + '/{path}'"
+        imports_module = any(
+            alias.name == "glob" and alias.asname is None
+            for node in self.setup.module.walk(ast.Import)
+            for alias in node.names
+        )
+        files = f"{'glob.glob' if imports_module else 'glob'}('{path}/*')"
+        before = self.setup
+        self._edit(lambda setup: setup_edit.add_data_files(setup, where, files))
+        if self.setup is before:
+            self._refuse(f"({where}, {files}),", "the list of data_files is not written out")
+        elif not imports_module:
+            self._edit(lambda s: setup_edit.add_import(s.module, "from glob import glob"))
+
+    def add_extra(self) -> None:
+        known = any(self.setup.keyword(name) for name in ("extras_require", "tests_require"))
+        if known or self.setup.has_unknown_keywords:
+            return
+        before = self.setup
+        self._edit(lambda setup: setup_keywords.insert(setup, _EXTRA))
+        if self.setup is before:
+            self._refuse(f"{_EXTRA},", "the arguments of setup() are not written out")
+
+    def _has(self, program: Program) -> bool:
+        return any(
+            point.name == program.name and point.module == program.module
+            for point in self.setup.console_scripts
+        )
+
+    def _expression(self, name: str) -> str:
+        """Return a name as setup.py writes it: in a variable, if it has one."""
+        return setup_edit.package_expression(self.setup, name) or f"'{name}'"
+
+    def _edit(self, make: Callable[[SetupPy], Edit | None]) -> None:
+        edit = make(self.setup)
+        if edit is not None:
+            self.setup = _read(spliced(self.setup.module.source, [edit]))
+
+    def _refuse(self, line: str, reason: str) -> None:
+        self.by_hand.append(ByHand(self.setup.module.path, line, reason))
+
+
+def _read(source: Source) -> SetupPy:
+    return SetupPy.parse(PythonModule.parse(source))
+
+
+def _package_edit(setup: SetupPy, expression: str) -> Edit | None:
+    word = setup.keyword("packages")
+    node = word.node if word is not None else None
+    if isinstance(node, ast.List) and not node.elts:
+        return Edit(setup.module.path, *setup.module.span(node), f"[{expression}]")
+    if isinstance(node, ast.List):
+        return setup_edit.append_item(setup.module, node, node.elts, expression)
+    return None
+
+
+def _text_entry(setup: SetupPy, program: Program) -> Edit | None:
+    """Add a line to console scripts that stand in one long string."""
+    points = setup.console_scripts
+    if not points or not setup.entry_points_complete:
+        return None
+    last = points[-1]
+    source = setup.module.source
+    start = source.offset(last.location.line, last.location.column)
+    line_start = source.text.rfind("\n", 0, start) + 1
+    indent = source.text[line_start:start]
+    if indent.strip() or not setup.module.text(last.node).endswith(('"""', "'''")):
+        return None
+    end = source.offset(last.location.end_line, last.location.end_column)
+    glue = " = " if " = " in last.text else "="
+    text = f"{source.newline}{indent}{program.name}{glue}{program.entry_point}"
+    return Edit(setup.module.path, end, end, text)
