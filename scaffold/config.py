@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from scaffold.errors import ConfigError
+from scaffold.model.disk import Disk
 
 PROJECT_FILE = "ros2-scaffold.toml"
 USER_FILE = os.path.join("ros2-scaffold", "config.toml")
@@ -78,20 +79,24 @@ class Config(NamedTuple):
         return self.values[key].origin
 
 
-def load(directory: str = ".", content: tuple[str, ...] = ()) -> Config:
+def load(
+    directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None
+) -> Config:
     """Read the user's and the project's file.
 
     Args:
         directory: Where the search for the project's file starts.
         content: Content directories given as flags; they come last.
+        disk: Notes which files were looked for and what they hold.
 
     Raises:
         ConfigError: a file cannot be read, is not TOML, or has an unknown key.
     """
+    disk = disk or Disk()
     values: dict[str, Value] = {}
     directories: list[str] = []
-    for path in filter(None, (_user_file(), _project_file(directory))):
-        for table, entries in _read(path).items():
+    for path in filter(None, (_user_file(disk), _project_file(disk, directory))):
+        for table, entries in _read(disk, path).items():
             if table == "content":
                 directories += _content(entries, path)
                 continue
@@ -105,17 +110,17 @@ def load(directory: str = ".", content: tuple[str, ...] = ()) -> Config:
     return Config(values, (*directories, *content))
 
 
-def _user_file() -> str | None:
+def _user_file(disk: Disk) -> str | None:
     base = os.environ.get("XDG_CONFIG_HOME") or os.path.join(os.path.expanduser("~"), ".config")
     path = os.path.join(base, USER_FILE)
-    return path if os.path.isfile(path) else None
+    return path if disk.is_file(path) else None
 
 
-def _project_file(directory: str) -> str | None:
+def _project_file(disk: Disk, directory: str) -> str | None:
     current = os.path.abspath(directory)
     while True:
         path = os.path.join(current, PROJECT_FILE)
-        if os.path.isfile(path):
+        if disk.is_file(path):
             return path
         parent = os.path.dirname(current)
         if parent == current:
@@ -123,7 +128,7 @@ def _project_file(directory: str) -> str | None:
         current = parent
 
 
-def _read(path: str) -> dict[str, Any]:
+def _read(disk: Disk, path: str) -> dict[str, Any]:
     import sys
 
     if sys.version_info >= (3, 11):
@@ -131,8 +136,7 @@ def _read(path: str) -> dict[str, Any]:
     else:
         import tomli as tomllib
     try:
-        with open(path, "rb") as file:
-            return tomllib.load(file)
+        return tomllib.loads(disk.read(path).decode())
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

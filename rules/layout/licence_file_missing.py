@@ -40,21 +40,17 @@ class LicenceFileMissing(Rule):
         names = [path for path in package.files if "/" not in path]
         if any(name.upper().startswith(NAMES) for name in names):
             return
-        if package.root is not None and self._is_above(package.root):
+        if package.root is not None and self._is_above(package, package.root):
             return
         yield self.report(package.start_of("package.xml"), "there is no LICENSE file here or above")
 
-    def _is_above(self, root: str) -> bool:
+    def _is_above(self, package: Package, root: str) -> bool:
         """Look up to the top of the repository."""
         directory = os.path.abspath(root)
         for _ in range(_DEPTH):
-            if os.path.exists(os.path.join(directory, ".git")):
+            if package.outside.exists(os.path.join(directory, ".git")):
                 return False
             directory = os.path.dirname(directory)
-            try:
-                names = os.listdir(directory)
-            except OSError:
-                return False
-            if any(name.upper().startswith(NAMES) for name in names):
+            if any(name.upper().startswith(NAMES) for name in package.outside.entries(directory)):
                 return True
         return False

@@ -93,7 +93,8 @@ def _is_repository(package: Package) -> bool:
     if package.has(".git") or package.has(".hg"):
         return True
     root = package.root
-    return root is not None and any(os.path.exists(os.path.join(root, d)) for d in (".git", ".hg"))
+    places = [os.path.join(root, name) for name in (".git", ".hg")] if root is not None else []
+    return any(package.outside.exists(place) for place in places)
 
 
 def _wrong(package: Package, name: str) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from scaffold.errors import InputError
+from scaffold.model.disk import Disk
 from scaffold.model.package import Package
 from scaffold.model.tree import BUILD_DIRECTORIES, MANIFEST, DiskTree
 from scaffold.model.workspace import Workspace
@@ -37,23 +38,28 @@ class _LooseFiles(DiskTree):
         return frozenset()
 
 
-def find(paths: Sequence[str]) -> list[Target]:
+def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
     """Return the packages at or below the paths, and the packages of single files.
+
+    Args:
+        paths: Directories and files.
+        disk: Notes what was looked at, now and later, outside of the packages.
 
     Raises:
         InputError: a path does not exist, or holds no package.
     """
-    workspace = Workspace()
-    directories = [path for path in paths if os.path.isdir(path)]
+    disk = disk or Disk()
+    workspace = Workspace(disk=disk)
+    directories = [path for path in paths if disk.is_directory(path)]
     whole: dict[str, Target] = {}
     for path in directories:
-        for directory in _package_directories(path):
+        for directory in _package_directories(disk, path):
             package = Package.at(directory, workspace)
-            whole.setdefault(os.path.realpath(directory), Target(package))
-    partial, loose = _sort_files([path for path in paths if path not in directories])
+            whole.setdefault(disk.real(directory), Target(package))
+    partial, loose = _sort_files(disk, [path for path in paths if path not in directories])
     targets = list(whole.values())
     for root, names in partial.items():
-        if os.path.realpath(root) not in whole:
+        if disk.real(root) not in whole:
             targets.append(Target(Package.at(root, workspace), frozenset(names)))
     for directory, names in loose.items():
         package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
@@ -63,16 +69,18 @@ def find(paths: Sequence[str]) -> list[Target]:
     return sorted(targets, key=lambda target: target.package.directory)
 
 
-def _sort_files(paths: Sequence[str]) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+def _sort_files(
+    disk: Disk, paths: Sequence[str]
+) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
     """Return the files of packages by package, and loose Python files by directory."""
     partial: dict[str, set[str]] = {}
     loose: dict[str, set[str]] = {}
     for path in paths:
-        if not os.path.exists(path):
+        if not disk.exists(path):
             raise InputError(f"{path}: no such file or directory")
-        if not os.path.isfile(path):
+        if not disk.is_file(path):
             raise InputError(f"{path}: neither a file nor a directory")
-        root = _package_of(path)
+        root = _package_of(disk, path)
         if root is not None:
             partial.setdefault(root, set()).add(_relative(path, root))
         elif path.endswith(".py"):
@@ -83,53 +91,47 @@ def _sort_files(paths: Sequence[str]) -> tuple[dict[str, set[str]], dict[str, se
     return partial, loose
 
 
-def _package_directories(path: str) -> list[str]:
-    found = list(_walk(path))
+def _package_directories(disk: Disk, path: str) -> list[str]:
+    found = list(_walk(disk, path))
     if found:
         return found
     # Nothing else is there, so these are meant; a rule says that colcon does not see them.
-    hidden = list(_walk(path, ignored=True))
+    hidden = list(_walk(disk, path, ignored=True))
     if hidden:
         return hidden
-    if os.path.isfile(os.path.join(path, "setup.py")):
+    if disk.is_file(os.path.join(path, "setup.py")):
         raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
     raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")
 
 
-def _walk(top: str, *, ignored: bool = False) -> Iterator[str]:
+def _walk(disk: Disk, top: str, *, ignored: bool = False) -> Iterator[str]:
     """Yield package directories in sorted order; what lies inside a package is not searched."""
-    if os.path.isfile(os.path.join(top, MANIFEST)):
+    if disk.is_file(os.path.join(top, MANIFEST)):
         yield top
         return
     pending = [top]
     while pending:
         parent = pending.pop()
-        children: list[str] = []
-        try:
-            with os.scandir(parent) as entries:
-                children = [e.name for e in entries if e.is_dir(follow_symlinks=False)]
-        except OSError:
-            continue
         below: list[str] = []
-        for name in sorted(children):
+        for name in disk.names(parent)[1]:
             path = os.path.join(parent, name)
             if name.startswith("."):
                 continue
-            if not ignored and any(os.path.exists(os.path.join(path, m)) for m in IGNORE_MARKERS):
+            if not ignored and any(disk.exists(os.path.join(path, m)) for m in IGNORE_MARKERS):
                 continue
-            if os.path.isfile(os.path.join(path, MANIFEST)):
+            if disk.is_file(os.path.join(path, MANIFEST)):
                 yield path
             elif name not in BUILD_DIRECTORIES:
                 below.append(path)
         pending.extend(reversed(below))
 
 
-def _package_of(path: str) -> str | None:
+def _package_of(disk: Disk, path: str) -> str | None:
     """Return the nearest directory above a file that has a manifest, as the user would write it."""
     directory = os.path.dirname(path)
     absolute = os.path.abspath(directory or ".")
     for _ in range(64):
-        if os.path.isfile(os.path.join(absolute, MANIFEST)):
+        if disk.is_file(os.path.join(absolute, MANIFEST)):
             return os.path.relpath(absolute) if not os.path.isabs(path) else absolute
         parent = os.path.dirname(absolute)
         if parent == absolute:

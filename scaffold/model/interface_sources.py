@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_interfaces import generations
+from scaffold.model.disk import Disk
 from scaffold.model.interface_syntax import SECTIONS
 from scaffold.model.source import Source
 
@@ -132,8 +133,9 @@ def is_test_data(path: str) -> bool:
 class PrefixSource:
     """The packages installed below the prefixes of ``AMENT_PREFIX_PATH``."""
 
-    def __init__(self, prefixes: Sequence[str]) -> None:
+    def __init__(self, prefixes: Sequence[str], disk: Disk | None = None) -> None:
         self._prefixes = prefixes
+        self._disk = disk or Disk()
         self._known: dict[str, _InstalledPackage | None] = {}
 
     def package(self, name: str) -> KnownPackage | None:
@@ -147,27 +149,28 @@ class PrefixSource:
             return
         for prefix in self._prefixes:
             share = os.path.join(prefix, "share", name)
-            if any(os.path.isdir(os.path.join(share, kind)) for kind in SECTIONS):
-                yield _InstalledPackage(share)
+            if any(self._disk.is_directory(os.path.join(share, kind)) for kind in SECTIONS):
+                yield _InstalledPackage(share, self._disk)
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of the packages, as registered in the ament index."""
         found: set[str] = set()
         for prefix in self._prefixes:
             index = os.path.join(prefix, "share", "ament_index", "resource_index")
-            found.update(_listing(os.path.join(index, "rosidl_interfaces")))
+            found.update(self._disk.entries(os.path.join(index, "rosidl_interfaces")))
         return sorted(name for name in found if self.package(name) is not None)
 
 
 class _InstalledPackage:
-    def __init__(self, share: str) -> None:
+    def __init__(self, share: str, disk: Disk) -> None:
         self._share = share
+        self._disk = disk
         self._names: dict[str, Sequence[str]] = {}
 
     def names(self, kind: str) -> Sequence[str] | None:
         if kind not in self._names:
             endings = (f".{kind}", ".idl")
-            files = _listing(os.path.join(self._share, kind))
+            files = self._disk.entries(os.path.join(self._share, kind))
             stems = {file.rpartition(".")[0] for file in files if file.endswith(endings)}
             self._names[kind] = sorted(stems)
         return self._names[kind]
@@ -177,17 +180,10 @@ class _InstalledPackage:
             return None
         path = os.path.join(self._share, kind, f"{name}.{kind}")
         try:
-            with open(path, encoding="utf-8") as file:
-                return Text(Source(path, file.read()), path)
+            text = self._disk.read(path).decode()
         except (OSError, UnicodeDecodeError):
             return None
-
-
-def _listing(directory: str) -> list[str]:
-    try:
-        return os.listdir(directory)
-    except OSError:
-        return []
+        return Text(Source(path, text.replace("\r\n", "\n").replace("\r", "\n")), path)
 
 
 # -- the bundle

@@ -123,7 +123,7 @@ class Definitions:
         if workspace is not None:
             sources.append(WorkspaceSource(workspace))
         if prefixes:
-            sources.append(PrefixSource(prefixes))
+            sources.append(PrefixSource(prefixes, workspace.disk if workspace else None))
         return cls([*sources, BundleSource()])
 
     def find(self, full_name: str) -> Interface | None:

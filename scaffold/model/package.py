@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import os
 
     from scaffold.model.cmake import CMakeLists
+    from scaffold.model.disk import Disk
     from scaffold.model.ini import IniFile
     from scaffold.model.manifest import Manifest
     from scaffold.model.nodes import NodeFacts
@@ -229,6 +230,11 @@ class Package:
             return Workspace([self])
 
         return self._workspace or self._view("workspace", build)
+
+    @property
+    def outside(self) -> Disk:
+        """The files around the package: the only way for a rule to look at them."""
+        return self.workspace.disk
 
     @property
     def known_workspace(self) -> Workspace | None:

@@ -7,6 +7,8 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
 
+from scaffold.model.disk import Disk
+
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
 
@@ -38,6 +40,7 @@ class DiskTree:
 
     def __init__(self, root: str | os.PathLike[str]) -> None:
         self.root = os.fspath(root)
+        self.disk = Disk()
         self._nested: list[str] = []
         self._broken: list[str] = []
 
@@ -48,7 +51,7 @@ class DiskTree:
         pending = [""]
         while pending:
             parent = pending.pop()
-            names, children, broken = _list(os.path.join(self.root, parent))
+            names, children, broken = self.disk.names(os.path.join(self.root, parent))
             if parent and MANIFEST in names:
                 self._nested.append(parent.rstrip("/"))
                 continue
@@ -56,7 +59,7 @@ class DiskTree:
             self._broken.extend(parent + name for name in broken)
             for name in children:
                 path = parent + name
-                if _is_skipped(os.path.join(self.root, path), name, at_root=not parent):
+                if self._is_skipped(path, name, at_root=not parent):
                     continue
                 directories.append(path)
                 pending.append(path + "/")
@@ -90,19 +93,19 @@ class DiskTree:
 
     def read(self, path: str) -> bytes:
         """Return what is in a file; raises OSError."""
-        full = os.path.join(self.root, path)
-        if not os.path.isfile(full):
-            # Reading a pipe waits for ever, and a device may have no end.
-            raise FileNotFoundError(path)
-        with open(full, "rb") as file:
-            return file.read()
+        return self.disk.read(os.path.join(self.root, path))
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
-        try:
-            return bool(os.stat(os.path.join(self.root, path)).st_mode & 0o111)
-        except OSError:
-            return False
+        return self.disk.is_executable(os.path.join(self.root, path))
+
+    def _is_skipped(self, path: str, name: str, *, at_root: bool) -> bool:
+        if name.startswith(".") or name == "__pycache__" or name.endswith(".egg-info"):
+            return True
+        if at_root and name in BUILD_DIRECTORIES:
+            # What colcon makes inside a package carries its marker; a folder of that name may not.
+            return self.disk.exists(os.path.join(self.root, path, "COLCON_IGNORE"))
+        return False
 
 
 class MemoryTree:
@@ -151,35 +154,3 @@ class MemoryTree:
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
         return path in self._executable
-
-
-def _list(directory: str) -> tuple[list[str], list[str], list[str]]:
-    """Return names of files, directories and broken links; an unreadable directory has none."""
-    files: list[str] = []
-    directories: list[str] = []
-    broken: list[str] = []
-    try:
-        with os.scandir(directory) as entries:
-            for entry in entries:
-                if entry.is_dir(follow_symlinks=False):
-                    directories.append(entry.name)
-                elif not entry.is_symlink():
-                    # Pipes, sockets and devices are nobody's source.
-                    if entry.is_file():
-                        files.append(entry.name)
-                elif os.path.isfile(entry.path):
-                    files.append(entry.name)
-                elif not os.path.exists(entry.path):
-                    broken.append(entry.name)
-    except OSError:
-        return [], [], []
-    return files, directories, broken
-
-
-def _is_skipped(path: str, name: str, *, at_root: bool) -> bool:
-    if name.startswith(".") or name == "__pycache__" or name.endswith(".egg-info"):
-        return True
-    if at_root and name in BUILD_DIRECTORIES:
-        # What colcon makes inside a package carries its marker; a folder of that name may not.
-        return os.path.exists(os.path.join(path, "COLCON_IGNORE"))
-    return False

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from scaffold.model.disk import Disk
+
 if TYPE_CHECKING:
     from scaffold.model.interfaces import Definitions
     from scaffold.model.package import Package
@@ -14,8 +16,10 @@ if TYPE_CHECKING:
 class Workspace:
     """What the packages around one declare and define."""
 
-    def __init__(self, packages: Iterable[Package] = ()) -> None:
+    def __init__(self, packages: Iterable[Package] = (), disk: Disk | None = None) -> None:
         self._packages = list(packages)
+        self.disk = disk or Disk()
+        """What is looked at outside of the packages."""
 
     def add(self, package: Package) -> None:
         """Add a package; only before the first look at the workspace."""

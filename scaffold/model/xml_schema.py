@@ -67,6 +67,7 @@ def _check(
     if content is None:
         return 1, f"names the schema {href}, but there is no file {target}"
     base = os.path.join(package.root or "", target)
+    package.outside.is_settled = False  # it may include others, which lxml reads
     return _validate(root, kind, href, (content, base))
 
 
@@ -94,12 +95,8 @@ def _read(package: Package, path: str) -> bytes | None:
         pass
     if package.root is None or not path.startswith(".."):
         return None
-    full = os.path.join(package.root, path)
-    if not os.path.isfile(full):  # a pipe would never end
-        return None
     try:  # beside the package, in the same repository
-        with open(full, "rb") as file:
-            return file.read()
+        return package.outside.read(os.path.join(package.root, path))
     except OSError:
         return None
 

@@ -1,0 +1,187 @@
+"""The file system as `check` sees it: every answer is noted, so that it can be asked again.
+
+A verdict is as good as the answers that it was made of. All that `check` looks at in packages and
+around them is asked here; while ``holds`` finds the same answers, the verdict is the same. Files
+count by their bytes, not by their times: a checkout, a copy or a clock cannot fool that.
+
+This module is imported by every start of the tool and imports next to nothing.
+"""
+
+from __future__ import annotations
+
+import os
+
+TYPE_CHECKING = False  # the one of typing would take longer to import than a package to check
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    Question = tuple[str, str]
+    """What is asked, and of which path."""
+    Answer = bool | str | None
+    Names = tuple[list[str], list[str], list[str]]
+    """Files, directories and broken links, each sorted."""
+
+
+class Disk:
+    """Answers, and what was answered so far."""
+
+    def __init__(self) -> None:
+        self.seen: dict[Question, Answer] = {}
+        self.is_settled = True
+        """False when something was looked at that is not noted, or changed meanwhile."""
+
+    def note(self, seen: Mapping[Question, Answer], *, is_settled: bool = True) -> None:
+        """Add answers that another Disk was given."""
+        self.is_settled &= is_settled
+        for question, answer in seen.items():
+            if self.seen.setdefault(question, answer) != answer:
+                self.is_settled = False
+
+    def read(self, path: str) -> bytes:
+        """Return what is in a regular file.
+
+        Raises:
+            OSError: it cannot be read. Reading a pipe would wait for ever, and a device may have
+                no end.
+        """
+        data: bytes | None = None
+        try:
+            data = _read(path)
+        finally:
+            self.note({("content", path): None if data is None else digest(data)})
+        return data
+
+    def names(self, directory: str) -> Names:
+        """Return what is in a directory; links to directories are left out.
+
+        A directory that cannot be listed is empty.
+        """
+        found = _names(directory)
+        self.note({("names", directory): _digest_of(*found)})
+        return found
+
+    def entries(self, directory: str) -> list[str]:
+        """Return all names in a directory; one that cannot be listed is empty."""
+        found = _entries(directory)
+        self.note({("entries", directory): _digest_of(found)})
+        return found
+
+    def exists(self, path: str) -> bool:
+        """Tell whether something is there."""
+        return bool(self._ask("exists", path))
+
+    def is_file(self, path: str) -> bool:
+        """Tell whether a regular file is there, or a link to one."""
+        return bool(self._ask("is_file", path))
+
+    def is_directory(self, path: str) -> bool:
+        """Tell whether a directory is there, or a link to one."""
+        return bool(self._ask("is_directory", path))
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether a file has an executable bit."""
+        return bool(self._ask("is_executable", path))
+
+    def real(self, path: str) -> str:
+        """Return a path without links."""
+        return str(self._ask("real", path))
+
+    def stamp(self, path: str) -> str:
+        """Return what changes when a program is installed anew."""
+        return str(self._ask("stamp", path))
+
+    def _ask(self, kind: str, path: str) -> Answer:
+        answer = _ANSWERS[kind](path)
+        self.note({(kind, path): answer})
+        return answer
+
+
+def holds(seen: Mapping[Question, Answer]) -> bool:
+    """Tell whether all questions still have the same answer."""
+    return all(_ANSWERS[kind](path) == answer for (kind, path), answer in seen.items())
+
+
+def digest(data: bytes) -> str:
+    """Return a digest that no other data has."""
+    try:
+        # The import of hashlib takes longer than hashing a package.
+        from _blake2 import blake2b
+    except ImportError:
+        from hashlib import blake2b
+    return blake2b(data, digest_size=20).hexdigest()
+
+
+def _read(path: str) -> bytes:
+    if not os.path.isfile(path):
+        raise FileNotFoundError(path)
+    with open(path, "rb", buffering=0) as file:
+        return file.read()
+
+
+def _names(directory: str) -> Names:
+    files: list[str] = []
+    directories: list[str] = []
+    broken: list[str] = []
+    try:
+        with os.scandir(directory) as entries:
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False):
+                    directories.append(entry.name)
+                elif not entry.is_symlink():
+                    # Pipes, sockets and devices are nobody's source.
+                    if entry.is_file():
+                        files.append(entry.name)
+                elif os.path.isfile(entry.path):
+                    files.append(entry.name)
+                elif not os.path.exists(entry.path):
+                    broken.append(entry.name)
+    except OSError:
+        return [], [], []
+    return sorted(files), sorted(directories), sorted(broken)
+
+
+def _entries(directory: str) -> list[str]:
+    try:
+        return sorted(os.listdir(directory))
+    except OSError:
+        return []
+
+
+def _digest_of(*names: list[str]) -> str:
+    # No name holds these two characters.
+    return digest("/".join("\0".join(kind) for kind in names).encode("utf-8", "surrogateescape"))
+
+
+def _digest_of_content(path: str) -> str | None:
+    try:
+        return digest(_read(path))
+    except OSError:
+        return None
+
+
+def _stamp(path: str) -> str | None:
+    try:
+        status = os.stat(path)
+    except OSError:
+        return None
+    return f"{status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
+
+
+def _is_executable(path: str) -> bool:
+    try:
+        return bool(os.stat(path).st_mode & 0o111)
+    except OSError:
+        return False
+
+
+_ANSWERS: dict[str, Callable[[str], Answer]] = {
+    "content": _digest_of_content,
+    "names": lambda path: _digest_of(*_names(path)),
+    "entries": lambda path: _digest_of(_entries(path)),
+    "exists": os.path.exists,
+    "is_file": os.path.isfile,
+    "is_directory": os.path.isdir,
+    "is_executable": _is_executable,
+    "real": os.path.realpath,
+    "stamp": _stamp,
+}
