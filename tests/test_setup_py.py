@@ -590,10 +590,9 @@ def test_an_added_script_is_the_only_difference(
         assert not before.entry_points_complete
         return
     after = view(applied(text, edit))
-    assert [point.text for point in after.entry_points] == [
-        *(point.text for point in before.entry_points),
-        "new = demo.new:main",
-    ]
+    *kept, added = [point.text for point in after.entry_points]
+    assert kept == [point.text for point in before.entry_points]
+    assert added in {"new = demo.new:main", "new=demo.new:main"}
     assert ("\r" in after.module.source.text) == (newline == "\r\n")
 
 

@@ -28,7 +28,7 @@ def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
     if any(point.name == name for point in setup.console_scripts):
         return None
     quote = _quote_of(setup)
-    texts = [point.text for point in setup.console_scripts]
+    texts = [point.text for point in setup.console_scripts if "=" in point.text]
     equals = "=" if texts and not any(" = " in text for text in texts) else " = "
     entry = f"{quote}{name}{equals}{target}{quote}"
     group = Block(f"{quote}console_scripts{quote}: [", "]", (entry,))
