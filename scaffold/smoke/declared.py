@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold.errors import ViewError
 from scaffold.model.node_entities import Publisher
 from scaffold.model.nodes import NodeClass, NodeFacts, NodeOwner
 from scaffold.model.package import Package
+from scaffold.model.program_starts import Start, run_of, starts_of
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.values import Unknown
 from scaffold.smoke.expectation import Expectation, Publication
@@ -20,111 +20,28 @@ _MAX_BASES = 8
 def expectations(package: Package) -> dict[str, Expectation]:
     """Return what is expected of the executables that are Python, by their names."""
     found: dict[str, Expectation] = {}
-    for name, path, function in _executables(package):
-        expectation = _expectation(package, path, function)
+    for start in starts_of(package):
+        expectation = _expectation(package, start)
         if expectation is not None:
-            found[name] = expectation
+            found[start.program] = expectation
     return found
-
-
-# -- executables
-
-
-def _executables(package: Package) -> Iterator[tuple[str, str, str | None]]:
-    """Yield name, file and entry function; without one, the file is run as a script."""
-    try:
-        if package.build_type == "ament_python":
-            yield from _console_scripts(package)
-        elif package.build_type == "ament_cmake":
-            yield from _programs(package)
-    except ViewError:
-        return
-
-
-def _console_scripts(package: Package) -> Iterator[tuple[str, str, str | None]]:
-    for entry in package.setup_py.console_scripts:
-        path = _file_of(package, entry.module)
-        if path is not None and not entry.malformed:
-            yield entry.name, path, entry.function
-
-
-def _file_of(package: Package, module: str) -> str | None:
-    stem = module.replace(".", "/")
-    paths = (f"{top}{stem}{end}" for top in ("", "src/") for end in (".py", "/__init__.py"))
-    return next((path for path in paths if package.has(path)), None)
-
-
-def _programs(package: Package) -> Iterator[tuple[str, str, str | None]]:
-    for install in package.cmake.installs:
-        if install.kind != "PROGRAMS" or package.cmake.guarded_by_testing(install.command):
-            continue
-        for item in install.items:
-            path = item.path
-            if path is None or path not in package.python_files:
-                continue
-            # A node is meant for `ros2 run` wherever it is installed.
-            if install.destination == f"lib/{package.name}" or package.node_facts(path).nodes:
-                yield install.rename or path.rpartition("/")[2], path, None
 
 
 # -- what one of them does
 
 
-def _expectation(package: Package, path: str, function: str | None) -> Expectation | None:
+def _expectation(package: Package, start: Start) -> Expectation | None:
     try:
-        facts = package.node_facts(path)
+        run = run_of(package, start)
     except ViewError:
         return None
-    starts = _starts(facts, function)
-    calls = _calls_from(facts, starts, as_script=function is None)
-    owners = list(_made(facts, calls))
+    owners = [owner for _, owner in run.nodes()]
     return Expectation(
-        publications=_merged(_publications(facts, owners, starts)),
-        is_node=_is_node(package, facts),
-        runs_nothing=function is None and not calls and bool(facts.nodes),
-        source=path,
+        publications=_merged(_publications(run.facts, owners, run.functions)),
+        is_node=_is_node(package, run.facts),
+        runs_nothing=start.function is None and not run.calls and bool(run.facts.nodes),
+        source=start.path,
     )
-
-
-def _starts(facts: NodeFacts, function: str | None) -> list[FunctionNode]:
-    """Return the functions that run, from the entry on, in the same file."""
-    if function is not None:
-        found = facts.module.functions.get(function)
-        begin = [found.node] if found else []
-    else:
-        called = [facts.callback(call.func).function for call in _calls_outside(facts)]
-        begin = [one for one in called if one is not None and not isinstance(one, ast.Lambda)]
-    reached: dict[FunctionNode, None] = {}
-    for one in begin:
-        for other in facts.reached(one):
-            if not isinstance(other, ast.Lambda):
-                reached[other] = None
-    return list(reached)
-
-
-def _calls_outside(facts: NodeFacts) -> list[ast.Call]:
-    """Return the calls that importing or running the file makes itself."""
-    module = facts.module
-    return [
-        call
-        for call in module.walk(ast.Call)
-        if module.enclosing_function(call) is None and module.enclosing_class(call) is None
-    ]
-
-
-def _calls_from(
-    facts: NodeFacts, starts: Iterable[FunctionNode], *, as_script: bool
-) -> list[ast.Call]:
-    calls = _calls_outside(facts) if as_script else []
-    return calls + [call for start in starts for call in facts.calls_in(start)]
-
-
-def _made(facts: NodeFacts, calls: Iterable[ast.Call]) -> Iterator[NodeOwner]:
-    """Yield the nodes that are certainly made by these calls."""
-    for call in calls:
-        owner = None if facts.is_conditional(call) else facts.owner_of(call)
-        if owner is not None:
-            yield owner
 
 
 def _is_node(package: Package, facts: NodeFacts) -> bool | None:
@@ -140,7 +57,7 @@ def _is_node(package: Package, facts: NodeFacts) -> bool | None:
 
 
 def _publications(
-    facts: NodeFacts, owners: Iterable[NodeOwner], starts: list[FunctionNode]
+    facts: NodeFacts, owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
         if owner.is_lifecycle:
@@ -162,7 +79,7 @@ def _publications(
                 )
 
 
-def _publishers(owner: NodeOwner, starts: list[FunctionNode]) -> Iterator[Publisher]:
+def _publishers(owner: NodeOwner, starts: Sequence[FunctionNode]) -> Iterator[Publisher]:
     """Yield the publishers that exist once the node is made."""
     if not isinstance(owner, NodeClass):
         for publisher in owner.publishers:

@@ -1,0 +1,98 @@
+"""ND041: rclpy is initialized before a node is made."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.model.init_use import calls_others, late_init, may_init
+from scaffold.model.program_starts import Run, files_of, run_of, starts_of
+
+_NODE = (
+    "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n\n\n"
+    "def main():\n{}\n\n"
+    "if __name__ == '__main__':\n    main()\n"
+)
+_SPIN = "    rclpy.spin(node)\n"
+_CMAKE = (
+    "project(demo)\n"
+    "install(PROGRAMS demo/talker.py DESTINATION lib/${PROJECT_NAME})\n"
+    "ament_package()\n"
+)
+_XML = "<package><name>demo</name><export><build_type>ament_cmake</build_type></export></package>\n"
+_FILES = {"package.xml": _XML, "CMakeLists.txt": _CMAKE}
+
+
+class InitMissing(Rule):
+    """A program makes a node, and has not called ``rclpy.init`` before.
+
+    **Why.** ``NotInitializedException: rclpy.init() has not been called. msg:cannot create node``.
+
+    **Fix.** Call ``rclpy.init(args=args)`` first.
+
+    **Source.** ``rclpy/node.py``, ``Node.__init__``.
+    """
+
+    code = "ND041"
+    name = "init-missing"
+    examples = (
+        Example(
+            "initialized",
+            {
+                **_FILES,
+                "demo/talker.py": _NODE.format("    rclpy.init()\n    node = Talker()\n" + _SPIN),
+            },
+        ),
+        Example(
+            "never",
+            {**_FILES, "demo/talker.py": _NODE.format("    node = Talker()\n" + _SPIN)},
+            at=("demo/talker.py:12",),
+        ),
+        Example(
+            "too late",
+            {
+                **_FILES,
+                "demo/talker.py": _NODE.format("    node = Talker()\n    rclpy.init()\n" + _SPIN),
+            },
+            at=("demo/talker.py:12",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        reported: set[ast.Call] = set()
+        for start in starts_of(package):
+            try:
+                run = run_of(package, start)
+            except ViewError:
+                continue
+            first = next(iter(run.nodes()), None)
+            if first is None or run.facts.module.in_tests or first[0] in reported:
+                continue
+            call = first[0]
+            problem = _problem(package, run, call)
+            if problem:
+                reported.add(call)
+                yield self.report(run.facts.module.location(call), problem)
+
+
+def _problem(package: Package, run: Run, made: ast.Call) -> str | None:
+    facts = run.facts
+    late = late_init(facts, made)
+    for one in files_of(package, facts.module.path):
+        if may_init(one) and not (late and one is facts):
+            return None
+    if any(word.arg in {"context", None} for word in made.keywords):
+        return None
+    if any(function.decorator_list for function in run.functions) or calls_others(
+        package, run, made
+    ):
+        return None
+    name = facts.module.text(made.func)
+    if late is not None:
+        line = facts.module.location(late).line
+        return f"{name} is made before rclpy.init() in line {line}: NotInitializedException"
+    return f"nothing calls rclpy.init() before {name} is made: NotInitializedException"
