@@ -22,6 +22,8 @@ SYSTEM_LINTERS = {
     "ament_copyright": "python3-ament-copyright",
     "ament_lint_cmake": "python3-ament-lint-cmake",
     "ament_xmllint": "python3-ament-xmllint libxml2-utils",
+    "ament_cpplint": "python3-ament-cpplint",
+    "ament_uncrustify": "python3-ament-uncrustify",
     "ament_lint_auto": "ament-lint",
 }
 """The linters that no Python index has, and the packages of Debian and Ubuntu with them."""

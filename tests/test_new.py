@@ -17,7 +17,7 @@ from scaffold import content
 from scaffold.check.rule import Rule
 from scaffold.cli.main import main
 from scaffold.errors import ContentError, InputError
-from scaffold.generate import draft, filters, licenses, names, payload, template, values
+from scaffold.generate import draft, examples, filters, licenses, names, payload, template, values
 from scaffold.generate.defaults import User
 from scaffold.generate.qos import NAMES, qos
 from scaffold.generate.questions import Given
@@ -29,9 +29,9 @@ COMMENTS = ("brief", "tutorial")
 TYPES = tuple(payload.STD_MSGS)
 COMBINATIONS = list(itertools.product(BUILD_TYPES, COMMENTS, TYPES))
 EXAMPLES = [
-    pytest.param(answers, id=f"{name}-{title}")
+    pytest.param(example.answers, id=f"{name}-{example.title}")
     for name, one in TEMPLATES.items()
-    for title, answers in one.examples.items()
+    for example in examples.of(one, TEMPLATES)
 ]
 
 COMMON_FILES = {
@@ -273,10 +273,9 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
 
 
 @pytest.mark.parametrize("given", EXAMPLES)
-@pytest.mark.parametrize("build_type", BUILD_TYPES)
 @pytest.mark.parametrize("comments", COMMENTS)
-def test_examples_pass_every_rule(given: dict[str, Any], build_type: str, comments: str) -> None:
-    made = make(**{"build_type": build_type, "comments": comments, **given})
+def test_examples_pass_every_rule(given: dict[str, Any], comments: str) -> None:
+    made = make(**{"comments": comments, **given})
     assert draft.defects(made, rules()) == []
 
 

@@ -29,7 +29,7 @@ def package_context(
     Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the licence as
     comment lines), ``license_text`` (the template of the full text), ``nodes``, ``interfaces``
     and ``programs``, ``depends`` (names by kind), ``groups`` and ``share_directories``. A part has
-    the answers of its template, ``kind`` and ``name``; a node also has ``module``,
+    the answers of its template, ``kind``, ``name`` and ``summary``; a node also has ``module``,
     ``class_name``, ``executable`` and the full names of its topics, services and actions; an
     interface has ``file`` and ``type``.
 
@@ -88,11 +88,17 @@ def today() -> date:
 def _part(
     part: Part, layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
 ) -> dict[str, Any]:
-    found = {**part.answers, "kind": part.template.name, "name": part.name}
-    if part.template.role is Role.NODE:
+    template = part.template
+    found = {
+        **part.answers,
+        "kind": template.name,
+        "name": part.name,
+        "summary": template.summary,
+    }
+    if template.role is Role.NODE:
         return _node(found, part, layers, context, renderer)
-    if part.template.role is Role.INTERFACE:
-        ending = part.template.definition
+    if template.role is Role.INTERFACE:
+        ending = template.definition
         found["file"] = f"{ending}/{part.name}.{ending}"
         found["type"] = f"{context['package']}/{ending}/{part.name}"
     return found

@@ -80,6 +80,11 @@ def comment(text: str, mark: str = "#") -> str:
     return "\n".join(f"{mark} {line}".rstrip() for line in text.rstrip("\n").split("\n"))
 
 
+def slashes(text: str) -> str:
+    """Return comment lines of Python as those of C++."""
+    return re.sub(r"(?m)^#", "//", text)
+
+
 def import_block(lines: Iterable[str]) -> str:
     """Return import statements in the order of ament_flake8: by module, not by kind.
 

@@ -17,8 +17,8 @@ from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
 from scaffold.generate.template import ENDING, MANIFEST, Template
 
-_COMMENT = re.compile(r"^([ \t]*)(?:#:(?: (.*))?|<!--: (.*))$", re.MULTILINE)
-"""``#: text`` or ``<!--: text -->``: a line for learners; a bare ``#:`` is an empty line."""
+_COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
+"""A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
 
 
 _NAME = re.compile(r"\{\{ ([\w.]+) \}\}")
@@ -62,6 +62,7 @@ class Renderer:
         jinja.filters |= {
             "literal": filters.literal,
             "markdown": filters.markdown,
+            "slashes": filters.slashes,
             "xml": filters.xml,
         }
         jinja.globals["imports"] = self._imports
@@ -232,14 +233,14 @@ class _Loader(BaseLoader):
     def _with_comments(self, text: str) -> str:
         if self._is_tutorial:
             return _COMMENT.sub(_learner_line, text)
-        return re.sub(r"(?m)^[ \t]*(?:#:(?: .*)?|<!--: .*)\n", "", text)
+        return re.sub(r"(?m)^[ \t]*(?:(?:#|//):(?: .*)?|<!--: .*)\n", "", text)
 
 
 def _learner_line(match: re.Match[str]) -> str:
-    indent, words, xml_words = match.groups()
+    indent, mark, words, xml_words = match.groups()
     if xml_words is not None:
         return f"{indent}<!-- {xml_words}"
-    return f"{indent}# {words}" if words else ""
+    return f"{indent}{mark} {words}" if words else ""
 
 
 class _Told:
