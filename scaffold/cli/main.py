@@ -20,6 +20,7 @@ INTERRUPTED = 130
 
 VERBS = {
     "new": "write a package",
+    "add": "add a node, an interface or a program to a package",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
     "interfaces": "list the known messages, services and actions, or show some",

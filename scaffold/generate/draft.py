@@ -89,9 +89,21 @@ class Composed(NamedTuple):
 
 
 def compose(
-    roots: Sequence[str], templates: Mapping[str, Template], given: Mapping[str, Given], user: User
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    given: Mapping[str, Given],
+    user: User,
+    *,
+    fixed: Mapping[str, Any] | None = None,
 ) -> Composed:
-    """Choose templates and settle all questions; see ``draft``.
+    """Choose templates and settle all questions.
+
+    Args:
+        roots: The ``templates`` directories; a later one wins.
+        templates: The templates in them.
+        given: The user's answers by question.
+        user: Knows what was not given.
+        fixed: Answers for the package that are as they are, such as the name of an existing one.
 
     Raises:
         InputError: an answer is missing, not acceptable, or of no use here.
@@ -102,13 +114,18 @@ def compose(
     _refuse_useless(given, order)
     comments = _answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
-    known = {"contents": parts.contents(order.requests)}
+    known = {**(fixed or {}), "contents": parts.contents(order.requests)}
     answers = questions.resolve(
-        asked, given, known=known, render=renderer.text, fallback=user.answer
+        [question for question in asked if question.name not in known],
+        given,
+        known=known,
+        render=renderer.text,
+        fallback=user.answer,
     )
-    made, written = _parts(order.requests, given, answers.values, renderer)
-    parts.refuse_impossible(made, answers.values["package"], answers.values["build_type"])
-    context = package_context(answers.values, order.layers, made, renderer)
+    values = {**(fixed or {}), **answers.values}
+    made, written = _parts(order.requests, given, values, renderer)
+    parts.refuse_impossible(made, values["package"], values["build_type"])
+    context = package_context(values, order.layers, made, renderer)
     return Composed(
         order.layers,
         context,

@@ -30,14 +30,6 @@ class Program(NamedTuple):
         return f"{self.module}:main"
 
 
-class Row(NamedTuple):
-    """A row of a table in README.md."""
-
-    header: tuple[str, ...]
-    """The cells above the columns of the table that it belongs to."""
-    cells: tuple[str, ...]
-
-
 class Addition(NamedTuple):
     """What a package gets besides new files."""
 
@@ -56,7 +48,8 @@ class Addition(NamedTuple):
     """Packages whose types the interfaces use."""
     directories: Sequence[str] = ()
     """Directories that go to ``share/<package>``, their names included."""
-    rows: Sequence[Row] = ()
+    readme: str = ""
+    """README.md of a package that has nothing but this: its sections are merged."""
     changes: Sequence[str] = ()
     """Lines for the next release in CHANGELOG.rst."""
 
@@ -67,6 +60,8 @@ class ByHand(NamedTuple):
     path: str
     line: str
     reason: str
+    is_needed: bool = True
+    """Without it, what was added is not built, found or tested."""
 
 
 class Outcome(NamedTuple):

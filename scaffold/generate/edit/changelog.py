@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
+
 from scaffold.check.diagnostic import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
 from scaffold.model.source import Source
 
 UPCOMING = "Forthcoming"
+_LIKE_OURS = r"\* Add the [a-z ]+ ``\w+``\."
 
 
 def add_to_changelog(source: Source, addition: Addition) -> Outcome:
-    """Add lines below the last one of the section ``Forthcoming``, if it has any."""
+    """Add lines to the section ``Forthcoming``, if it has lines like them."""
     for line in addition.changes:
         source = _add(source, line)
     return Outcome(source)
@@ -20,16 +23,13 @@ def _add(source: Source, line: str) -> Source:
     lines = [one.rstrip() for one in source.lines]
     if UPCOMING not in lines or line in lines:
         return source
-    first = lines.index(UPCOMING) + 2
     last = None
-    for number in range(first, len(lines)):
-        if lines[number].startswith("* "):
+    for number in range(lines.index(UPCOMING) + 2, len(lines)):
+        if re.fullmatch(_LIKE_OURS, lines[number]):
             last = number
-        elif lines[number] and not lines[number].startswith(" "):
+        elif lines[number] and not lines[number].startswith(("* ", " ")):
             break
     if last is None:
         return source
-    while last + 1 < len(lines) and lines[last + 1].startswith("  "):
-        last += 1
     at = source.offset(last + 1) + len(source.lines[last])
     return spliced(source, [Edit(source.path, at, at, f"{source.newline}{line}")])

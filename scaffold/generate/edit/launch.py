@@ -43,7 +43,7 @@ def add_to_launch(source: Source, addition: Addition) -> Outcome:
             return Outcome(changed)
     line = f"Node(package='{addition.package}', executable='{program.name}'),"
     reason = "it does not return LaunchDescription([...]) with the nodes written out in the list"
-    return Outcome(source, (ByHand(source.path, line, reason),))
+    return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 
 def _markup(source: Source, form: str, package: str, program: Program) -> Outcome:
@@ -52,7 +52,8 @@ def _markup(source: Source, form: str, package: str, program: Program) -> Outcom
     if starts is None or re.search(rf"\b{re.escape(program.name)}\b", source.text):
         return Outcome(source)
     line = form.format(package, program.name)
-    return Outcome(source, (ByHand(source.path, line, "only launch files in Python are edited"),))
+    reason = "only launch files in Python are edited"
+    return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 
 def _starts(source: Source, package: str, program: Program) -> bool:

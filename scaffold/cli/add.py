@@ -1,0 +1,242 @@
+"""``ros2-scaffold add KIND NAME``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from scaffold.check.diagnostic import Diagnostic
+    from scaffold.generate.add import Added
+    from scaffold.generate.questions import Given
+    from scaffold.generate.template import Question, Template
+    from scaffold.model.package import Package
+    from scaffold.plan import WritePlan
+
+_OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
+"""The questions of the base that a part asks, too; a package has answered most of them."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb and those of the parts' questions."""
+    from scaffold import config, content
+    from scaffold.generate import parts, questions, template
+
+    templates = template.load(content.roots("templates", config.load().content))
+    kinds = parts.kinds(templates)
+    kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {', '.join(kinds)}")
+    kind.completer = lambda **_: kinds  # type: ignore[attr-defined]  # argcomplete
+    parser.add_argument("name", metavar="NAME", help="the name of the node, interface or program")
+    parser.add_argument(
+        "--package-directory",
+        metavar="DIR",
+        help="the package (default: the one around the current directory)",
+    )
+    questions.add_flags(parser, _asked(templates, kinds))
+    parser.add_argument("--answers", metavar="FILE", help="a YAML file with answers; flags win")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be changed, and change nothing"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="show the changes as a diff, and change nothing"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite files of the part that exist and differ"
+    )
+    parser.add_argument(
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with templates/ of your own; what they ask is answered by --answers",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Add a part to a package; return the exit code."""
+    from scaffold import config, content
+    from scaffold.check import registry
+    from scaffold.check.selection import Selection
+    from scaffold.check.session import Session
+    from scaffold.cli.main import CLEAN, DEFECT, FOUND
+    from scaffold.generate import add, parts, template
+    from scaffold.generate.defaults import User
+    from scaffold.generate.questions import choose
+    from scaffold.model.package import Package
+
+    settings = config.load(content=tuple(options.content))
+    roots = content.roots("templates", settings.content)
+    templates = template.load(roots)
+    choose(options.kind, parts.kinds(templates), "KIND")
+    directory = _directory(options.package_directory)
+    package = Package.at(directory)
+    session = Session(registry.load(content.roots("rules")), Selection())
+    before = session.check(package)
+    _refuse_broken(package, before, force=options.force)
+    given = _given(options, templates)
+    part = (options.kind, options.name)
+    added = add.add(package, part, given, roots, templates, User(directory))
+    plan = _plan(package, added, force=options.force)
+    said = add.new_diagnostics(before, session.check(added.package))
+    if _is_defect(said, added):
+        _report(package, said)
+        return DEFECT
+    if options.diff:
+        sys.stdout.write(plan.diff())
+    elif not options.dry_run:
+        plan.write(force=True)
+    for diagnostic in said:
+        sys.stderr.write(f"note: {_line(package, diagnostic)}\n")
+    if not options.diff:
+        print(_summary(options, package, added, plan))
+    for line in _by_hand(package, added):
+        sys.stderr.write(f"{line}\n")
+    return FOUND if any(one.is_needed for one in added.by_hand) else CLEAN
+
+
+def _asked(templates: Mapping[str, Template], kinds: list[str]) -> list[Question]:
+    """Return the questions that may be answered; the name is an argument of its own."""
+    from scaffold.generate import questions
+    from scaffold.generate.template import BASE
+
+    names = {templates[kind].name_question for kind in kinds}
+    own = [one for one in questions.unique(templates[k] for k in kinds) if one.name not in names]
+    general = [one for one in templates[BASE].questions if one.name in _OF_PACKAGES]
+    return [*own, *general]
+
+
+def _given(options: argparse.Namespace, templates: Mapping[str, Template]) -> dict[str, Given]:
+    from scaffold.generate import parts, questions
+
+    asked = _asked(templates, parts.kinds(templates))
+    answered = questions.from_file(options.answers, asked) if options.answers else {}
+    return {**answered, **questions.from_flags(options, asked)}
+
+
+def _directory(given: str | None) -> str:
+    """Return the directory of the package that is meant."""
+    from scaffold.errors import InputError
+    from scaffold.model.tree import MANIFEST
+
+    if given is not None:
+        if not os.path.isfile(os.path.join(given, MANIFEST)):
+            raise InputError(f"{given}: no package: there is no {MANIFEST} in it")
+        return os.path.normpath(given)
+    directory = os.getcwd()
+    while not os.path.isfile(os.path.join(directory, MANIFEST)):
+        if directory == os.path.dirname(directory):
+            raise InputError(
+                f"no {MANIFEST} here or above: go to a package, or name one with "
+                "--package-directory"
+            )
+        directory = os.path.dirname(directory)
+    return os.path.relpath(directory)
+
+
+def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -> None:
+    """Raise if a file of the package cannot be parsed; ``--force`` wants only those it edits."""
+    from scaffold.check.internal import UnparsableFile
+    from scaffold.errors import InputError
+
+    for diagnostic in before:
+        if (diagnostic.code == UnparsableFile.code or diagnostic.code.startswith("E9")) and not (
+            force
+        ):
+            raise InputError(f"{_line(package, diagnostic)}; mend it first, nothing was changed")
+
+
+def _plan(package: Package, added: Added, *, force: bool) -> WritePlan:
+    """Compare with what is there; files of others are edited, files of the part are not."""
+    from scaffold.errors import ConflictError
+    from scaffold.plan import WritePlan
+
+    plan = WritePlan.of(package.tree.root, added.files, executable=added.executable)  # type: ignore[attr-defined]
+    differing = [
+        file.path
+        for file in plan.files
+        if file.path in added.new and file.before not in {None, file.content}
+    ]
+    if differing and not force:
+        names = ", ".join(differing)
+        raise ConflictError(
+            f"{names} in {package.directory} exists already and differs; "
+            "choose another name, or overwrite it with --force"
+        )
+    return plan
+
+
+def _is_defect(said: list[Diagnostic], added: Added) -> bool:
+    """Tell whether an edit or a template made something that the checker calls an error."""
+    from scaffold.check.diagnostic import Severity
+
+    needed = any(one.is_needed for one in added.by_hand)
+    return not needed and any(one.severity is Severity.ERROR for one in said)
+
+
+def _report(package: Package, said: list[Diagnostic]) -> None:
+    for diagnostic in said:
+        sys.stderr.write(f"{_line(package, diagnostic)}\n")
+    sys.stderr.write(
+        "ros2-scaffold: defect: what was to be added has faults that the checker finds; "
+        "nothing was changed; please report it\n"
+    )
+
+
+def _line(package: Package, diagnostic: Diagnostic) -> str:
+    at = diagnostic.location
+    path = os.path.normpath(os.path.join(package.directory, at.path))
+    return f"{path}:{at.line}:{at.column}: {diagnostic.code} {diagnostic.message}"
+
+
+def _summary(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> str:
+    """Return what is written and edited, and the next commands."""
+    from scaffold.plan import State
+
+    words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
+    rows = [
+        (os.path.normpath(os.path.join(package.directory, file.path)), words[file.state], file.path)
+        for file in plan.files
+    ]
+    width = max(len(path) for path, _, _ in rows)
+    lines = [
+        f"{path:{width}}  {', '.join(filter(None, [word, added.notes.get(name, '')]))}"
+        for path, word, name in rows
+    ]
+    if options.dry_run:
+        return "\n".join([*lines, "", plan.diff().rstrip("\n"), "Nothing was changed (--dry-run)."])
+    if not plan.changes:
+        return "\n".join([*lines, "", "All of it was there already: nothing was changed."])
+    return "\n".join([*lines, "", *_next_commands(package, added)])
+
+
+def _next_commands(package: Package, added: Added) -> list[str]:
+    from shlex import quote
+
+    from scaffold.generate import place
+
+    top = place.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
+    build = f"colcon build --packages-select {package.name}"
+    if top and os.path.realpath(top) != os.path.realpath("."):
+        build = f"cd {quote(os.path.relpath(top))} && {build}"
+    lines = [
+        "Next:",
+        f"    ros2-scaffold check {quote(package.directory)}",
+        f"    {build}",
+        "    source install/setup.bash",
+    ]
+    return [*lines, f"    ros2 run {package.name} {added.program}"] if added.program else lines
+
+
+def _by_hand(package: Package, added: Added) -> list[str]:
+    """Return what the user has to add, where and why."""
+    if not added.by_hand:
+        return []
+    lines = ["To be added by hand:"]
+    for one in added.by_hand:
+        path = os.path.normpath(os.path.join(package.directory, one.path))
+        lines += [f"    {path}: {one.line}", f"        because {one.reason}"]
+    return lines

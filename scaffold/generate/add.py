@@ -1,0 +1,228 @@
+"""Adds a part to an existing package: renders its files, edits those that must know of it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from scaffold.check.fixer import Overlay
+from scaffold.errors import ConflictError, InputError, ParseError, ViewError
+from scaffold.generate import facts, licenses, parts
+from scaffold.generate.context import part_scopes
+from scaffold.generate.defaults import User
+from scaffold.generate.draft import Composed, compose
+from scaffold.generate.edit.addition import Addition, ByHand, Program
+from scaffold.generate.edit.edit import README, edit
+from scaffold.generate.edit.layout import Layout, layout_of
+from scaffold.generate.questions import Given
+from scaffold.generate.render import Rendered
+from scaffold.generate.template import BASE, ENDING, PARTS, Role, Template
+from scaffold.model.package import Package
+from scaffold.model.package_programs import programs_of
+
+if TYPE_CHECKING:
+    from scaffold.check.diagnostic import Diagnostic
+
+_TESTS = "test/"
+_OF_A_DAY = r"\b(?:\d{4}-\d{2}-\d{2}|\d{4}(?=[ ,]))"
+"""Dates, and the years of copyright notices: a second run on another day changes nothing."""
+
+
+class Added(NamedTuple):
+    """A package with something new, in memory."""
+
+    files: Mapping[str, bytes]
+    """What is written: new files and those that are edited."""
+    new: Sequence[str]
+    """The files of the part; all others are edited."""
+    executable: frozenset[str]
+    notes: Mapping[str, str]
+    """What a new file is for."""
+    by_hand: tuple[ByHand, ...]
+    program: str | None
+    """What ``ros2 run`` calls the new program."""
+    package: Package
+    """The package as it will be."""
+    answers: Mapping[str, Any]
+    """The part as in an answers file."""
+
+
+def add(
+    package: Package,
+    part: tuple[str, str],
+    given: Mapping[str, Given],
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    user: User,
+) -> Added:
+    """Add a part to a package in memory.
+
+    Args:
+        package: The package as it is.
+        part: Its kind and its name.
+        given: The user's answers; the package answers what it has decided.
+        roots: The ``templates`` directories; a later one wins.
+        templates: The templates in them.
+        user: Knows what neither says.
+
+    Raises:
+        InputError: the package cannot be parsed or does not fit, or an answer is not acceptable.
+        ConflictError: it has a program of that name already.
+    """
+    try:
+        layout = layout_of(package)
+        composed = _compose(package, part, given, roots, templates, user)
+        rendered = _placed(composed, package, layout)
+        addition = _addition(composed, package, layout, rendered)
+        _refuse_taken(package, addition)
+        edited = edit(package, addition)
+    except ParseError as error:
+        raise InputError(f"{told(package, error)}; nothing was changed") from error
+    except ViewError as error:
+        raise InputError(f"{package.directory}: {error} is missing") from error
+    new = {path: _kept(package, path, text) for path, text in rendered.files.items()}
+    overlay = Overlay(package.tree)
+    overlay.changed.update({**new, **edited.files})
+    overlay.executable.update(rendered.executable)
+    return Added(
+        {**new, **edited.files},
+        tuple(new),
+        rendered.executable,
+        rendered.notes,
+        edited.by_hand,
+        addition.program.name if addition.program else _built(composed),
+        Package(overlay, directory=package.directory, workspace=package.known_workspace),
+        composed.answers[parts.ADD][0],
+    )
+
+
+def told(package: Package, error: ParseError) -> str:
+    """Return where a package cannot be parsed, and why."""
+    at = error.location
+    where = f"{package.directory}/{at.path}" if package.directory else at.path
+    return f"{where}:{at.line}:{at.column}: {error.message}"
+
+
+def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Return what the checker says of a package only now; lines may have moved."""
+    known = Counter(map(_said, before))
+    found: list[Diagnostic] = []
+    for diagnostic in after:
+        if known[_said(diagnostic)]:
+            known[_said(diagnostic)] -= 1
+        else:
+            found.append(diagnostic)
+    return found
+
+
+def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
+    return diagnostic.code, diagnostic.location.path, re.sub(r"\d+", "", diagnostic.message)
+
+
+def _compose(
+    package: Package,
+    part: tuple[str, str],
+    given: Mapping[str, Given],
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    user: User,
+) -> Composed:
+    kind, name = part
+    decided = facts.answers(package, licenses.names(roots))
+    has_license = "license" in {**decided, **given}
+    wanted = Given([{parts.KIND: kind, "name": name}], "NAME")
+    answers = {**decided, **given, parts.ADD: wanted}
+    fixed = {"package": package.name, "build_type": package.build_type}
+    answers["build_type"] = Given(package.build_type, "package.xml")
+    composed = compose(roots, templates, answers, user, fixed=fixed)
+    if not has_license:
+        # No header is better than one that promises what the package does not.
+        holder, year = composed.context["copyright_holder"], composed.context["year"]
+        composed.context["header"] = f"# Copyright {year} {holder}"
+    return composed
+
+
+def _placed(composed: Composed, package: Package, layout: Layout) -> Rendered:
+    """Render the files of the part alone, at the places where the package has such files."""
+    scopes = [
+        (layer, scope)
+        for layer, scope in part_scopes(composed.layers, composed.context)
+        if layer.role in PARTS
+    ]
+    rendered = composed.renderer.package(scopes)
+
+    def place(path: str) -> str:
+        for old, new in ((package.name, layout.programs), (_TESTS[:-1], layout.tests)):
+            if path.startswith(f"{old}/"):
+                return f"{new}/{path.removeprefix(f'{old}/')}"
+        return path
+
+    files = {place(path): text for path, text in rendered.files.items()}
+    if any(path.startswith(f"{layout.programs}/") for path in files):
+        files |= dict.fromkeys(layout.new_files, "")
+    return Rendered(
+        files,
+        frozenset(map(place, rendered.executable)),
+        {place(path): note for path, note in rendered.notes.items()},
+    )
+
+
+def _addition(composed: Composed, package: Package, layout: Layout, rendered: Rendered) -> Addition:
+    context, renderer = composed.context, composed.renderer
+    scope = next(s for layer, s in part_scopes(composed.layers, context) if layer.role in PARTS)
+    layer = next(layer for layer in composed.layers if layer.role in PARTS)
+    depends = {
+        kind: [name for text in texts for name in renderer.text(text, scope).split()]
+        for kind, texts in layer.depends.items()
+    }
+    tests = [path for path in rendered.files if path.startswith(f"{layout.tests}/test_")]
+    changelog = renderer.file(f"{BASE}/CHANGELOG.rst{ENDING}", context)
+    addition = Addition(
+        package.name,
+        test=tests[0] if tests else None,
+        depends=depends,
+        groups=[renderer.text(text, scope) for text in layer.groups],
+        directories=[renderer.text(text, scope) for text in layer.installs],
+        readme=renderer.file(f"{BASE}/{README}{ENDING}", context),
+        changes=[line for line in changelog.splitlines() if line.startswith("* ")],
+    )
+    if layer.role is Role.NODE:
+        node = scope["node"]
+        path = next(iter(sorted(rendered.executable)))
+        module = f"{layout.module}.{node['module']}" if layout.module else node["module"]
+        return addition._replace(program=Program(path, node["executable"], module))
+    return addition
+
+
+def _built(composed: Composed) -> str | None:
+    """Return the name of a program that is compiled."""
+    return next((str(program["name"]) for program in composed.context["programs"]), None)
+
+
+def _refuse_taken(package: Package, addition: Addition) -> None:
+    """Raise if ``ros2 run`` knows another program by the name of a new one."""
+    program = addition.program
+    if program is None:
+        return
+    sources = programs_of(package).sources
+    if program.name in sources and sources[program.name] != program.path:
+        where = f", {sources[program.name]}" if sources[program.name] else ""
+        raise ConflictError(
+            f"{package.name} has a program {program.name!r} already{where}: choose another name"
+        )
+
+
+def _kept(package: Package, path: str, text: str) -> bytes:
+    """Return a file as it is when it differs in nothing but dates, else the new text."""
+    data = text.encode()
+    try:
+        there = package.tree.read(path) if package.has(path) else data
+    except OSError:
+        return data
+    return there if _timeless(there) == _timeless(data) else data
+
+
+def _timeless(data: bytes) -> str:
+    return re.sub(_OF_A_DAY, "", data.decode(errors="replace").replace("\r\n", "\n"))
