@@ -1,0 +1,76 @@
+"""MS010: messages with a header have a stamp."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.message_stamps import unstamped
+from scaffold.model.message_types import MessageTypes
+
+_NODE = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.publisher = self.create_publisher(Temperature, 'temperature', 10)\n\n"
+    "    def tick(self):\n"
+    "        reading = Temperature(temperature=20.0)\n"
+    "        reading.header.frame_id = 'base_link'\n"
+    "{}"
+    "        self.publisher.publish(reading)\n"
+)
+
+
+class StampNeverSet(Rule):
+    """A measurement is published with a frame, and nothing ever sets the stamp in its header.
+
+    **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
+    finds a match, RViz drops the message.
+
+    **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()``.
+
+    **Source.** ``std_msgs/msg/Header``; ROS 2 documentation, "Debugging tf2 problems".
+    """
+
+    code = "MS010"
+    name = "stamp-never-set"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "set",
+            {
+                "talker.py": _NODE.format(
+                    "        reading.header.stamp = self.get_clock().now().to_msg()\n"
+                )
+            },
+        ),
+        Example("never set", {"talker.py": _NODE.format("")}, at=("talker.py:11",)),
+        Example(
+            "perhaps set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            if types.module.in_tests:
+                continue
+            for found in unstamped(types):
+                if _is_used_elsewhere(package, types, found.sent.args[0]):
+                    continue
+                line = types.module.location(found.sent).line
+                message = (
+                    f"{found.message.name} is published in line {line} with a stamp of zero: "
+                    "nothing sets header.stamp"
+                )
+                yield self.report(types.module.location(found.made), message)
+
+
+def _is_used_elsewhere(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
+    """Tell whether another file names the attribute that holds a message."""
+    return isinstance(sent, ast.Attribute) and any(
+        module.index.attributes(sent.attr)
+        for module in package.modules()
+        if module is not types.module
+    )
