@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
+from scaffold.generate.fields import Fields, refuse_missing
 from scaffold.generate.questions import Given
 from scaffold.generate.template import PARTS, Role, Template
 
@@ -94,6 +95,11 @@ def refuse_impossible(parts: Sequence[Part], package: str, build_type: str) -> N
         )
     for part in parts:
         refuse_build_type(part.template, build_type)
+    messages = [part.name for part in parts if part.template.definition == "msg"]
+    for part in parts:
+        for answer in part.answers.values():
+            if isinstance(answer, Fields):
+                refuse_missing(answer, messages)
     names: dict[str, Part] = {}
     for part in parts:
         other = names.setdefault(part.name, part)

@@ -43,7 +43,7 @@ def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) ->
     """
     for question in questions:
         options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
-        if question.type in {"dependencies", SEVERAL}:
+        if question.type in {"dependencies", "fields", SEVERAL}:
             options |= {"nargs": "+", "action": "extend"}
         elif question.type == "parts":
             options |= {"action": "append"}

@@ -8,7 +8,15 @@ from collections.abc import Callable, Mapping
 
 from scaffold.errors import InputError
 from scaffold.generate import names
-from scaffold.generate.payload import Payload, payload
+from scaffold.generate.fields import fields
+from scaffold.generate.payload import (
+    ActionPayload,
+    Payload,
+    ServicePayload,
+    action,
+    payload,
+    service,
+)
 from scaffold.generate.qos import Qos, qos
 from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 
@@ -145,6 +153,16 @@ def message(given: object) -> Payload:
     return payload(_string(given))
 
 
+def service_type(given: object) -> ServicePayload:
+    """Return how to ask and answer services of a type."""
+    return service(_string(given))
+
+
+def action_type(given: object) -> ActionPayload:
+    """Return how to ask for actions of a type and how to work on them."""
+    return action(_string(given))
+
+
 def quality(given: object) -> Qos:
     """Return a quality of service."""
     return qos(_string(given))
@@ -163,10 +181,13 @@ TYPES: Mapping[str, Callable[[object], object]] = {
     "interface": lambda given: names.interface_name(_string(given)),
     "program": lambda given: names.program_name(_string(given)),
     "message": message,
+    "service": service_type,
+    "action": action_type,
     "qos": quality,
     "rate": rate,
     "flag": flag,
     "dependencies": dependencies,
+    "fields": fields,
     "parts": parts,
     "several": nothing,
 }

@@ -1,0 +1,91 @@
+"""The fields of a new interface, as a user writes them: lines such as ``float64 distance``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.model.interface_syntax import parse
+from scaffold.model.source import Source
+
+_OWN = "own_package"
+"""Stands for the package of the new interface, whose name does not matter here."""
+
+
+class Fields(NamedTuple):
+    """Some lines of a definition."""
+
+    lines: tuple[str, ...]
+    packages: tuple[str, ...]
+    """The packages of the types that are no primitive ones, in alphabetical order."""
+    own_types: tuple[str, ...]
+    """The types that the package itself must define."""
+
+
+def fields(given: object) -> Fields:
+    """Return the fields and constants in some lines.
+
+    Args:
+        given: A line, or several: a type, a name, perhaps a default or ``=`` and a constant,
+            perhaps ``#`` and a comment.
+
+    Raises:
+        InputError: ROS would refuse a line, or does not know a type.
+    """
+    lines = tuple(
+        line for text in _texts(given) for line in map(str.strip, text.splitlines()) if line
+    )
+    definition = parse(Source("fields", "\n".join(lines)), _OWN, "msg", "Fields")
+    for problem in definition.problems:
+        raise InputError(f"{lines[problem.location.line - 1]!r}: {problem.message}")
+    types = [one.type.element for section in definition.sections for one in section.fields]
+    used = {one.full_name for one in types if not one.is_primitive}
+    own = {name for name in used if name.startswith(f"{_OWN}/")}
+    _refuse_unknown(used - own)
+    return Fields(
+        lines=lines,
+        packages=tuple(sorted({name.partition("/")[0] for name in used - own})),
+        own_types=tuple(sorted(name.rpartition("/")[2] for name in own)),
+    )
+
+
+def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
+    """Raise if the package does not define a type that it uses.
+
+    Args:
+        found: Fields of one of its interfaces.
+        messages: The names of its messages.
+
+    Raises:
+        InputError: with the messages of other packages that may be meant.
+    """
+    from scaffold.generate import payload
+
+    known = set(messages)
+    for name in found.own_types:
+        if name not in known:
+            others = [one for one in payload.definitions().matches(name) if "/msg/" in one]
+            hint = f"; did you mean {' or '.join(others[:3])}?" if others else ""
+            raise InputError(f"the package has no message {name!r} to use as a type{hint}")
+
+
+def _texts(given: object) -> list[str]:
+    texts = list(given) if isinstance(given, list | tuple) else [given]
+    for text in texts:
+        if not isinstance(text, str):
+            raise InputError(f"{text!r} is not a field such as 'float64 distance'")
+    return texts
+
+
+def _refuse_unknown(used: Iterable[str]) -> None:
+    """Raise if a package is known but has no such message; others may come from anywhere."""
+    from scaffold.generate import payload
+
+    if not used:
+        return
+    definitions = payload.definitions()
+    for full_name in sorted(used):
+        names = definitions.names(full_name.partition("/")[0], "msg")
+        if names is not None and full_name.rpartition("/")[2] not in names:
+            definitions.resolve(full_name)
