@@ -71,10 +71,11 @@ def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
 
 
 def _texts(given: object) -> list[str]:
-    texts = list(given) if isinstance(given, list | tuple) else [given]
-    for text in texts:
+    texts: list[str] = []
+    for text in given if isinstance(given, list | tuple) else [given]:
         if not isinstance(text, str):
             raise InputError(f"{text!r} is not a field such as 'float64 distance'")
+        texts.append(text)
     return texts
 
 
