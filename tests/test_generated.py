@@ -23,7 +23,7 @@ from scaffold import content
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
-from scaffold.generate import draft, licenses, names, payload, qos, template, values
+from scaffold.generate import draft, licenses, names, qos, template, values
 from scaffold.generate.defaults import User
 from scaffold.generate.questions import Given
 from scaffold.model import discovery
@@ -36,6 +36,11 @@ ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)
 BUILD_TYPES = ("ament_cmake", "ament_python")
 COMMENTS = ("brief", "tutorial")
+TYPES = (
+    *("Bool", "Byte", "Char", "Float32", "Float64", "Header", "String"),
+    *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)),
+)
+"""Of std_msgs."""
 HOSTILE = 'It\'s "a" & <b> {{ package }} {% x %} ${HOME} \\ `id` ' + "long " * 40
 
 needs_ros = pytest.mark.skipif(
@@ -65,7 +70,7 @@ def combinations(tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = tmp_path_factory.mktemp("combinations")
     known = licenses.names(ROOTS)
     more = zip(cycle(known), cycle(qos.NAMES), cycle(("", HOSTILE)), strict=False)
-    for build_type, comments, name in product(BUILD_TYPES, COMMENTS, payload.STD_MSGS):
+    for build_type, comments, name in product(BUILD_TYPES, COMMENTS, TYPES):
         license_, quality, description = next(more)
         write(
             root,
@@ -136,7 +141,7 @@ def test_ament_xmllint(combinations: Path) -> None:
 def test_check(combinations: Path) -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     results = list(session.run(discovery.find([str(combinations)])))
-    assert len(results) == len(BUILD_TYPES) * (len(COMMENTS) * len(payload.STD_MSGS) + 1)
+    assert len(results) == len(BUILD_TYPES) * (len(COMMENTS) * len(TYPES) + 1)
     assert [said for result in results for said in result.diagnostics] == []
 
 
@@ -366,7 +371,7 @@ def test_every_type_is_published(
 ) -> None:
     script = tmp_path / "observe.py"
     script.write_text(OBSERVE)
-    packages = [f"cmake_brief_{name.lower()}" for name in payload.STD_MSGS]
+    packages = [f"cmake_brief_{name.lower()}" for name in TYPES]
     command = [sys.executable, str(script), str(combinations), *packages]
     said = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
     received = {

@@ -26,7 +26,10 @@ ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)
 BUILD_TYPES = ("ament_cmake", "ament_python")
 COMMENTS = ("brief", "tutorial")
-TYPES = tuple(payload.STD_MSGS)
+TYPES = (
+    *("Bool", "Byte", "Char", "Float32", "Float64", "Header", "String"),
+    *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)),
+)
 COMBINATIONS = list(itertools.product(BUILD_TYPES, COMMENTS, TYPES))
 EXAMPLES = [
     pytest.param(example.answers, id=f"{name}-{example.title}")
@@ -542,11 +545,12 @@ def test_payloads(name: str, statements: tuple[str, ...]) -> None:
     ("name", "message"),
     [
         ("std_msgs/msg/Sting", "did you mean std_msgs/msg/String"),
-        ("String", "did you mean std_msgs/msg/String"),
+        ("Sting", "did you mean std_msgs/msg/String"),
+        ("std_msgs/msg/string", "did you mean std_msgs/msg/String"),
         ("std_msgs/msg/Int9", "did you mean std_msgs/msg/Int"),
-        ("geometry_msgs/msg/Twist", "unknown message type 'geometry_msgs/msg/Twist'"),
-        ("", "unknown message type ''; the known ones are std_msgs/msg/Bool, "),
-        ("std_msgs/srv/String", "unknown message type"),
+        ("geometry_msgs/msg/Twits", "did you mean geometry_msgs/msg/Twist"),
+        ("", "unknown message type ''"),
+        ("std_srvs/srv/Empty", "'std_srvs/srv/Empty' is a type of services, not of messages"),
     ],
 )
 def test_unknown_message_types(name: str, message: str) -> None:

@@ -1,154 +1,63 @@
-"""What a generated node puts into a message: imports, statements, words.
-
-A message is walked field by field, so any type can be filled once its fields are known; this
-table holds those of std_msgs.
-"""
+"""What generated nodes put into messages, services and actions: code, checks, words."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
-from difflib import get_close_matches
-from typing import NamedTuple
+import os
 
-from scaffold.errors import InputError
+from scaffold.generate.payload.action import of_action
+from scaffold.generate.payload.message import of_message
 from scaffold.generate.payload.records import ActionPayload, Part, Payload, ServicePayload
+from scaffold.generate.payload.service import of_service
+from scaffold.model.interfaces import Definitions
 
-__all__ = ["ActionPayload", "Part", "Payload", "ServicePayload", "payload"]
-
-
-class Field(NamedTuple):
-    """A field of a message definition."""
-
-    name: str
-    type: str
-    """A primitive type or ``package/Name``."""
-
-
-class Sample(NamedTuple):
-    """A value that changes with ``self.count``, the number of messages published so far."""
-
-    expression: str
-    says: str
-    """What it is, to be read after "the field holds"."""
-    check: str
-    """A Python expression that is true of a received ``{value}``."""
-    imports: tuple[str, ...] = ()
+__all__ = [
+    "ActionPayload",
+    "Part",
+    "Payload",
+    "ServicePayload",
+    "action",
+    "definitions",
+    "payload",
+    "service",
+]
 
 
-def _integer(bits: int, *, signed: bool) -> Sample:
-    """Return a counter that starts again before it would overflow."""
-    values = 2 ** (bits - signed)
-    expression = "self.count" if bits == _WIDEST else f"self.count % {_written(bits - signed)}"
-    check = f"0 <= {{value}} < {_written(bits - signed)}"
-    end = "" if bits == _WIDEST else f" from 0 to {values - 1}"
-    return Sample(expression, f"a counter{end}", check)
+def payload(text: str, interfaces: Definitions | None = None) -> Payload:
+    """Return how to fill messages of a type.
 
-
-_WIDEST = 64
-"""Bits of an integer that no counter of messages fills."""
-
-
-def _written(bits: int) -> str:
-    return str(2**bits) if bits <= 16 else f"2**{bits}"  # noqa: PLR2004  readable up to 65536
-
-
-_SINE = Sample(
-    "math.sin(self.count / 10.0)",
-    "a sine wave",
-    "-1.0 <= {value} <= 1.0",
-    ("import math",),
-)
-
-SAMPLES: Mapping[str, Sample] = {
-    "string": Sample(
-        "f'Hello World: {self.count}'",
-        "a greeting with a counter",
-        "{value}.startswith('Hello World: ')",
-    ),
-    "bool": Sample("self.count % 2 == 0", "true and false in turn", "isinstance({value}, bool)"),
-    "byte": Sample(
-        "bytes([self.count % 256])", "a counter from 0 to 255 in one byte", "len({value}) == 1"
-    ),
-    "char": _integer(8, signed=False),
-    "float32": _SINE,
-    "float64": _SINE,
-    **{f"int{bits}": _integer(bits, signed=True) for bits in (8, 16, 32, 64)},
-    **{f"uint{bits}": _integer(bits, signed=False) for bits in (8, 16, 32, 64)},
-}
-
-STD_MSGS: Mapping[str, Sequence[Field]] = {
-    **{name: (Field("data", name.lower()),) for name in ("Bool", "Byte", "Char", "String")},
-    **{f"Float{bits}": (Field("data", f"float{bits}"),) for bits in (32, 64)},
-    **{f"Int{bits}": (Field("data", f"int{bits}"),) for bits in (8, 16, 32, 64)},
-    **{f"UInt{bits}": (Field("data", f"uint{bits}"),) for bits in (8, 16, 32, 64)},
-    "Header": (Field("stamp", "builtin_interfaces/Time"), Field("frame_id", "string")),
-}
-"""The fields of the std_msgs types that a node can publish."""
-
-KNOWN_TYPES = tuple(sorted(f"std_msgs/msg/{name}" for name in STD_MSGS))
-
-
-def payload(text: str) -> Payload:
-    """Return how to fill messages of a type, written ``package/msg/Name`` or ``package/Name``.
+    Args:
+        text: ``package/msg/Name``, ``package/Name`` or a bare ``Name``.
+        interfaces: Where to look; by default around the current directory.
 
     Raises:
-        InputError: the type is not known.
+        InputError: the type is not known or cannot be used; the message names the nearest
+            ones, or the file and the line of what is wrong.
     """
-    match = re.fullmatch(r"(\w+)/(?:msg/)?(\w+)", text)
-    fields = STD_MSGS.get(match[2]) if match and match[1] == "std_msgs" else None
-    if match is None or fields is None:
-        raise InputError(f"unknown message type {text!r}{_nearest(text)}")
-    return _of(match[1], match[2], fields)
+    return of_message(text, interfaces or definitions())
 
 
-def _nearest(text: str) -> str:
-    wanted = text.rpartition("/")[2].lower()
-    by_name = {name.rpartition("/")[2].lower(): name for name in KNOWN_TYPES}
-    near = [by_name[name] for name in get_close_matches(wanted, by_name, n=3, cutoff=0.5)]
-    if near:
-        return f"; did you mean {' or '.join(near)}?"
-    return f"; the known ones are {', '.join(KNOWN_TYPES)}"
+def service(text: str, interfaces: Definitions | None = None) -> ServicePayload:
+    """Return how to ask and answer services of a type; see `payload`."""
+    return of_service(text, interfaces or definitions())
 
 
-def _of(package: str, name: str, fields: Sequence[Field]) -> Payload:
-    steps = list(_steps(f"{package}/{name}", fields, ""))
-    imports = dict.fromkeys(line for step in steps for line in step.sample.imports)
-    paths = [step.path for step in steps]
-    return Payload(
-        package=package,
-        name=name,
-        imports=(*imports, f"from {package}.msg import {name}"),
-        statements=tuple(f"msg.{step.path} = {step.sample.expression}" for step in steps),
-        log="{msg.data}" if paths == ["data"] else "{msg}",
-        says=" and ".join(step.sample.says for step in steps),
-        checks=tuple(
-            step.sample.check.format(value=f"message.{step.path}")
-            for step in steps
-            if step.sample.check
-        ),
-        is_stamped=any("self.frame_id" in step.sample.expression for step in steps),
-        is_counted=any("self.count" in step.sample.expression for step in steps),
-        packages=(package,),
-    )
+def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
+    """Return how to ask for and work on actions of a type; see `payload`."""
+    return of_action(text, interfaces or definitions())
 
 
-class _Step(NamedTuple):
-    """A field to fill: its path from the message, and its value."""
+def definitions(directory: str = ".") -> Definitions:
+    """Return the definitions of the workspace around a directory, installed ones, common ones."""
+    from scaffold.errors import InputError
+    from scaffold.generate import place
+    from scaffold.model import discovery
+    from scaffold.model.workspace import Workspace
 
-    path: str
-    sample: Sample
-
-
-def _steps(owner: str, fields: Sequence[Field], prefix: str) -> Iterator[_Step]:
-    for field in fields:
-        path = prefix + field.name
-        if field.type == "builtin_interfaces/Time":
-            now = "self.get_clock().now().to_msg()"
-            yield _Step(path, Sample(now, "the time of publication", "{value}.sec > 0"))
-        elif field.type == "std_msgs/Header":
-            yield from _steps(field.type, STD_MSGS["Header"], f"{path}.")
-        elif owner == "std_msgs/Header" and field.name == "frame_id":
-            yield _Step(path, Sample("self.frame_id", "the name of a frame", "{value}"))
-        else:
-            yield _Step(path, SAMPLES[field.type])
+    top = place.workspace(directory)
+    if top is None:
+        return Definitions.around()
+    try:
+        targets = list(discovery.find([os.path.join(top, place.SOURCES)]))
+    except InputError:  # none yet
+        return Definitions.around()
+    return Definitions.around(Workspace([target.package for target in targets]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -42,6 +43,14 @@ class Payload(NamedTuple):
     def type(self) -> str:
         """The full name, as ``ros2 topic info`` shows it."""
         return f"{self.package}/msg/{self.name}"
+
+    @property
+    def log_received(self) -> str:
+        """The same as ``log`` for a message of anybody, whose arrays may be empty."""
+        arrays = dict.fromkeys(re.findall(r"\bmsg\.([\w.]+)\[", self.log))
+        if not arrays:
+            return self.log
+        return ", ".join(f"{path.rpartition('.')[2]}: {{len(msg.{path})}}" for path in arrays)
 
     @property
     def import_line(self) -> str:

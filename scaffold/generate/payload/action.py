@@ -1,0 +1,75 @@
+"""How nodes ask for an action and work on it."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload import lookup, part, recipe
+from scaffold.generate.payload.code import Block
+from scaffold.generate.payload.lookup import Types
+from scaffold.generate.payload.recipe import ActionRecipe
+from scaffold.generate.payload.records import ActionPayload
+from scaffold.model.interfaces import Definitions, Interface
+
+_FIBONACCI = "example_interfaces/action/Fibonacci"
+
+
+def of_action(text: str, interfaces: Definitions) -> ActionPayload:
+    """Return how to ask for actions of a type and how to work on them.
+
+    Raises:
+        InputError: the type is not known or cannot be used.
+    """
+    types = lookup.find(text, "action", interfaces)
+    found = recipe.find_action(types.interface.full_name) or _alike(types.interface)
+    return _by_recipe(types, found) if found else _by_fields(types)
+
+
+def _alike(interface: Interface) -> ActionRecipe | None:
+    """Return the recipe of Fibonacci for one of the many copies of it."""
+    parts = (interface.goal, interface.result, interface.feedback)
+    names = [[field.name for field in one.fields] for one in parts]
+    known = recipe.find_action(_FIBONACCI)
+    if known is None or interface.name != "Fibonacci" or names[:2] != [["order"], ["sequence"]]:
+        return None
+    if names[2] == ["sequence"]:
+        return known
+    if names[2] != ["partial_sequence"]:
+        return None
+    old, new = "feedback.sequence", "feedback.partial_sequence"
+    return known._replace(
+        start=known.start.replace(old, new),
+        feedback=known.feedback.replace(old, new),
+        feedback_log=known.feedback_log.replace(old, new),
+        result=known.result.replace(old, new),
+    )
+
+
+def _by_recipe(types: Types, found: ActionRecipe) -> ActionPayload:
+    own = types.interface
+    start = Block()
+    start.embed(found.start, "feedback")
+    return ActionPayload(
+        package=own.package,
+        name=own.name,
+        says=found.says,
+        goal=part.by_recipe(types, own.goal, found.goal, found.goal_log),
+        refused=found.refused,
+        start=tuple(start.lines()),
+        steps=found.steps,
+        feedback=part.by_recipe(types, own.feedback, found.feedback, found.feedback_log),
+        result=part.by_recipe(types, own.result, found.result, found.result_log, found.checks),
+    )
+
+
+def _by_fields(types: Types) -> ActionPayload:
+    own = types.interface
+    return ActionPayload(
+        package=own.package,
+        name=own.name,
+        says=f"works on {own.name} goals in {part.STEPS} steps",
+        goal=part.asked(types, own.goal),
+        refused="",
+        start=(),
+        steps=f"range(1, {part.STEPS + 1})",
+        feedback=part.reported(types, own.feedback),
+        result=part.answered(types, own.result, [own.feedback, own.goal]),
+    )

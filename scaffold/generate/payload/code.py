@@ -1,0 +1,180 @@
+"""Blocks of code: lines with tokens for what depends on their place, loops, local names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from textwrap import dedent
+
+COUNT = "@count"
+"""Token for the number of messages so far; in a loop each element has its own."""
+WAVE = "@wave"
+"""Token for a sine that moves with the count."""
+NOW = "@now"
+"""Token for the time of the node's clock, as a message."""
+WIDTH = 91
+"""Columns of a line of a method without its indentation."""
+INDENT = "    "
+
+_COUNTER = "self.count"
+_CLOCK = "self.get_clock().now().to_msg()"
+_SINE = "math.sin({} / 10.0)"
+
+
+class Block:
+    """Statements on one level, with the loops in it."""
+
+    def __init__(self, parent: Block | None = None, counter: str = _COUNTER) -> None:
+        self._parent = parent
+        self._counter = counter
+        self._items: list[str | tuple[str, Block]] = []
+        self._locals: dict[str, str] = {}
+
+    @property
+    def is_loop(self) -> bool:
+        """Whether the block is run for each element of something."""
+        return self._parent is not None
+
+    def add(self, line: str, comment: str = "") -> None:
+        """Add a line; it may hold tokens."""
+        self._items.append(f"{line}  # {comment}" if comment else line)
+
+    def loop(self, head: str, counter: str) -> Block:
+        """Add a loop and return its body, whose elements count with a variable of the loop."""
+        body = Block(self, counter)
+        self._items.append((head, body))
+        return body
+
+    def embed(self, code: str, target: str) -> None:
+        """Add the code of a recipe, which fills ``msg``, for another target.
+
+        A local name that is taken for something else gets the name of the target before it.
+        """
+        text = (
+            re.sub(r"\n(\s*\n)+", "\n", dedent(code))
+            .strip()
+            .replace(_COUNTER, COUNT)
+            .replace(_CLOCK, NOW)
+        )
+        text = re.sub(r"(?<![.\w])msg\b", target, text)
+        for name, definition in re.findall(r"(?m)^([a-z]\w*) = (.*)$", text):
+            known = self.local(name)
+            if known == definition:
+                text = text.replace(f"{name} = {definition}\n", "", 1)
+            elif known is not None:
+                new = f"{target.rpartition('.')[2]}_{name}"
+                text = re.sub(rf"(?<![.\w]){name}\b(?!=)", new, text)
+                self._locals[new] = definition
+            else:
+                self._locals[name] = definition
+        self._items.extend(text.splitlines())
+
+    def local(self, name: str) -> str | None:
+        """Return how a local name is defined here or around, if it is."""
+        if name in self._locals:
+            return self._locals[name]
+        return self._parent.local(name) if self._parent else None
+
+    def define(self, name: str, value: str) -> str:
+        """Add a local name, changed if it is taken; return it."""
+        known = self.local(name)
+        while known not in {None, value}:
+            name += "_"
+            known = self.local(name)
+        self._locals[name] = value
+        self._items.append(f"{name} = {value}")
+        return name
+
+    @property
+    def size(self) -> int:
+        """The number of lines, without local names for tokens."""
+        sizes = (1 if isinstance(one, str) else one[1].size for one in self._items)
+        return sum(sizes)
+
+    def lines(self) -> list[str]:
+        """Return the lines of a method."""
+        now = "".join(self.texts()).count(NOW) > 1
+        clock = "now" if now else _CLOCK
+        head = [f"now = {_CLOCK}"] if now else []
+        return [*head, *self.indented(clock, WIDTH)]
+
+    def texts(self) -> Iterator[str]:
+        """Yield the lines with their tokens, those of loops too."""
+        for item in self._items:
+            if isinstance(item, str):
+                yield item
+            else:
+                yield item[0]
+                yield from item[1].texts()
+
+    def indented(self, clock: str, width: int) -> Iterator[str]:
+        """Yield the lines of one level and those of its loops.
+
+        Args:
+            clock: What stands for the time.
+            width: Columns of a line.
+        """
+        sine = _SINE.format(self._counter)
+        own = [item for item in self._items if isinstance(item, str)]
+        if "".join(own).count(WAVE) > 1:
+            name = "wave" if self.local("wave") is None else "swing"
+            yield f"{name} = {sine}  # -1.0 to 1.0"
+            sine = name
+        for item in self._items:
+            if not isinstance(item, str) and not item[1].size:
+                continue
+            text = item if isinstance(item, str) else item[0]
+            text = text.replace(WAVE, sine).replace(NOW, clock).replace(COUNT, self._counter)
+            yield from wrapped(text, width)
+            if not isinstance(item, str):
+                for line in item[1].indented(clock, width - len(INDENT)):
+                    yield INDENT + line
+
+
+def wrapped(line: str, width: int) -> Iterator[str]:
+    """Yield a line, in several pieces if it is too long: its comment first, then by commas."""
+    if len(line) <= width:
+        yield line
+        return
+    code, mark, comment = line.partition("  # ")
+    margin = line[: len(line) - len(line.lstrip())]
+    if mark:
+        yield f"{margin}# {comment}"
+    if len(code) <= width:
+        yield code
+        return
+    bracket = min((at for at in map(code.find, "([{") if at > 0), default=-1)
+    if bracket < 0 or "'" in code[:bracket]:
+        yield code
+        return
+    yield code[: bracket + 1]
+    yield from _filled(_pieces(code[bracket + 1 :]), margin + INDENT, width)
+
+
+def _pieces(text: str) -> list[str]:
+    """Split a text behind the commas that stand in no further bracket or quote."""
+    pieces: list[str] = []
+    depth, start, quote = 0, 0, ""
+    for at, character in enumerate(text):
+        if quote:
+            quote = "" if character == quote else quote
+        elif character in "'\"":
+            quote = character
+        elif character in "([{":
+            depth += 1
+        elif character in ")]}":
+            depth -= 1
+        elif character == "," and depth == 0:
+            pieces.append(text[start : at + 1].strip())
+            start = at + 1
+    return [*pieces, text[start:].strip()]
+
+
+def _filled(pieces: Iterable[str], margin: str, width: int) -> Iterator[str]:
+    line = ""
+    for piece in pieces:
+        if line and len(margin) + len(line) + 1 + len(piece) > width:
+            yield margin + line
+            line = ""
+        line = f"{line} {piece}".strip()
+    yield margin + line

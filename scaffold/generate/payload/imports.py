@@ -1,0 +1,50 @@
+"""What code needs to import."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Sequence
+
+from scaffold.generate.payload.lookup import Types
+
+MODULES = ("math", "struct", "uuid", "zlib")
+"""Modules of the standard library that statements may use."""
+
+
+def imports(
+    types: Types, code: Sequence[str], used: Iterable[str] = ()
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the interface packages that code needs, and its imports, both sorted.
+
+    Args:
+        types: Say which messages names in the code mean.
+        code: Lines of Python.
+        used: The full names of messages that are imported in any case.
+    """
+    names = _names("\n".join(code))
+    messages = set(used)
+    aliases: dict[str, str] = {}
+    for name in sorted(names):
+        full_name = types.full_name(name)
+        if full_name is not None and "/msg/" in full_name:
+            messages.add(full_name)
+            if not full_name.endswith(f"/{name}"):
+                aliases[full_name] = name
+    modules = [one for one in MODULES if one in names]
+    packages = sorted({name.partition("/")[0] for name in messages})
+    lines = [f"import {one}" for one in modules]
+    for package in packages:
+        classes = sorted(
+            f"{name.rpartition('/')[2]} as {aliases[name]}"
+            if name in aliases
+            else name.rpartition("/")[2]
+            for name in messages
+            if name.startswith(f"{package}/")
+        )
+        lines.append(f"from {package}.msg import {', '.join(classes)}")
+    return tuple(packages), tuple(lines)
+
+
+def _names(code: str) -> set[str]:
+    """Return the names that code uses."""
+    return {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}

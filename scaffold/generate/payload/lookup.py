@@ -1,0 +1,159 @@
+"""Finds the interfaces that users name, with every message that they are made of."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from scaffold.errors import InputError
+from scaffold.model.interface_syntax import Field, Section
+from scaffold.model.interfaces import Definitions, Interface, spell
+
+WORDS = {"msg": "message", "srv": "service", "action": "action"}
+"""What people call the kinds of interfaces."""
+HEADER = "std_msgs/msg/Header"
+TIME = "builtin_interfaces/msg/Time"
+DURATION = "builtin_interfaces/msg/Duration"
+VECTOR = "geometry_msgs/msg/Vector3"
+
+
+class Types:
+    """An interface and the messages that its fields are made of, all of them readable."""
+
+    def __init__(
+        self, interface: Interface, messages: Mapping[str, Interface], definitions: Definitions
+    ) -> None:
+        self.interface = interface
+        self._messages = messages
+        self._definitions = definitions
+
+    def message(self, full_name: str) -> Section:
+        """Return the fields and constants of a message by ``package/msg/Name``."""
+        return self._messages[full_name].section("message")
+
+    def class_name(self, full_name: str) -> str:
+        """Return what a message is called in code: its name, unless that means another one."""
+        package, _, name = full_name.split("/")
+        if self.full_name(name) == full_name:
+            return name
+        return "".join(word.capitalize() for word in package.split("_")) + name
+
+    def renamed(self, code: str, full_name: str) -> str:
+        """Return the code of a recipe with the names that messages have here."""
+        package = full_name.partition("/")[0]
+        for name in set(re.findall(r"(?<![.\w])[A-Z]\w+", code)):
+            meant = [one for one in sorted(self._messages) if one.endswith(f"/{name}")]
+            if len(meant) > 1:
+                own = f"{package}/msg/{name}"
+                new = self.class_name(own if own in meant else min(meant, key=_is_uncommon))
+                code = re.sub(rf"(?<![.\w]){name}\b", new, code)
+        return code
+
+    def full_name(self, class_name: str) -> str | None:
+        """Return the message that a name in code means; ``None`` if it means none.
+
+        The interface itself goes first, then the messages that it is made of, then those of
+        the same packages.
+        """
+        own = self.interface
+        if class_name == own.name:
+            return own.full_name
+        candidates = sorted(self._messages)
+        for name in candidates:
+            if name.endswith(f"/{class_name}"):
+                return name
+        for name in candidates:
+            if self.class_name(name) == class_name:
+                return name
+        for package in dict.fromkeys(
+            [own.package, *(name.partition("/")[0] for name in candidates)]
+        ):
+            if class_name in (self._definitions.names(package, "msg") or ()):
+                return f"{package}/msg/{class_name}"
+        return None
+
+
+def _is_uncommon(full_name: str) -> bool:
+    return not full_name.startswith(("geometry_msgs/", "std_msgs/"))
+
+
+def find(text: str, kind: str, definitions: Definitions) -> Types:
+    """Return the interface that a user means.
+
+    Args:
+        text: ``package/kind/Name``, ``package/Name`` or a bare ``Name``.
+        kind: ``msg``, ``srv`` or ``action``.
+        definitions: Where to look.
+
+    Raises:
+        InputError: there is none, there are several, or it cannot be used; the message names
+            the nearest ones, or the file and the line of what is wrong.
+    """
+    full_name = _full_name(text, kind, definitions)
+    interface = definitions.resolve(full_name)
+    messages: dict[str, Interface] = {}
+    if kind == "msg":
+        messages[full_name] = interface
+    for section in interface.sections:
+        for field in section.fields:
+            trail = (full_name,) if kind == "msg" else ()
+            _collect(field, interface, trail, messages, definitions)
+    return Types(interface, messages, definitions)
+
+
+def _full_name(text: str, kind: str, definitions: Definitions) -> str:
+    word = WORDS[kind]
+    wanted = spell(text)
+    if wanted.kind not in {None, kind}:
+        raise InputError(f"{text!r} is a type of {WORDS[str(wanted.kind)]}s, not of {word}s")
+    package = f"{wanted.package}/" if wanted.package else ""
+    found = definitions.matches(f"{package}{kind}/{wanted.name}") if wanted.name else []
+    if not found and package and definitions.find(f"{package}{kind}/{wanted.name}"):
+        found = [f"{package}{kind}/{wanted.name}"]  # of a package that may have more
+    if len(found) > 1:
+        raise InputError(f"{text!r} may be {', '.join(found[:-1])} or {found[-1]}; write which")
+    if found:
+        return found[0]
+    near = _nearest(text, kind, definitions)
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    raise InputError(f"unknown {word} type {text!r}{hint}")
+
+
+def _nearest(text: str, kind: str, definitions: Definitions) -> list[str]:
+    """Return the types of this kind that look most like a misspelt one, best first."""
+    if not text.strip():
+        return []
+    found = definitions.nearest(text, 100)
+    return [name for name in found if f"/{kind}/" in name][:3]
+
+
+def _collect(
+    field: Field,
+    owner: Interface,
+    trail: Sequence[str],
+    found: dict[str, Interface],
+    definitions: Definitions,
+) -> None:
+    """Add the message of a field, and those of its fields.
+
+    Raises:
+        InputError: one is unknown, broken, or contains itself.
+    """
+    if field.type.is_primitive:
+        return
+    name = field.type.full_name
+    at = f"{owner.origin}:{field.location.line}"
+    if name in trail:
+        circle = " -> ".join([*trail[trail.index(name) :], name])
+        raise InputError(f"{at}: the field {field.name!r} makes a message contain itself: {circle}")
+    if name in found:
+        return
+    interface = definitions.find(name)
+    if interface is None:
+        try:
+            interface = definitions.resolve(name)
+        except InputError as error:
+            raise InputError(f"{at}: the field {field.name!r} cannot be filled: {error}") from error
+    found[name] = interface
+    for part in interface.fields:
+        _collect(part, interface, [*trail, name], found, definitions)

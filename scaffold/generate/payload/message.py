@@ -1,0 +1,133 @@
+"""How a node fills a message."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from textwrap import dedent
+
+from scaffold.generate.payload import lookup, recipe, words
+from scaffold.generate.payload.code import Block
+from scaffold.generate.payload.imports import imports
+from scaffold.generate.payload.lookup import HEADER, Types
+from scaffold.generate.payload.recipe import Recipe
+from scaffold.generate.payload.records import Payload
+from scaffold.generate.payload.walk import Walk
+from scaffold.model.interfaces import Definitions
+
+MAX_CHECKS = 4
+MAX_LOG = 50
+"""Characters of a line of the log."""
+MAX_SAYS = 70
+
+
+def of_message(text: str, interfaces: Definitions) -> Payload:
+    """Return how to fill messages of a type.
+
+    Args:
+        text: ``package/msg/Name``, ``package/Name`` or a bare ``Name``.
+        interfaces: Where to look.
+
+    Raises:
+        InputError: the type is not known or cannot be used; the message names the nearest
+            ones, or the file and the line of what is wrong.
+    """
+    types = lookup.find(text, "msg", interfaces)
+    own = types.interface
+    block, walk = Block(), Walk(types, "msg")
+    walk.message(block, own.full_name, "msg")
+    lines = block.lines()
+    if not _changes(lines) and own.fields:
+        block, walk = Block(), Walk(types, "msg", changing=True)
+        walk.message(block, own.full_name, "msg")
+        lines = block.lines()
+    words_ = _words(types, walk)
+    constants = _constants(types)
+    packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
+    return Payload(
+        package=own.package,
+        name=own.name,
+        imports=lines_of_imports,
+        statements=tuple(lines),
+        log=words_.log,
+        says=words_.says,
+        checks=words_.checks[:MAX_CHECKS],
+        is_stamped=any("self.frame_id" in line for line in lines),
+        is_counted=any("self.count" in line for line in lines),
+        packages=packages,
+        frame=words_.frame,
+        constants=constants,
+        is_changing=_changes(lines),
+    )
+
+
+def _changes(lines: Iterable[str]) -> bool:
+    return any(re.search(r"self\.(count|get_clock)|uuid4", line) for line in lines)
+
+
+def _words(types: Types, walk: Walk) -> Recipe:
+    """Return what is said about a message: by its recipe, that of its only part, or its fields."""
+    own = types.interface
+    found = recipe.find(own.full_name)
+    header = own.section("message").field("header")
+    is_stamped = header is not None and header.type.full_name == HEADER
+    if found is None:
+        found = _words_of_part(types) or _words_of_fields(types, walk)
+    if is_stamped:
+        found = found._replace(checks=("message.header.stamp.sec > 0", *found.checks))
+    if not found.log:
+        shown = "{msg.header.stamp.sec} s" if is_stamped else "{msg}"
+        found = found._replace(log=shown)
+    return found
+
+
+def _words_of_part(types: Types) -> Recipe | None:
+    """Return the words of the only part that a stamped message has."""
+    own = types.interface
+    parts = [field for field in own.fields if field.name != "header"]
+    if len(parts) != 1 or parts[0].type.is_primitive or parts[0].type.is_array:
+        return None
+    part, name = parts[0].type.full_name, parts[0].name
+    found = recipe.find(part)
+    if found is None:
+        return None
+    return found._replace(
+        log=joined(re.sub(r"\bmsg\.", f"msg.{name}.", found.log).split(", ")),
+        checks=tuple(re.sub(r"\bmessage\.", f"message.{name}.", one) for one in found.checks),
+    )
+
+
+def _words_of_fields(types: Types, walk: Walk) -> Recipe:
+    names = [words.phrase(field.name) for field in types.interface.fields if field.name != "header"]
+    return Recipe(
+        says=enumerated(names, "example values for ", MAX_SAYS) if names else "nothing",
+        log=joined(walk.shown) or ("" if names else "an empty message"),
+        checks=tuple(
+            re.sub(r"\bmsg\b", "message", one) for one in walk.checks if "header.stamp" not in one
+        ),
+    )
+
+
+def joined(shown: Iterable[str]) -> str:
+    """Return replacement fields in a row, as many as fit into a line of the log."""
+    log = ""
+    for one in shown:
+        longer = f"{log}, {one}" if log else one
+        log = longer if len(longer) <= MAX_LOG else log
+    return log
+
+
+def enumerated(names: Sequence[str], start: str, limit: int) -> str:
+    """Return names in a row, as many as fit."""
+    for end in range(len(names), 0, -1):
+        shown, left = list(names[:end]), len(names) - end
+        last = f"{left} more" if left else shown.pop() if len(shown) > 1 else ""
+        text = start + ", ".join(shown) + (f" and {last}" if last else "")
+        if len(text) <= limit:
+            return text
+    return f"{start}{len(names)} fields"
+
+
+def _constants(types: Types) -> tuple[str, ...]:
+    found = recipe.find(types.interface.full_name)
+    return tuple(dedent(found.constants).strip("\n").splitlines()) if found else ()

@@ -1,0 +1,150 @@
+"""How a node fills a part of a service or an action."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from scaffold.generate.payload import words
+from scaffold.generate.payload.code import Block
+from scaffold.generate.payload.imports import imports
+from scaffold.generate.payload.lookup import Types
+from scaffold.generate.payload.message import enumerated, joined
+from scaffold.generate.payload.records import Part
+from scaffold.generate.payload.walk import Walk
+from scaffold.model.interface_syntax import Field, Section
+from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
+
+STEPS = 10
+"""Of an action that does not tell how many it has."""
+_DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
+_WHY = re.compile("(.*_)?(message|msg|reason|description|info|details|text|status_message)$")
+_ERROR = re.compile("(.*_)?error(_.*)?$")
+_NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
+
+
+def by_recipe(
+    types: Types, section: Section, code: str, log: str, checks: tuple[str, ...] = ()
+) -> Part:
+    """Return a part that a recipe fills."""
+    block = Block()
+    block.embed(code, section.name)
+    return _part(types, section, block.lines(), log, checks)
+
+
+def asked(types: Types, section: Section) -> Part:
+    """Return what a client sends: a request or a goal."""
+    block = Block()
+    walk = Walk(types, section.name)
+    walk.fill(block, section, _owner(types, section), section.name)
+    return _part(types, section, block.lines(), joined(walk.shown), walk.checks[:3])
+
+
+def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
+    """Return what a server answers: a response or a result, taken from what it was given."""
+    block = Block()
+    walk = Walk(types, section.name)
+    checks: list[str] = []
+    for field in section.fields:
+        value = _answer(field, given)
+        if value is None:
+            only = section._replace(fields=(field,))
+            walk.fill(block, only, _owner(types, section), section.name)
+        else:
+            block.add(f"{section.name}.{field.name} = {value}")
+            checks += _check(f"{section.name}.{field.name}", value)
+    log = joined(walk.shown) or _first_scalar(section)
+    return _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
+
+
+def reported(types: Types, section: Section) -> Part:
+    """Return what a server says at each step: a feedback."""
+    block = Block(counter="step")
+    walk = Walk(types, section.name)
+    for field in section.fields:
+        value = _progress(field)
+        if value is None:
+            only = section._replace(fields=(field,))
+            walk.fill(block, only, _owner(types, section), section.name)
+        else:
+            block.add(f"{section.name}.{field.name} = {value}")
+    log = joined(walk.shown) or _first_scalar(section)
+    return _part(types, section, block.lines(), log, walk.checks[:3])
+
+
+def _owner(types: Types, section: Section) -> str:
+    """Return the class of a part."""
+    return f"{types.interface.name}.{section.name.capitalize()}"
+
+
+def _answer(field: Field, given: Sequence[Section]) -> str | None:
+    """Return the value of a field that follows from other parts; ``None``: it is made up."""
+    for part in given:
+        same = part.field(field.name)
+        if same is not None and same.type == field.type:
+            return f"{part.name}.{field.name}"
+    if field.type.is_array:
+        return None
+    if field.type.name == "bool":
+        return "True" if _DONE.match(field.name) else None
+    if field.type.name == "string" and field.type.text_bound is None:
+        return "''" if _ERROR.match(field.name) else "'done'" if _WHY.match(field.name) else None
+    return _sum(field, given) if field.name in {"sum", "total"} else None
+
+
+def _sum(field: Field, given: Sequence[Section]) -> str | None:
+    """Return the sum of all numbers of the field's type that were given, if there are several."""
+    numbers = [
+        f"{part.name}.{one.name}"
+        for part in given
+        for one in part.fields
+        if one.type == field.type and one.type.name in _NUMBERS
+    ]
+    return " + ".join(numbers) if len(numbers) > 1 else None
+
+
+def _check(target: str, value: str) -> list[str]:
+    if value == "True":
+        return [target]
+    return [] if value == "''" else [f"{target} == {value}"]
+
+
+def _progress(field: Field) -> str | None:
+    """Return the value of a field of a feedback that tells how far the server is."""
+    if field.type.is_array or field.type.name not in _NUMBERS:
+        return None
+    is_float = field.type.name in FLOATS
+    parts = set(words.split(field.name))
+    if "percent" in parts or ("percentage" in parts and not is_float):
+        return f"{100 // STEPS}.0 * step" if is_float else f"{100 // STEPS} * step"
+    if parts & {"remaining", "left"}:
+        return f"{STEPS}.0 - step" if is_float else f"{STEPS} - step"
+    if is_float and parts & {"progress", "completion", "fraction", "percentage", "ratio"}:
+        return f"step / {STEPS}"
+    return None if is_float else "step"
+
+
+def _first_scalar(section: Section) -> str:
+    """Return a replacement field for the log."""
+    for field in section.fields:
+        if field.type.is_primitive and not field.type.is_array:
+            return f"{{{section.name}.{field.name}}}"
+    return f"{{{section.name}}}" if section.fields else ""
+
+
+def _part(
+    types: Types, section: Section, lines: Sequence[str], log: str, checks: Iterable[str]
+) -> Part:
+    log = log or (f"{{{section.name}}}" if section.fields else f"an empty {section.name}")
+    packages, lines_of_imports = imports(types, [*lines, f"f'{log}'"])
+    names = [words.phrase(field.name) for field in section.fields]
+    return Part(
+        statements=tuple(lines),
+        log=log,
+        says=enumerated(names, "", 60) if names else "",
+        checks=tuple(checks),
+        imports=lines_of_imports,
+        packages=packages,
+        is_stamped=any("self.frame_id" in line for line in lines),
+        is_counted=any("self.count" in line for line in lines),
+    )

@@ -1,0 +1,93 @@
+"""Recipes: how people fill the messages that they publish most."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any, NamedTuple
+
+
+class Recipe(NamedTuple):
+    """How to fill one message: what stands in the method that publishes it.
+
+    A ``header`` is filled without being mentioned; what the code uses is imported by itself.
+    Names of other messages and of ``math`` and ``struct`` may be used.
+    """
+
+    says: str
+    """What the message holds, as in `Payload.says`."""
+    code: str = ""
+    """Lines that fill ``msg``."""
+    constants: str = ""
+    """Lines of the module."""
+    log: str = ""
+    """As in `Payload.log`; empty: the fields that change."""
+    checks: tuple[str, ...] = ()
+    """As in `Payload.checks`."""
+    frame: str = "base_link"
+    """The default of the parameter ``frame_id``."""
+
+
+def find(full_name: str) -> Recipe | None:
+    """Return the recipe of a message by ``package/msg/Name``; ``None`` if there is none."""
+    found: Recipe | None = _in(full_name, "RECIPES")
+    return found
+
+
+class ServiceRecipe(NamedTuple):
+    """How to ask and answer a service."""
+
+    says: str
+    """What it does, as in `ServicePayload.says`."""
+    request: str = ""
+    """Lines that fill ``request``."""
+    response: str = ""
+    """Lines that fill ``response`` from ``request``."""
+    request_log: str = ""
+    response_log: str = ""
+    checks: tuple[str, ...] = ()
+    """Expressions that are true of ``response`` for a ``request``."""
+
+
+class ActionRecipe(NamedTuple):
+    """How to ask for an action and work on it."""
+
+    says: str
+    """What it does, as in `ActionPayload.says`."""
+    goal: str
+    """Lines that fill ``goal``."""
+    refused: str
+    """As in `ActionPayload.refused`."""
+    start: str
+    """Lines that prepare ``feedback``."""
+    steps: str
+    """As in `ActionPayload.steps`."""
+    feedback: str
+    """Lines that bring ``feedback`` up to date."""
+    result: str
+    """Lines that fill ``result``."""
+    goal_log: str
+    feedback_log: str
+    result_log: str
+    checks: tuple[str, ...]
+    """Expressions that are true of ``result`` for a ``goal``."""
+
+
+def find_service(full_name: str) -> ServiceRecipe | None:
+    """Return the recipe of a service by ``package/srv/Name``; ``None`` if there is none."""
+    found: ServiceRecipe | None = _in(full_name, "SERVICES")
+    return found
+
+
+def find_action(full_name: str) -> ActionRecipe | None:
+    """Return the recipe of an action by ``package/action/Name``; ``None`` if there is none."""
+    found: ActionRecipe | None = _in(full_name, "ACTIONS")
+    return found
+
+
+def _in(full_name: str, table: str) -> Any:  # noqa: ANN401  of the type that the table has
+    package, _, name = full_name.split("/")
+    module = f"{__package__}.recipes.{package}"
+    if find_spec(module) is None:
+        return None
+    return getattr(import_module(module), table, {}).get(name)

@@ -1,0 +1,27 @@
+"""How people fill messages of builtin_interfaces."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import Recipe
+
+RECIPES: dict[str, Recipe] = {
+    "Duration": Recipe(
+        says="the time since the node was started, as its timer counts it",
+        code="""
+            msg.sec = self.count // 2  # seconds; the timer ticks twice a second
+            msg.nanosec = self.count % 2 * 500_000_000
+        """,
+        log="{msg.sec}.{msg.nanosec:09d} s",
+        checks=("message.nanosec < 10**9",),
+    ),
+    "Time": Recipe(
+        says="the time of publication",
+        code="""
+            now = self.get_clock().now().to_msg()
+            msg.sec = now.sec
+            msg.nanosec = now.nanosec
+        """,
+        log="{msg.sec}.{msg.nanosec:09d} s",
+        checks=("message.sec > 0", "message.nanosec < 10**9"),
+    ),
+}

@@ -1,0 +1,63 @@
+"""How people fill messages of lifecycle_msgs."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import Recipe
+
+RECIPES: dict[str, Recipe] = {
+    "State": Recipe(
+        says="the state of a node that is switched on and off",
+        code="""
+            if self.count % 2 == 0:
+                msg.id = State.PRIMARY_STATE_ACTIVE
+                msg.label = 'active'
+            else:
+                msg.id = State.PRIMARY_STATE_INACTIVE
+                msg.label = 'inactive'
+        """,
+        log="{msg.label}",
+        checks=("message.label in ('active', 'inactive')",),
+    ),
+    "Transition": Recipe(
+        says="the transitions that switch a node on and off, in turn",
+        code="""
+            if self.count % 2 == 0:
+                msg.id = Transition.TRANSITION_ACTIVATE
+                msg.label = 'activate'
+            else:
+                msg.id = Transition.TRANSITION_DEACTIVATE
+                msg.label = 'deactivate'
+        """,
+        log="{msg.label}",
+        checks=("message.label in ('activate', 'deactivate')",),
+    ),
+    "TransitionDescription": Recipe(
+        says="how a node is switched on and off, in turn",
+        code="""
+            active = State(id=State.PRIMARY_STATE_ACTIVE, label='active')
+            inactive = State(id=State.PRIMARY_STATE_INACTIVE, label='inactive')
+            if self.count % 2 == 0:
+                msg.transition.id = Transition.TRANSITION_ACTIVATE
+                msg.transition.label = 'activate'
+                msg.start_state, msg.goal_state = inactive, active
+            else:
+                msg.transition.id = Transition.TRANSITION_DEACTIVATE
+                msg.transition.label = 'deactivate'
+                msg.start_state, msg.goal_state = active, inactive
+        """,
+        log="{msg.start_state.label} to {msg.goal_state.label}",
+        checks=("{message.start_state.label, message.goal_state.label} == {'active', 'inactive'}",),
+    ),
+    "TransitionEvent": Recipe(
+        says="a node that is switched on",
+        code="""
+            msg.timestamp = self.get_clock().now().nanoseconds
+            msg.transition.id = Transition.TRANSITION_ACTIVATE
+            msg.transition.label = 'activate'
+            msg.start_state = State(id=State.PRIMARY_STATE_INACTIVE, label='inactive')
+            msg.goal_state = State(id=State.PRIMARY_STATE_ACTIVE, label='active')
+        """,
+        log="{msg.transition.label}",
+        checks=("message.timestamp > 0", "message.goal_state.label == 'active'"),
+    ),
+}

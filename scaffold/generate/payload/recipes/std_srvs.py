@@ -1,0 +1,37 @@
+"""How people use the services of std_srvs."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import ServiceRecipe
+
+SERVICES: dict[str, ServiceRecipe] = {
+    "Empty": ServiceRecipe(
+        says="does something without saying more",
+        request_log="an empty request",
+        response_log="done",
+    ),
+    "SetBool": ServiceRecipe(
+        says="switches something on or off",
+        request="request.data = self.count % 2 == 0  # on and off in turn",
+        response="""
+            response.success = True
+            response.message = 'switched on' if request.data else 'switched off'
+        """,
+        request_log="{request.data}",
+        response_log="{response.message}",
+        checks=(
+            "response.success",
+            "response.message == ('switched on' if request.data else 'switched off')",
+        ),
+    ),
+    "Trigger": ServiceRecipe(
+        says="starts something and tells whether that worked",
+        response="""
+            response.success = True
+            response.message = f'started for the {self.count + 1}. time'
+        """,
+        request_log="an empty request",
+        response_log="{response.message}",
+        checks=("response.success", "response.message.startswith('started')"),
+    ),
+}

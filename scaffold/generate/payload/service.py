@@ -1,0 +1,29 @@
+"""How nodes ask and answer a service."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload import lookup, part, recipe
+from scaffold.generate.payload.records import ServicePayload
+from scaffold.model.interfaces import Definitions
+
+
+def of_service(text: str, interfaces: Definitions) -> ServicePayload:
+    """Return how to ask and answer services of a type.
+
+    Raises:
+        InputError: the type is not known or cannot be used.
+    """
+    types = lookup.find(text, "srv", interfaces)
+    own = types.interface
+    found = recipe.find_service(own.full_name)
+    if found is None:
+        request = part.asked(types, own.request)
+        response = part.answered(types, own.response, [own.request])
+        says = f"answers {own.name} requests"
+    else:
+        request = part.by_recipe(types, own.request, found.request, found.request_log)
+        response = part.by_recipe(
+            types, own.response, found.response, found.response_log, found.checks
+        )
+        says = found.says
+    return ServicePayload(own.package, own.name, says, request, response)

@@ -1,0 +1,345 @@
+"""Fills a message field by field, as its names, types and constants tell."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from scaffold.generate.payload import recipe, words
+from scaffold.generate.payload.code import COUNT, NOW, Block
+from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
+from scaffold.model.interface_syntax import Constant, Field, Section
+from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+
+ELEMENTS = 3
+"""Of an array of any length."""
+_STAMP = (f"{{}}.stamp = {NOW}", "{}.frame_id = self.frame_id")
+_DULL = re.compile("UNKNOWN|NONE|NOT_SET|UNSET|INVALID|UNDEFINED|ERROR|FAIL|DEFAULT|OFF")
+
+
+class Walk:
+    """Fills the messages of one interface.
+
+    Args:
+        types: The interface.
+        root: The variable that is filled.
+        changing: Whether fields that would stay the same change too.
+    """
+
+    def __init__(self, types: Types, root: str, *, changing: bool = False) -> None:
+        self._types = types
+        self._root = root
+        self._changing = changing
+        self._stamped: list[str] = []
+        self.checks: list[str] = []
+        """Expressions that are true of the root."""
+        self._shown: list[str] = []
+        self._spare: list[str] = []
+
+    @property
+    def shown(self) -> list[str]:
+        """Replacement fields of an f-string for the root: what changes, the best first."""
+        return self._shown or self._spare
+
+    def fill(self, block: Block, section: Section, owner: str, target: str) -> None:
+        """Add statements that fill the fields of a section.
+
+        Args:
+            block: Where to.
+            section: The fields.
+            owner: What the constants belong to, as code.
+            target: What is filled, as code.
+        """
+        for field in section.fields:
+            if field.default is None or self._changing:
+                self._field(block, section, owner, field, f"{target}.{field.name}")
+
+    def message(self, block: Block, full_name: str, target: str) -> None:
+        """Add statements that fill a message."""
+        section = self._types.message(full_name)
+        found = recipe.find(full_name)
+        if full_name == TIME and target != self._root:
+            block.add(f"{target} = {NOW}")
+            self._show(f"{target}.sec", "", " s", last=True)
+            self._expect(f"{target}.sec", "{} > 0")
+        elif full_name == HEADER and target != self._root:
+            self._header(block, target)
+        elif found is not None:
+            header = section.field("header")
+            if header is not None and header.type.full_name == HEADER:
+                self._header(block, f"{target}.header")
+            block.embed(self._types.renamed(found.code, full_name), target)
+        else:
+            self.fill(block, section, full_name.rpartition("/")[2], target)
+
+    def _header(self, block: Block, target: str) -> None:
+        """Fill a header; one that belongs to an element is that of the whole."""
+        if self._stamped:
+            block.add(f"{target} = {self._stamped[0]}")
+            return
+        if target.startswith(f"{self._root}."):
+            self._stamped.append(target)
+            self.checks.append(f"{target}.stamp.sec > 0")
+        for line in _STAMP:
+            block.add(line.format(target))
+
+    # -- fields
+
+    def _field(self, block: Block, section: Section, owner: str, field: Field, target: str) -> None:
+        if field.type.is_array:
+            self._array(block, field, target)
+        elif field.type.full_name == DURATION:
+            block.add(f"{target}.sec = {COUNT} % 10 + 1" if self._changing else f"{target}.sec = 1")
+        elif not field.type.is_primitive:
+            self._nested(block, field, target)
+        elif options := constants_of(section, field):
+            value = self._enum(options, owner)
+            block.add(f"{target} = {value}", said(field, ""))
+            if not self._changing:
+                self._expect(target, f"{{}} == {value}")
+        else:
+            self._scalar(block, field, target)
+
+    def _nested(self, block: Block, field: Field, target: str) -> None:
+        quantity = words.quantity(field.name)
+        if field.type.full_name == VECTOR and quantity is not words.NUMBER:
+            for axis in "xy":
+                block.add(f"{target}.{axis} = {quantity.expression}", said(field, quantity.unit))
+            self._expect(f"{target}.x", quantity.check("{}"))
+            self._show(f"{target}.x", ":.2f")
+        else:
+            self.message(block, field.type.full_name, target)
+
+    def _enum(self, options: Sequence[Constant], owner: str) -> str:
+        if self._changing and len(options) > 1:
+            names = [f"{owner}.{one.name}" for one in options[:ELEMENTS]]
+            return f"[{', '.join(names)}][{COUNT} % {len(names)}]"
+        telling = [one for one in options if not _DULL.search(one.name)]
+        return f"{owner}.{(telling or options)[0].name}"
+
+    def _scalar(self, block: Block, field: Field, target: str) -> None:
+        """Fill a field of a primitive type that has no constants."""
+        name, type_ = field.name, field.type
+        if type_.name in FLOATS:
+            quantity = words.quantity(name)
+            block.add(f"{target} = {quantity.expression}", said(field, quantity.unit))
+            self._expect(target, quantity.check("{}"))
+            self._show(target, ":.2f" if quantity.swing >= _COARSE else "")
+            return
+        if type_.name == "bool":
+            value = f"{COUNT} % 2 == 0"
+            value = "True" if words.is_true(name) and not self._changing else value
+        elif type_.name == "byte":
+            value = f"bytes([{COUNT} % 256])"
+        elif type_.name in INTEGER_RANGES:
+            value = self._integer(name, type_)
+        else:
+            value = self._text(name, type_)
+        block.add(f"{target} = {value}", said(field, ""))
+        if COUNT in value:
+            self._show(target, "")
+            if type_.name in TEXTS:
+                self._expect(target, "{}")
+        elif "self." not in value:
+            self._expect(target, "{}" if value == "True" else f"{{}} == {value}")
+
+    def _integer(self, name: str, type_: FieldType) -> str:
+        constant = words.whole(name)
+        limit = INTEGER_RANGES[type_.name][1]
+        if constant is not None and constant <= limit and not self._changing:
+            return str(constant)
+        if limit >= INTEGER_RANGES["int64"][1]:
+            return COUNT
+        return f"{COUNT} % {1000 if limit >= 1000 else 100}"  # noqa: PLR2004  round numbers
+
+    def _text(self, name: str, type_: FieldType) -> str:
+        if name.endswith("frame_id") and type_.text_bound is None:
+            return "self.frame_id" if name == "frame_id" else "'base_link'"
+        constant = words.text(name)
+        fits = constant is not None and len(constant) <= (type_.text_bound or len(constant))
+        if constant is None or not fits or self._changing:
+            return words.counting_text(name, type_.text_bound)
+        return f"'{constant}'"
+
+    def _expect(self, target: str, check: str) -> None:
+        if target.startswith(f"{self._root}."):
+            self.checks.append(check.format(target))
+
+    def _show(self, target: str, form: str, behind: str = "", *, last: bool = False) -> None:
+        """Note what the log may say; ``last``: for want of anything better."""
+        if target.removeprefix("len(").startswith(f"{self._root}."):
+            (self._spare if last else self._shown).append(f"{{{target}{form}}}{behind}")
+
+    # -- arrays
+
+    def _array(self, block: Block, field: Field, target: str) -> None:
+        type_ = field.type
+        size = type_.array_size or ELEMENTS
+        if type_.is_upper_bound:
+            size = min(size, ELEMENTS)
+        if not type_.is_primitive:
+            self._messages(block, field, target, size)
+        elif "covariance" in field.name and size in _DIAGONALS and type_.name in FLOATS:
+            block.add(f"{target}[::{_DIAGONALS[size]}] = 0.01", "the diagonal")
+        else:
+            value, unit = self._elements(field, size)
+            block.add(f"{target} = {value}", said(field, unit))
+        if type_.array_size is None or type_.is_upper_bound or not type_.is_primitive:
+            self._expect(target, f"len({{}}) == {size}")
+        self._show(f"len({target})", "", f" {words.phrase(field.name)}", last=True)
+
+    def _elements(self, field: Field, size: int) -> tuple[str, str]:
+        """Return the elements of an array of a primitive type as code, and their unit."""
+        element = field.type.element
+        name = singular(field.name)
+        if element.name in FLOATS:
+            quantity = words.quantity(name)
+            return several(quantity.expression, size), quantity.unit
+        if element.name == "bool":
+            return several(f"{COUNT} % 2 == 0", size), ""
+        if element.name == "byte":
+            return f"[bytes([({COUNT} + index) % 256]) for index in range({size})]", ""
+        if element.name in INTEGER_RANGES:
+            return f"[({COUNT} + index) % 100 for index in range({size})]", ""
+        if self._changing:
+            text = words.counting_text(name, element.text_bound)
+            return several(text, size), ""
+        texts = [f"'{text}'" for text in numbered(name, size, element.text_bound)]
+        return f"[{', '.join(texts)}]", ""
+
+    def _messages(self, block: Block, field: Field, target: str, size: int) -> None:
+        """Fill an array of messages, the elements of which differ."""
+        full_name = field.type.full_name
+        name = variable(field)
+        if full_name in {TIME, DURATION}:
+            value = NOW if full_name == TIME else f"{field.type.name}(sec=1)"
+            block.add(f"{target} = {several(value, size)}")
+            return
+        if field.type.array_size and not field.type.is_upper_bound:
+            if block.is_loop:
+                self.message(block, full_name, f"{target}[0]")
+                return
+            head = f"for count, {name} in enumerate({target}, {COUNT}):"
+            self.message(block.loop(head, "count"), full_name, name)
+            return
+        if block.is_loop:  # one element each is enough
+            size = 1
+        head = f"for count in range({COUNT}, {COUNT} + {size}):"
+        body = block.loop(head, "count") if size > 1 else block
+        value = f"{self._types.class_name(full_name)}()"
+        name = body.define(name, value)
+        self.message(body, full_name, name)
+        body.add(f"{target}.append({name})")
+
+
+_DIAGONALS = {4: 3, 9: 4, 16: 5, 36: 7}
+"""The distance of the elements on the diagonal of a square matrix, by its size."""
+_COARSE = 0.1
+"""A quantity that swings by less is not shown with two decimals."""
+
+
+def said(field: Field, unit: str) -> str:
+    """Return the comment for a field: what its definition says in a few words, or the unit."""
+    own = " ".join(field.comment.split())
+    if own and len(own) <= _SHORT and own.isascii() and own.isprintable() and "noqa" not in own:
+        return own
+    return unit
+
+
+_SHORT = 40
+
+
+def several(expression: str, size: int) -> str:
+    """Return a list of a value."""
+    if size <= ELEMENTS:
+        return f"[{', '.join([expression] * size)}]"
+    return f"[{expression}] * {size}"
+
+
+def singular(name: str) -> str:
+    """Return the name of an element of an array."""
+    for ending in ("_list", "_array"):
+        name = name.removesuffix(ending)
+    if name.endswith("ies"):
+        return name[:-3] + "y"
+    if name.endswith(("sses", "xes", "ches", "shes")):
+        return name[:-2]
+    return name[:-1] if name.endswith("s") and not name.endswith("ss") else name
+
+
+def variable(field: Field) -> str:
+    """Return a local name for an element of an array of messages."""
+    from keyword import iskeyword
+
+    name = singular(field.name)
+    bad = {
+        "self",
+        "msg",
+        "count",
+        "math",
+        "range",
+        "object",
+        "filter",
+        "map",
+        "type",
+        "input",
+        "id",
+    }
+    if name == field.name or iskeyword(name) or name in bad:
+        snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", field.type.name).lower()
+        name = snake if snake not in bad else "element"
+    return name
+
+
+def numbered(name: str, size: int, bound: int | None) -> Iterable[str]:
+    """Return texts for the elements of an array."""
+    for number in range(1, size + 1):
+        text = f"{name}_{number}"
+        yield text if bound is None or len(text) <= bound else str(number)[-bound:]
+
+
+# -- constants
+
+
+def constants_of(section: Section, field: Field) -> list[Constant]:
+    """Return the constants that are the values of a field.
+
+    By their names, as in ``STATUS_OK`` for ``status``; else by their place and type, if no other
+    field can be meant.
+    """
+    if field.type.name not in INTEGER_RANGES:
+        return []
+    named = _by_name(section, field)
+    if named:
+        return named
+    rivals = [
+        other
+        for other in section.fields
+        if other.type == field.type and not _by_name(section, other)
+    ]
+    taken = {one for other in section.fields for one in _by_name(section, other)}
+    free = [one for one in section.constants if one.type == field.type and one not in taken]
+    if len(rivals) == 1:
+        return free
+    return [one for one in free if _is_next_to(one, field, section)]
+
+
+def _by_name(section: Section, field: Field) -> list[Constant]:
+    stem = field.name.upper()
+    if field.type.is_array or field.type.name not in INTEGER_RANGES:
+        return []
+    found = [one for one in section.constants if one.name.startswith(f"{stem}_")]
+    found = found or [one for one in section.constants if one.name.endswith(f"_{stem}")]
+    longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
+    return [
+        one
+        for one in found
+        if not any(one.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
+        and one.type.name in INTEGER_RANGES
+    ]
+
+
+def _is_next_to(constant: Constant, field: Field, section: Section) -> bool:
+    """Tell whether no other field stands between a constant and the field below it."""
+    at, line = constant.location.line, field.location.line
+    return at < line and not any(at < other.location.line < line for other in section.fields)
