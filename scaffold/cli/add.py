@@ -81,7 +81,8 @@ def run(options: argparse.Namespace) -> int:
     part = (options.kind, options.name)
     added = add.add(package, part, given, roots, templates, User(directory))
     plan = _plan(package, added, force=options.force)
-    said = add.new_diagnostics(before, session.check(added.package))
+    after = session.check(added.package)
+    said = [one for one in add.new_diagnostics(before, after) if not added.is_expected(one)]
     if _is_defect(said, added):
         _report(package, said)
         return DEFECT
@@ -89,8 +90,8 @@ def run(options: argparse.Namespace) -> int:
         sys.stdout.write(plan.diff())
     elif not options.dry_run:
         plan.write(force=True)
-    for diagnostic in said:
-        sys.stderr.write(f"note: {_line(package, diagnostic)}\n")
+    for note in [*added.remarks, *(_line(package, diagnostic) for diagnostic in said)]:
+        sys.stderr.write(f"note: {note}\n")
     if not options.diff:
         print(_summary(options, package, added, plan))
     for line in _by_hand(package, added):

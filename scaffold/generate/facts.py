@@ -60,6 +60,25 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
     return min(choices, default=None)
 
 
+def own_header(package: Package) -> str:
+    """Return the comment with the copyright notice that most Python files begin with."""
+    found: Counter[str] = Counter()
+    for header in notices.headers(package):
+        if header.holders and header.path.endswith(".py"):
+            found[_comment(package.source(header.path).lines, header.location.line - 1)] += 1
+    return found.most_common(1)[0][0] if found else ""
+
+
+def _comment(lines: Sequence[str], number: int) -> str:
+    """Return the comment lines around a line."""
+    start = end = number
+    while start and lines[start - 1].startswith("#") and not lines[start - 1].startswith("#!"):
+        start -= 1
+    while end < len(lines) and lines[end].startswith("#"):
+        end += 1
+    return "\n".join(lines[start:end])
+
+
 def _holder(package: Package) -> str | None:
     """Return who holds the copyright of most sources."""
     names = Counter(

@@ -12,6 +12,7 @@ from scaffold.generate.edit.layout import layout_of
 from scaffold.model.ini import IniFile
 from scaffold.model.launch_files import launch_files
 from scaffold.model.package import CMAKE_LISTS, SETUP_CFG, SETUP_PY, Package
+from scaffold.model.setup_py import EntryPoint
 from scaffold.model.source import Source
 from scaffold.model.tree import MANIFEST
 
@@ -41,7 +42,7 @@ def edit(package: Package, addition: Addition) -> Edited:
     files: dict[str, bytes] = {}
     by_hand: list[ByHand] = []
     for path, make in _editors(package, addition):
-        source = package.editable(path)
+        source = package.editable(path) if package.has(path) else Source(path, "")
         outcome = make(source)
         by_hand += outcome.by_hand
         if outcome.source.text != source.text:
@@ -91,8 +92,21 @@ def _python_editors(package: Package, addition: Addition) -> Iterator[tuple[str,
             source, addition, entry_point=not in_config, extra=extra
         ),
     )
-    if in_config:
-        yield SETUP_CFG, lambda source: setup_cfg.add_to_setup_cfg(source, addition)
+    others = [point for point in package.setup_py.console_scripts if not _is_of(point, addition)]
+    has_others = in_config or bool(others)
+
+    def edit_config(source: Source) -> Outcome:
+        first = setup_cfg.add_directories(source, addition, has_others=has_others)
+        if not in_config:
+            return first
+        second = setup_cfg.add_to_setup_cfg(first.source, addition)
+        return Outcome(second.source, first.by_hand + second.by_hand)
+
+    yield SETUP_CFG, edit_config
+
+
+def _is_of(point: EntryPoint, addition: Addition) -> bool:
+    return addition.program is not None and point.name == addition.program.name
 
 
 def _declares_scripts(package: Package, config: IniFile) -> bool:

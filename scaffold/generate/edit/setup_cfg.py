@@ -44,3 +44,28 @@ def add_to_setup_cfg(source: Source, addition: Addition) -> Outcome:
     return Outcome(
         spliced(source, [Edit(source.path, end, end, f"{source.newline}{indent}{glue}")])
     )
+
+
+def add_directories(source: Source, addition: Addition, *, has_others: bool) -> Outcome:
+    """Have executables installed where ``ros2 run`` looks for them, not in ``bin/``.
+
+    Args:
+        source: setup.cfg; empty if there is none.
+        addition: What is added.
+        has_others: The package has executables already, which would move.
+
+    Raises:
+        ParseError: setuptools would refuse the file.
+    """
+    directory = f"$base/lib/{addition.package}"
+    by_hand: list[ByHand] = []
+    for section, key in (("develop", "script_dir"), ("install", "install_scripts")):
+        file = IniFile.parse(source)
+        if addition.program is None or file.get(section, key, key.replace("_", "-")) is not None:
+            continue
+        if has_others:
+            reason = "ros2 run looks nowhere else, but it moves the other executables out of bin/"
+            by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
+        else:
+            source = spliced(source, [file.set(section, key, directory)])
+    return Outcome(source, tuple(by_hand))

@@ -1,0 +1,197 @@
+"""Run ``add publisher extra_talker`` on copies of public packages, twice, and judge the result.
+
+    python benchmarks/add_public.py [--every N] [--build] [--diffs FILE] DIRECTORY...
+
+Printed per package: the lines that existing files gained and lost, what the checker says only
+afterwards, what is left to do by hand, whether a second run changes anything, and, with
+``--build``, whether colcon builds it and installs the new program. Only packages that build
+without the new node are built with it. Then the sums.
+
+The exit status is 1 when ``add`` fails, a second run changes something, the checker finds
+something new, or a package does not build any more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from scaffold.cli import main
+from scaffold.model import discovery
+from scaffold.model.package import Package
+from scaffold.smoke import environment
+
+NODE = "extra_talker"
+SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log")
+BUILDERS = ("ament_cmake", "ament_python")
+
+
+class Outcome(NamedTuple):
+    """What became of one package."""
+
+    name: str
+    build_type: str
+    code: int
+    added: int
+    """Lines in files that were there."""
+    removed: int
+    by_hand: int
+    notes: list[str]
+    """What the checker says only now."""
+    is_stable: bool
+    """The second run changes nothing."""
+    built: str
+    """``builds``, ``broken``, or why it was not built."""
+    said: str
+    """The error of ``add``, if it failed."""
+    diff: str
+
+    @property
+    def is_good(self) -> bool:
+        """Tell whether nothing is to be complained about."""
+        failed = self.code not in {main.CLEAN, main.FOUND}
+        return not failed and self.is_stable and not self.notes and self.built != "broken"
+
+
+def run_add(directory: Path, *more: str) -> tuple[int, str, str]:
+    """Run the command in this process; return its exit code and what it prints."""
+    out, error = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+        words = ["add", "publisher", NODE, "--package-directory", str(directory), *more]
+        code = main.main(words)
+    return code, out.getvalue(), error.getvalue()
+
+
+def judge(package: Package, root: Path, ros: environment.Environment | None) -> Outcome:
+    """Add a node to a copy of a package."""
+    directory = root / "src" / package.name
+    shutil.copytree(package.directory, directory, ignore=SKIPPED, symlinks=True)
+    before = builds(root, package, ros) if ros else "not asked for"
+    _, diff, _ = run_add(directory, "--diff")
+    code, _, error = run_add(directory)
+    again, changes, _ = run_add(directory, "--diff")
+    built = before
+    if before == "builds" and ros is not None and code in {main.CLEAN, main.FOUND}:
+        built = "builds" if builds(root, package, ros, NODE) == "builds" else "broken"
+    added, removed = counts(diff)
+    lines = error.splitlines()
+    return Outcome(
+        package.name,
+        package.build_type,
+        code,
+        added,
+        removed,
+        sum(line.startswith("        because ") for line in lines),
+        [line for line in lines if line.startswith("note: ") and str(directory) in line],
+        code not in {main.CLEAN, main.FOUND} or (again == code and not changes),
+        built,
+        error.strip() if code not in {main.CLEAN, main.FOUND} else "",
+        diff,
+    )
+
+
+def counts(diff: str) -> tuple[int, int]:
+    """Return the lines that a diff adds to and removes from files that were there."""
+    added = removed = 0
+    is_new = False
+    for line in diff.splitlines():
+        if line.startswith("--- "):
+            is_new = line == "--- /dev/null"
+        elif not line.startswith("+++ ") and not is_new:
+            added += line.startswith("+")
+            removed += line.startswith("-")
+    return added, removed
+
+
+def builds(root: Path, package: Package, ros: environment.Environment, program: str = "") -> str:
+    """Build a package; return ``builds``, or why not."""
+    variables = {**ros.variables}
+    variables.pop("PYTHONDONTWRITEBYTECODE", None)
+    prefixes = variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    unmet = sorted(name for name in package.manifest.build_names if not known(name, prefixes))
+    if unmet:
+        return f"needs {unmet[0]}"
+    command = [ros.colcon, "build", "--packages-select", package.name]
+    done = subprocess.run(command, cwd=root, env=variables, capture_output=True, check=False)
+    if done.returncode:
+        return "does not build"
+    where = root / "install" / package.name / "lib" / package.name
+    names = [path.name.removesuffix(".py") for path in where.glob("*")]
+    return "builds" if not program or program in names else "program is not installed"
+
+
+def known(name: str, prefixes: list[str]) -> bool:
+    """Tell whether a package is in the environment."""
+    marker = os.path.join("share", "ament_index", "resource_index", "packages", name)
+    return any(os.path.exists(os.path.join(prefix, marker)) for prefix in prefixes)
+
+
+def shown(one: Outcome) -> str:
+    """Return a line for a package, and what is wrong with it."""
+    state = "" if one.is_stable else ", NOT STABLE"
+    line = (
+        f"{one.name}: {one.build_type}, exit {one.code}, +{one.added} -{one.removed}, "
+        f"{one.by_hand} by hand, {len(one.notes)} new findings, {one.built}{state}"
+    )
+    return "\n    ".join([line, *one.notes, *filter(None, [one.said])])
+
+
+def summary(found: list[Outcome]) -> str:
+    """Return the sums."""
+    sizes = Counter((one.added, one.removed) for one in found if not one.said)
+    built = Counter(one.built.partition(" ")[0] for one in found)
+    return "\n".join(
+        [
+            f"{len(found)} packages, {sum(one.is_good for one in found)} without a complaint",
+            f"failed: {sum(bool(one.said) for one in found)}",
+            f"with new findings: {sum(bool(one.notes) for one in found)}",
+            f"with something by hand: {sum(bool(one.by_hand) for one in found)}",
+            f"second run changes something: {sum(not one.is_stable for one in found)}",
+            f"only added lines: {sum(not one.removed for one in found if not one.said)}",
+            f"most lines added: {max((added for added, _ in sizes), default=0)}",
+            f"builds: {dict(built)}",
+        ]
+    )
+
+
+def parse() -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("directories", nargs="+", metavar="DIRECTORY")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="take each Nth package")
+    parser.add_argument("--build", action="store_true", help="build with colcon")
+    parser.add_argument("--diffs", metavar="FILE", help="write all diffs into a file")
+    return parser.parse_args()
+
+
+def run() -> int:
+    """Judge the packages; return the exit status."""
+    options = parse()
+    ros = environment.select(os.environ) if options.build else None
+    targets = discovery.find(options.directories)[:: options.every]
+    found: list[Outcome] = []
+    for target in targets:
+        if target.package.build_type not in BUILDERS:
+            continue
+        with tempfile.TemporaryDirectory() as root:
+            found.append(judge(target.package, Path(root), ros))
+        print(shown(found[-1]), flush=True)
+    print(summary(found))
+    if options.diffs:
+        Path(options.diffs).write_text("".join(f"# {one.name}\n{one.diff}" for one in found))
+    return 0 if all(one.is_good for one in found) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(run())
