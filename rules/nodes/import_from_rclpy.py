@@ -5,24 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-
-PLACES = {
-    "Node": "rclpy.node",
-    "LifecycleNode": "rclpy.lifecycle",
-    "QoSProfile": "rclpy.qos",
-    "qos_profile_sensor_data": "rclpy.qos",
-    "ReliabilityPolicy": "rclpy.qos",
-    "DurabilityPolicy": "rclpy.qos",
-    "ActionServer": "rclpy.action",
-    "ActionClient": "rclpy.action",
-    "MultiThreadedExecutor": "rclpy.executors",
-    "SingleThreadedExecutor": "rclpy.executors",
-    "ExternalShutdownException": "rclpy.executors",
-    "ReentrantCallbackGroup": "rclpy.callback_groups",
-    "MutuallyExclusiveCallbackGroup": "rclpy.callback_groups",
-    "Duration": "rclpy.duration",
-    "Time": "rclpy.time",
-}
+from scaffold.model.rclpy_names import PLACES
 
 
 class ImportFromRclpy(Rule):

@@ -1,0 +1,134 @@
+"""ND046: what a node uses of itself exists."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import NODE, has, known_names
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
+    "        self.create_timer(1.0, self.{})\n\n"
+    "    def on_timer(self):\n"
+    "        self.{}.publish(String())\n"
+)
+_ELSEWHERE = {
+    "advertise": "create_publisher",
+    "create_server": "create_service",
+    "create_subscriber": "create_subscription",
+    "create_wall_timer": "create_timer",
+    "get_param": "get_parameter",
+    "logger": "get_logger()",
+    "now": "get_clock().now()",
+    "set_parameter": "set_parameters",
+    "spin": "rclpy.spin(...)",
+}
+"""What other libraries call it."""
+
+
+class AttributeOfNodeUnknown(Rule):
+    """A node uses an attribute or method of itself that nobody defines.
+
+    **Why.** ``AttributeError: 'Talker' object has no attribute 'create_subscriber'`` when the line
+    is reached, for a callback in the constructor, else at the first message.
+
+    **Fix.** Spell it as it is defined, or define it.
+
+    **Source.** ``rclpy/node.py``, ``Node``.
+    """
+
+    code = "ND046"
+    name = "attribute-of-node-unknown"
+    examples = (
+        Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
+        Example(
+            "misspelt",
+            {"talker.py": _NODE.format("on_tick", "publisher")},
+            at=("talker.py:9", "talker.py:12"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        bases = package.remember("names_of_bases", lambda: _names_of_bases(package))
+        for facts in package.rclpy_files():
+            for node in facts.classes:
+                if node.name not in bases and _is_plain(node):
+                    yield from self._check(facts, node)
+
+    def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
+        known = _defined(node)
+        for attribute in facts.module.walk(ast.Attribute):
+            if facts.evaluator.self_class(attribute.value) is not node.node:
+                continue
+            name = attribute.attr
+            if not isinstance(attribute.ctx, ast.Load) or name in known or has(NODE, name):
+                continue
+            if facts.evaluator.stores(name) or _may_fail(facts, attribute):
+                continue
+            near = _ELSEWHERE.get(name) or next(iter(_near(name, known)), "")
+            hint = f"; {near!r} is meant" if near else ""
+            message = f"neither {node.name} nor rclpy's Node has {name!r}{hint}: AttributeError"
+            yield self.report(facts.module.location(attribute), message)
+
+
+def _near(name: str, known: set[str]) -> list[str]:
+    names = {*known, *(one.removesuffix("()") for one in known_names()[NODE])}
+    return get_close_matches(name, [one for one in names if not one.startswith("__")], 1, 0.7)
+
+
+def _names_of_bases(package: Package) -> frozenset[str]:
+    """Return the classes of the package that others inherit from: those may define the rest."""
+    return frozenset(
+        base.attr if isinstance(base, ast.Attribute) else base.id
+        for module in package.modules()
+        for class_ in module.walk(ast.ClassDef)
+        for base in class_.bases
+        if isinstance(base, ast.Attribute | ast.Name)
+    )
+
+
+def _is_plain(node: NodeClass) -> bool:
+    """Tell whether a class and its bases are read in full, and make no names at run time."""
+    owner: NodeClass | None = node
+    while owner is not None:
+        bindings = owner.facts.module.index.bindings(owner.node)
+        if len(owner.node.bases) != 1 or owner.node.keywords or owner.node.decorator_list:
+            return False
+        if owner.is_lifecycle or "__getattr__" in bindings or "__getattribute__" in bindings:
+            return False
+        module = owner.facts.module
+        if any(name in module.source.text for name in ("setattr(", "__dict__", "vars(self")):
+            return False
+        owner = owner.base
+    return True
+
+
+def _defined(node: NodeClass) -> set[str]:
+    """Return what a class and its bases define, in methods and on ``self``."""
+    found: set[str] = set()
+    owner: NodeClass | None = node
+    while owner is not None:
+        found |= set(owner.facts.module.index.bindings(owner.node))
+        for attribute in ast.walk(owner.node):
+            if isinstance(attribute, ast.Attribute) and not isinstance(attribute.ctx, ast.Load):
+                found.add(attribute.attr)
+        owner = owner.base
+    return found
+
+
+def _may_fail(facts: NodeFacts, node: ast.Attribute) -> bool:
+    """Tell whether the code is ready for the attribute not to be there."""
+    if any(isinstance(parent, ast.Try) for parent in facts.module.parents(node)):
+        return True
+    return f"'{node.attr}'" in facts.module.source.text or (
+        f'"{node.attr}"' in facts.module.source.text
+    )

@@ -1,0 +1,84 @@
+"""ND045: what is imported and used of rclpy exists."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import Import, PythonModule
+from scaffold.model.rclpy_names import PLACES, first_unknown, known_names
+
+_CODE = "import rclpy\nfrom rclpy.{} import {}\n\nrclpy.{}()\nQOS = ReliabilityPolicy.{}\n"
+_RIGHT = _CODE.format("qos", "ReliabilityPolicy", "init", "RELIABLE")
+
+
+class NameOfRclpyUnknown(Rule):
+    """A name of rclpy is used that rclpy does not have.
+
+    **Why.** ``AttributeError`` or ``ImportError`` when the line is reached: ``module 'rclpy' has
+    no attribute 'spin_forever'``, ``type object 'DurabilityPolicy' has no attribute 'LATCHED'``.
+
+    **Fix.** Spell it as rclpy does; what rospy had is often a method of the node now.
+
+    **Source.** The modules of rclpy 7.1 (ROS 2 Jazzy).
+    """
+
+    code = "ND045"
+    name = "name-of-rclpy-unknown"
+    examples = (
+        Example("known names", {"talker.py": _RIGHT}),
+        Example(
+            "a module and an import",
+            {"talker.py": "from rclpy.nodes import Node\nfrom rclpy.qos import Reliability\n"},
+            at=("talker.py:1", "talker.py:2"),
+        ),
+        Example(
+            "a function and a member",
+            {"talker.py": _CODE.format("qos", "ReliabilityPolicy", "initialize", "SURE")},
+            at=("talker.py:4", "talker.py:5"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        for module in package.modules():
+            if "rclpy" in module.imports_by_root and not module.in_tests:
+                for one in module.imports_by_root["rclpy"]:
+                    yield from self._check_import(one)
+                yield from self._check_uses(module)
+
+    def _check_import(self, one: Import) -> Iterator[Diagnostic]:
+        if one.guarded or one.conditional or one.type_checking:
+            return
+        unknown = first_unknown(one.module)
+        if unknown is not None:
+            yield self.report(one, f"{_said(*unknown)}: ImportError")
+            return
+        for name in one.names:
+            unknown = first_unknown(f"{one.module}.{name.name}")
+            is_misplaced = one.module == "rclpy" and name.name in PLACES
+            if unknown is not None and name.name != "*" and not is_misplaced:
+                yield self.report(name, f"{_said(*unknown)}: ImportError")
+
+    def _check_uses(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for node in module.walk(ast.Attribute):
+            if isinstance(module.parent(node), ast.Attribute) or _may_fail(module, node):
+                continue
+            name = module.qualified_name(node) or ""
+            unknown = first_unknown(name) if name.startswith("rclpy.") else None
+            if unknown is not None:
+                yield self.report(module.location(node), f"{_said(*unknown)}: AttributeError")
+
+
+def _may_fail(module: PythonModule, node: ast.AST) -> bool:
+    return any(isinstance(parent, ast.Try) for parent in module.parents(node))
+
+
+def _said(owner: str, name: str) -> str:
+    known = [one.removesuffix("()") for one in known_names()[owner] if not one.startswith("_")]
+    near = get_close_matches(name, known, n=1, cutoff=0.75)
+    hint = f"; {near[0]!r} is meant" if near else ""
+    return f"{owner} has no {name!r}{hint}"

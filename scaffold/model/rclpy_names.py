@@ -1,0 +1,131 @@
+"""The names that rclpy has on Jazzy, and of which of its classes an object is."""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Mapping
+from functools import cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.nodes import NodeFacts
+    from scaffold.model.scopes import FunctionNode
+
+NODE = "rclpy.node.Node"
+PLACES: Mapping[str, str] = {
+    "Node": "rclpy.node",
+    "LifecycleNode": "rclpy.lifecycle",
+    "QoSProfile": "rclpy.qos",
+    "qos_profile_sensor_data": "rclpy.qos",
+    "ReliabilityPolicy": "rclpy.qos",
+    "DurabilityPolicy": "rclpy.qos",
+    "ActionServer": "rclpy.action",
+    "ActionClient": "rclpy.action",
+    "MultiThreadedExecutor": "rclpy.executors",
+    "SingleThreadedExecutor": "rclpy.executors",
+    "ExternalShutdownException": "rclpy.executors",
+    "ReentrantCallbackGroup": "rclpy.callback_groups",
+    "MutuallyExclusiveCallbackGroup": "rclpy.callback_groups",
+    "Duration": "rclpy.duration",
+    "Time": "rclpy.time",
+}
+"""Where names are that are often looked for in ``rclpy`` itself."""
+_TABLE = os.path.join(
+    os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data", "jazzy_names.txt"
+)
+_MADE: Mapping[str, str] = {
+    "create_publisher": "rclpy.publisher.Publisher",
+    "create_subscription": "rclpy.subscription.Subscription",
+    "create_service": "rclpy.service.Service",
+    "create_client": "rclpy.client.Client",
+    "create_timer": "rclpy.timer.Timer",
+    "create_rate": "rclpy.timer.Rate",
+    "get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
+    "get_clock": "rclpy.clock.Clock",
+    "get_parameter": "rclpy.parameter.Parameter",
+    "declare_parameter": "rclpy.parameter.Parameter",
+}
+"""What the methods of a node give."""
+_GIVEN: Mapping[str, str] = {
+    "rclpy.clock.Clock.now": "rclpy.time.Time",
+    "rclpy.client.Client.call_async": "rclpy.task.Future",
+    "rclpy.action.client.ActionClient.send_goal_async": "rclpy.task.Future",
+    "rclpy.logging.get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
+}
+_DEEPEST = 20
+
+
+@cache
+def known_names() -> Mapping[str, frozenset[str]]:
+    """Return what modules and classes have, by their full names; methods end in ``()``."""
+    with open(_TABLE, encoding="utf-8") as file:
+        pairs = [line.partition(": ") for line in file]
+    return {owner: frozenset(names.split()) for owner, _, names in pairs}
+
+
+def has(owner: str, name: str) -> bool:
+    """Tell whether a module or class of the table has a name."""
+    names = known_names()[owner]
+    return name in names or f"{name}()" in names or name.startswith("__")
+
+
+def is_method(owner: str, name: str) -> bool:
+    """Tell whether a name of a class is a method."""
+    return f"{name}()" in known_names().get(owner, ())
+
+
+def first_unknown(dotted: str) -> tuple[str, str] | None:
+    """Return the module or class of the table that lacks the next part of a dotted name."""
+    owner, *parts = dotted.split(".")
+    for part in parts:
+        if owner not in known_names():
+            return None
+        if not has(owner, part):
+            return owner, part
+        owner = f"{owner}.{part}"
+    return None
+
+
+def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
+    """Return the class of rclpy, as the table calls it, that an expression is an object of."""
+    value = facts.evaluator.single_value(node)
+    if not isinstance(value, ast.Call) or depth > _DEEPEST:
+        return _class_of_argument(facts, value)
+    name = facts.module.qualified_name(value.func) or ""
+    if name in _GIVEN:
+        return _GIVEN[name]
+    if name in known_names() and name.rpartition(".")[2][:1].isupper():
+        return name
+    if not isinstance(value.func, ast.Attribute):
+        return None
+    owner = facts.owner_of(value.func.value)
+    if owner is not None:
+        is_own = hasattr(owner, "method") and owner.method(value.func.attr) is not None
+        return None if is_own or owner.is_lifecycle else _MADE.get(value.func.attr)
+    inner = class_of(facts, value.func.value, depth + 1)
+    return _GIVEN.get(f"{inner}.{value.func.attr}")
+
+
+def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
+    """Return the class of what a callback is given: the future that is done."""
+    argument = facts.parameter_of(node)
+    if argument is None:
+        return None
+    for attribute in facts.module.index.attributes("add_done_callback"):
+        match facts.module.parent(attribute):
+            case ast.Call(func=func, args=[given]) if func is attribute:
+                callback = facts.callback(given)
+                given_to = _first_argument(callback.function, is_bound=callback.is_bound)
+                if given_to is argument and not callback.is_partial:
+                    return class_of(facts, attribute.value)
+    return None
+
+
+def _first_argument(
+    function: FunctionNode | ast.Lambda | None, *, is_bound: bool
+) -> ast.arg | None:
+    if function is None:
+        return None
+    arguments = [*function.args.posonlyargs, *function.args.args][1 if is_bound else 0 :]
+    return arguments[0] if arguments else None
