@@ -18,6 +18,10 @@ VERSION = "0.1.0"
 """Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""
 
 
+PARAMETERS = "_parameters.yaml.jinja"
+"""The file of a kind of node with the values of its parameters, for a launch file."""
+
+
 def package_context(
     answers: Mapping[str, Any],
     layers: Sequence[Template],
@@ -30,8 +34,8 @@ def package_context(
     comment lines), ``license_text`` (the template of the full text), ``nodes``, ``interfaces``
     and ``programs``, ``depends`` (names by kind), ``groups`` and ``share_directories``. A part has
     the answers of its template, ``kind``, ``name`` and ``summary``; a node also has ``module``,
-    ``class_name``, ``executable`` and the full names of its topics, services and actions; an
-    interface has ``file`` and ``type``.
+    ``class_name``, ``executable``, ``parameter_file``, ``has_parameters`` and the full names of
+    its topics, services and actions; an interface has ``file`` and ``type``.
 
     Raises:
         InputError: two answers contradict each other.
@@ -122,7 +126,10 @@ def _node(
         if question.type in _GRAPH_NAMES:
             node[f"{question.name}_name"] = _full_name(question, node[question.name], name)
     build = next(one for one in layers if one.role is Role.BUILD_TYPE)
-    node["executable"] = renderer.text(build.executable_name, {**context, "node": node})
+    scope = {**context, "node": node}
+    node["executable"] = renderer.text(build.executable_name, scope)
+    node["parameter_file"] = renderer.text(part.template.parameter_file, scope)
+    node["has_parameters"] = renderer.has(f"{part.template.name}/{PARAMETERS}")
     return node
 
 

@@ -66,12 +66,21 @@ class Renderer:
             "xml": filters.xml,
         }
         jinja.globals["imports"] = self._imports
+        jinja.globals["has"] = self.has
         return jinja
 
     @cached_property
     def _xml(self) -> Jinja:
         """The same for XML files: whatever a template prints there is escaped."""
         return self._plain.overlay(finalize=filters.xml)
+
+    def has(self, name: str) -> bool:
+        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        try:
+            self._plain.get_template(name)
+        except TemplateNotFound:
+            return False
+        return True
 
     def text(self, source: str, context: Mapping[str, Any]) -> str:
         """Render a short text.
@@ -114,11 +123,7 @@ class Renderer:
     def license_note(self, license_: str, context: Mapping[str, Any]) -> str | None:
         """Return what the user should know about a licence, if anything."""
         name = f"{licenses.DIRECTORY}/{license_}/{licenses.NOTE}"
-        try:
-            self._plain.get_template(name)
-        except TemplateNotFound:
-            return None
-        return self.file(name, context).strip()
+        return self.file(name, context).strip() if self.has(name) else None
 
     def package(self, scopes: Iterable[tuple[Template, Mapping[str, Any]]]) -> Rendered:
         """Render all files of a package.
@@ -171,7 +176,7 @@ def _sources(directory: str) -> Iterator[str]:
         directories.sort()
         for name in sorted(names):
             path = os.path.relpath(os.path.join(parent, name), directory).replace(os.sep, "/")
-            if name.startswith(".") or path == MANIFEST:
+            if path == MANIFEST or (name.startswith(".") and not name.endswith(ENDING)):
                 continue
             if not name.endswith(ENDING):
                 raise ContentError(f"{os.path.join(parent, name)}: must end in {ENDING}")

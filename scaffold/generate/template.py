@@ -68,6 +68,8 @@ class Template(NamedTuple):
     questions: tuple[Question, ...]
     executable_name: str
     """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
+    parameter_file: str
+    """Of a node that brings one: its parameter file, a Jinja text over ``node``."""
     definition: str
     """Of an interface: the directory and the ending of its file, ``msg``, ``srv`` or ``action``."""
     build_types: Sequence[str]
@@ -98,6 +100,7 @@ _KEYS = {
     "role": str,
     "questions": dict,
     "executable_name": str,
+    "parameter_file": str,
     "definition": str,
     "build_types": list,
     "depends": dict,
@@ -166,6 +169,7 @@ def _load_one(name: str, directory: str) -> Template:
         summary=manifest["summary"],
         questions=tuple(_question(path, key, value) for key, value in asked),
         executable_name=manifest.get("executable_name", "{{ node.name }}"),
+        parameter_file=manifest.get("parameter_file", ""),
         definition=manifest.get("definition", ""),
         build_types=manifest.get("build_types", []),
         depends=manifest.get("depends", {}),
