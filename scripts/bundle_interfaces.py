@@ -8,12 +8,14 @@ Usage:
 
 where the second python has this checkout installed. The argument is a prefix with
 ``share/<package>/msg`` and so on: an environment with the wheels of ROS 2, or ``/opt/ros/jazzy``.
-All packages of ``PACKAGES`` must be there.
+All packages of ``PACKAGES`` must be there; those that have no wheel (example_interfaces, tf2_msgs)
+are there when their source directories, of the branches for Jazzy, are linked into ``share``.
 
 Where the content comes from: the definitions of the repositories ros2/common_interfaces,
-ros2/rcl_interfaces (Apache-2.0) and ros2/unique_identifier_msgs (BSD), in the versions that the
-output names. Taken are facts that a program must know to talk to those packages: names,
-types, bounds, constants and defaults. Comments, which are their authors' texts, are not taken.
+ros2/rcl_interfaces, ros2/example_interfaces (Apache-2.0), ros2/unique_identifier_msgs and
+ros2/geometry2 (BSD), in the versions that the output names. Taken are facts that a program must
+know to talk to those packages: names, types, bounds, constants and defaults. Comments, which are
+their authors' texts, are not taken.
 """
 
 from __future__ import annotations
@@ -30,6 +32,7 @@ PACKAGES = (
     "actionlib_msgs",
     "builtin_interfaces",
     "diagnostic_msgs",
+    "example_interfaces",
     "geometry_msgs",
     "lifecycle_msgs",
     "nav_msgs",
@@ -41,6 +44,7 @@ PACKAGES = (
     "std_msgs",
     "std_srvs",
     "stereo_msgs",
+    "tf2_msgs",
     "trajectory_msgs",
     "type_description_interfaces",
     "unique_identifier_msgs",

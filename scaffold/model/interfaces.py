@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.errors import InputError
@@ -182,17 +182,19 @@ class Definitions:
     def matches(self, spelling: str) -> list[str]:
         """Return the full names that a spelling may mean, sorted.
 
-        ``std_msgs/msg/String``, ``std_msgs/String``, ``std_msgs.msg.String`` or ``String``.
+        ``std_msgs/msg/String``, ``std_msgs/String``, ``std_msgs.msg.String`` or ``String``; the
+        last is never the copy that example_interfaces has.
         """
         wanted = spell(spelling)
         packages = [wanted.package] if wanted.package else self.packages()
         kinds = [wanted.kind] if wanted.kind else KINDS
-        return [
+        found = [
             f"{package}/{kind}/{wanted.name}"
             for package in packages
             for kind in kinds
             if wanted.name in (self.names(package, kind) or ())
         ]
+        return [name for name in found if not _is_copy(name)] or found
 
     def resolve(self, spelling: str) -> Interface:
         """Return the one interface that a spelling means.
@@ -225,7 +227,7 @@ class Definitions:
     def nearest(self, spelling: str, count: int = 3) -> list[str]:
         """Return the full names that look most like a misspelt one, best first."""
         wanted = spell(spelling)
-        found: list[tuple[float, str]] = []
+        found: list[tuple[float, bool, str]] = []
         for full_name in self.all_names():
             package, kind, name = full_name.split("/")
             likeness = _likeness(wanted.name, name)
@@ -235,12 +237,43 @@ class Definitions:
                 likeness += _likeness(wanted.package, package)
             if wanted.kind == kind:
                 likeness += _SAME_KIND
-            found.append((-likeness, full_name))
-        return [name for _, name in sorted(found)[:count]]
+            found.append((-likeness, _is_copy(full_name), full_name))
+        best = min(found, default=(0.0, False, ""))[0]
+        return [name for score, _, name in sorted(found)[:count] if score <= best + _FAR]
+
+
+class WatchedDefinitions(Definitions):
+    """The same definitions for somebody of whom is to be known whether they look anything up."""
+
+    def __init__(self, shared: Definitions, tell: Callable[[], None]) -> None:
+        super().__init__(())
+        self._shared = shared
+        self._tell = tell
+
+    def find(self, full_name: str) -> Interface | None:
+        """Return an interface by ``package/kind/Name``."""
+        self._tell()
+        return self._shared.find(full_name)
+
+    def packages(self) -> Sequence[str]:
+        """Return the sorted names of all packages that define interfaces."""
+        self._tell()
+        return self._shared.packages()
+
+    def _package(self, name: str) -> KnownPackage | None:
+        self._tell()
+        return self._shared._package(name)  # noqa: SLF001  its own class
+
+
+def _is_copy(full_name: str) -> bool:
+    """Tell whether an interface is one of the package that repeats those of std_msgs."""
+    return full_name.startswith("example_interfaces/")
 
 
 _ALIKE = 0.7
 _SAME_KIND = 0.1
+_FAR = 0.5
+"""What looks less alike than the best by more than this is not worth naming."""
 
 
 def _likeness(one: str, other: str) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from textwrap import dedent
 
 from scaffold.generate.payload import lookup, recipe, words
 from scaffold.generate.payload.code import Block
@@ -16,7 +15,7 @@ from scaffold.generate.payload.walk import Walk
 from scaffold.model.interfaces import Definitions
 
 MAX_CHECKS = 4
-MAX_LOG = 50
+MAX_LOG = 52
 """Characters of a line of the log."""
 MAX_SAYS = 70
 
@@ -42,7 +41,6 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         walk.message(block, own.full_name, "msg")
         lines = block.lines()
     words_ = _words(types, walk)
-    constants = _constants(types)
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
         package=own.package,
@@ -56,7 +54,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
         frame=words_.frame,
-        constants=constants,
+        constants=walk.constants,
         is_changing=_changes(lines),
     )
 
@@ -126,8 +124,3 @@ def enumerated(names: Sequence[str], start: str, limit: int) -> str:
         if len(text) <= limit:
             return text
     return f"{start}{len(names)} fields"
-
-
-def _constants(types: Types) -> tuple[str, ...]:
-    found = recipe.find(types.interface.full_name)
-    return tuple(dedent(found.constants).strip("\n").splitlines()) if found else ()

@@ -37,7 +37,8 @@ def asked(types: Types, section: Section) -> Part:
     block = Block()
     walk = Walk(types, section.name)
     walk.fill(block, section, _owner(types, section), section.name)
-    return _part(types, section, block.lines(), joined(walk.shown), walk.checks[:3])
+    part = _part(types, section, block.lines(), joined(walk.shown), walk.checks[:3])
+    return part._replace(constants=walk.constants)
 
 
 def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
@@ -54,7 +55,8 @@ def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
             block.add(f"{section.name}.{field.name} = {value}")
             checks += _check(f"{section.name}.{field.name}", value)
     log = joined(walk.shown) or _first_scalar(section)
-    return _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
+    part = _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
+    return part._replace(constants=walk.constants)
 
 
 def reported(types: Types, section: Section) -> Part:
@@ -69,7 +71,8 @@ def reported(types: Types, section: Section) -> Part:
         else:
             block.add(f"{section.name}.{field.name} = {value}")
     log = joined(walk.shown) or _first_scalar(section)
-    return _part(types, section, block.lines(), log, walk.checks[:3])
+    part = _part(types, section, block.lines(), log, walk.checks[:3])
+    return part._replace(constants=walk.constants)
 
 
 def _owner(types: Types, section: Section) -> str:
@@ -79,10 +82,10 @@ def _owner(types: Types, section: Section) -> str:
 
 def _answer(field: Field, given: Sequence[Section]) -> str | None:
     """Return the value of a field that follows from other parts; ``None``: it is made up."""
-    for part in given:
-        same = part.field(field.name)
+    for one in given:
+        same = one.field(field.name)
         if same is not None and same.type == field.type:
-            return f"{part.name}.{field.name}"
+            return f"{one.name}.{field.name}"
     if field.type.is_array:
         return None
     if field.type.name == "bool":

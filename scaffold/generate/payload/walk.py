@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from textwrap import dedent
 
 from scaffold.generate.payload import recipe, words
 from scaffold.generate.payload.code import COUNT, NOW, Block
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
+from scaffold.generate.payload.recipe import Recipe
 from scaffold.model.interface_syntax import Constant, Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 
@@ -33,6 +35,7 @@ class Walk:
         self._stamped: list[str] = []
         self.checks: list[str] = []
         """Expressions that are true of the root."""
+        self._constants: dict[str, str] = {}
         self._shown: list[str] = []
         self._spare: list[str] = []
 
@@ -40,6 +43,11 @@ class Walk:
     def shown(self) -> list[str]:
         """Replacement fields of an f-string for the root: what changes, the best first."""
         return self._shown or self._spare
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Lines of the module that define what the statements use."""
+        return tuple(f"{name} = {value}" for name, value in self._constants.items())
 
     def fill(self, block: Block, section: Section, owner: str, target: str) -> None:
         """Add statements that fill the fields of a section.
@@ -68,9 +76,24 @@ class Walk:
             header = section.field("header")
             if header is not None and header.type.full_name == HEADER:
                 self._header(block, f"{target}.header")
-            block.embed(self._types.renamed(found.code, full_name), target)
+            code = self._with_constants(found, target)
+            block.embed(self._types.renamed(code, full_name), target)
         else:
             self.fill(block, section, full_name.rpartition("/")[2], target)
+
+    def _with_constants(self, found: Recipe, target: str) -> str:
+        """Return the code of a recipe whose constants are defined.
+
+        A constant of a name that means something else gets the name of the target before it.
+        """
+        code = found.code
+        for line in dedent(found.constants).strip().splitlines():
+            name, _, value = line.partition(" = ")
+            if self._constants.setdefault(name, value) != value:
+                new = f"{target.rpartition('.')[2].upper()}_{name}"
+                self._constants[new] = value
+                code = re.sub(rf"\b{name}\b", new, code)
+        return code
 
     def _header(self, block: Block, target: str) -> None:
         """Fill a header; one that belongs to an element is that of the whole."""
