@@ -11,6 +11,12 @@ from scaffold.model.nodes import NodeFacts
 
 SHORT = 0.05
 """Seconds of sleep that nobody notices."""
+VERBS = ("get", "post", "put", "patch", "delete", "head", "request")
+WAITING = frozenset(
+    {f"{library}.{verb}" for library in ("requests", "httpx") for verb in VERBS}
+    | {"urllib.request.urlopen", "urllib.request.urlretrieve"}
+)
+"""What waits for a server. Other programs are mostly short, or not: that is not known."""
 _NODE = (
     "import time\n\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -23,7 +29,7 @@ _NODE = (
 
 
 class CallbackBlocks(Rule):
-    """A callback sleeps, or waits for somebody to type.
+    """A callback sleeps, or waits for a key or a server.
 
     **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
     of the node is served, and a timer runs slower than its period says.
@@ -40,6 +46,11 @@ class CallbackBlocks(Rule):
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
         Example("so short that it does no harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
         Example("a sleep", {"talker.py": _NODE.format("time.sleep(1.0)")}, at=("talker.py:12",)),
+        Example(
+            "a server",
+            {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
+            at=("talker.py:13",),
+        ),
         Example("a question", {"talker.py": _NODE.format("input()")}, at=("talker.py:12",)),
     )
 
@@ -62,6 +73,8 @@ def _blocking(facts: NodeFacts, call: ast.Call) -> str:
         seconds = facts.evaluator.evaluate(call.args[0])
         if isinstance(seconds, int | float) and seconds >= SHORT:
             return f"time.sleep({seconds:g})"
+    if name in WAITING:
+        return f"{name}()"
     is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
     if is_builtin and facts.module.index.lookup("input", call.func) is None:
         return "input()"

@@ -6,7 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.nodes import NodeFacts
 
+_TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
+_TERMINAL |= {"readline", "termios", "tty", "typer"}
+"""Who imports these talks to somebody at a terminal, and printing is the way to do that."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -17,6 +21,8 @@ _NODE = (
 
 class PrintInNode(Rule):
     """A node prints, and does not log.
+
+    Programs that read arguments or keys of a terminal may well print.
 
     **Why.** Under ``ros2 launch`` the output is held back in a buffer, so nothing is seen while
     the node runs; it has no time, no name and no severity, and never gets to ``/rosout``.
@@ -32,10 +38,16 @@ class PrintInNode(Rule):
     examples = (
         Example("a log", {"talker.py": _NODE.format("self.get_logger().info")}),
         Example("a print", {"talker.py": _NODE.format("print")}, at=("talker.py:6",)),
+        Example(
+            "a tool for the command line",
+            {"talker.py": "import argparse\n" + _NODE.format("print")},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
+            if _is_at_terminal(facts):
+                continue
             for node in facts.classes:
                 found = [
                     call
@@ -50,3 +62,10 @@ class PrintInNode(Rule):
                     more = f": {len(found)} times, first here" if len(found) > 1 else ""
                     at = facts.module.location(found[0])
                     yield self.report(at, f"{node.name} prints instead of logging{more}")
+
+
+def _is_at_terminal(facts: NodeFacts) -> bool:
+    """Tell whether a program has a user who types."""
+    index = facts.module.index
+    reads = index.names("input") or index.attributes("stdin")
+    return bool(reads) or not _TERMINAL.isdisjoint(facts.module.imports_by_root)
