@@ -28,15 +28,16 @@ def of(template: Template, templates: Mapping[str, Template]) -> Iterator[Exampl
     """
     for title, answers in template.examples.items():
         for build_type in of_role(templates, Role.BUILD_TYPE):
-            whole = {"package": PACKAGE, "build_type": build_type, **_own(template), **answers}
+            own = _own(template, answers)
+            whole = {"package": PACKAGE, "build_type": build_type, **own, **answers}
             if whole["build_type"] == build_type and _is_for(template, build_type):
                 yield Example(template.name, f"{title}, {build_type}", whole)
 
 
-def _own(template: Template) -> dict[str, Any]:
-    if template.role is Role.NODE:
+def _own(template: Template, answers: Mapping[str, Any]) -> dict[str, Any]:
+    if template.role is Role.NODE and ADD not in answers:
         return {"node_kind": template.name}
-    if template.role in PARTS:
+    if template.role in PARTS and ADD not in answers:
         return {ADD: [template.name]}
     if template.role is Role.EXTRA:
         return {"extras": [template.name]}
