@@ -13,7 +13,7 @@ from scaffold.generate import facts, licenses, parts
 from scaffold.generate.context import part_scopes
 from scaffold.generate.defaults import User
 from scaffold.generate.draft import Composed, compose
-from scaffold.generate.edit.addition import Addition, ByHand, Program
+from scaffold.generate.edit.addition import Addition, ByHand, Compiled, Program
 from scaffold.generate.edit.edit import README, edit
 from scaffold.generate.edit.layout import Layout, layout_of
 from scaffold.generate.questions import Given
@@ -157,7 +157,8 @@ def _compose(
     answers = {**decided, **given, parts.ADD: wanted}
     fixed = {"package": package.name, "build_type": package.build_type}
     answers["build_type"] = Given(package.build_type, "package.xml")
-    composed = compose(roots, templates, answers, user, fixed=fixed)
+    messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
+    composed = compose(roots, templates, answers, user, fixed=fixed, messages=messages)
     if not has_license:
         # Better the header of the author's other files, or none, than one with another licence.
         composed.context["header"] = facts.own_header(package)
@@ -218,7 +219,14 @@ def _addition(composed: Composed, package: Package, layout: Layout, rendered: Re
         path = next(iter(sorted(rendered.executable)))
         module = f"{layout.module}.{node['module']}" if layout.module else node["module"]
         return addition._replace(program=Program(path, node["executable"], module))
-    return addition
+    if layer.role is Role.INTERFACE:
+        return addition._replace(
+            interfaces=[scope["interface"]["file"]],
+            interface_depends=[n for n in depends.get("depend", ()) if n != package.name],
+        )
+    name = str(scope["program"]["name"])
+    source = next(path for path in rendered.files if path.startswith("src/"))
+    return addition._replace(compiled=Compiled(name, source))
 
 
 def _built(composed: Composed) -> str | None:

@@ -95,6 +95,7 @@ def compose(
     user: User,
     *,
     fixed: Mapping[str, Any] | None = None,
+    messages: Sequence[str] = (),
 ) -> Composed:
     """Choose templates and settle all questions.
 
@@ -104,6 +105,7 @@ def compose(
         given: The user's answers by question.
         user: Knows what was not given.
         fixed: Answers for the package that are as they are, such as the name of an existing one.
+        messages: The messages that it has already.
 
     Raises:
         InputError: an answer is missing, not acceptable, or of no use here.
@@ -124,7 +126,7 @@ def compose(
     )
     values = {**(fixed or {}), **answers.values}
     made, written = _parts(order.requests, given, values, renderer)
-    parts.refuse_impossible(made, values["package"], values["build_type"])
+    parts.refuse_impossible(made, values["package"], values["build_type"], messages)
     context = package_context(values, order.layers, made, renderer)
     return Composed(
         order.layers,

@@ -80,8 +80,16 @@ def kinds(templates: Mapping[str, Template]) -> list[str]:
     ]
 
 
-def refuse_impossible(parts: Sequence[Part], package: str, build_type: str) -> None:
+def refuse_impossible(
+    parts: Sequence[Part], package: str, build_type: str, messages: Sequence[str] = ()
+) -> None:
     """Raise if the parts cannot be in one package of this build type.
+
+    Args:
+        parts: What is to be in the package.
+        package: Its name.
+        build_type: Its build type.
+        messages: The messages that it has besides.
 
     Raises:
         InputError: with what to do instead.
@@ -95,11 +103,11 @@ def refuse_impossible(parts: Sequence[Part], package: str, build_type: str) -> N
         )
     for part in parts:
         refuse_build_type(part.template, build_type)
-    messages = [part.name for part in parts if part.template.definition == "msg"]
+    own = [part.name for part in parts if part.template.definition == "msg"]
     for part in parts:
         for answer in part.answers.values():
             if isinstance(answer, Fields):
-                refuse_missing(answer, messages)
+                refuse_missing(answer, [*messages, *own])
     names: dict[str, Part] = {}
     for part in parts:
         other = names.setdefault(part.name, part)

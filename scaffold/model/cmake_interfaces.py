@@ -41,7 +41,12 @@ class Generation(NamedTuple):
 
 def generations(package: Package) -> list[Generation]:
     """Return the calls in CMakeLists.txt; raises ViewError."""
-    return package.remember("generations", lambda: list(_generations(package.cmake)))
+    return package.remember("generations", lambda: generations_of(package.cmake))
+
+
+def generations_of(cmake: CMakeLists) -> list[Generation]:
+    """Return the calls in a CMakeLists.txt."""
+    return [_generation(cmake, command) for command in cmake.find(GENERATE) if command.arguments]
 
 
 def is_interface_package(package: Package) -> bool:
@@ -49,10 +54,6 @@ def is_interface_package(package: Package) -> bool:
     return any(
         not one.for_tests and "SKIP_INSTALL" not in one.options for one in generations(package)
     )
-
-
-def _generations(cmake: CMakeLists) -> list[Generation]:
-    return [_generation(cmake, command) for command in cmake.find(GENERATE) if command.arguments]
 
 
 def _generation(cmake: CMakeLists, command: Command) -> Generation:

@@ -30,12 +30,22 @@ class Program(NamedTuple):
         return f"{self.module}:main"
 
 
+class Compiled(NamedTuple):
+    """A C++ program."""
+
+    name: str
+    """The target, and what ``ros2 run`` calls it."""
+    source: str
+    """The path of its source."""
+
+
 class Addition(NamedTuple):
     """What a package gets besides new files."""
 
     package: str
     """The name of the package."""
     program: Program | None = None
+    compiled: Compiled | None = None
     test: str | None = None
     """The path of a pytest file."""
     depends: Mapping[str, Sequence[str]] = NOTHING

@@ -30,7 +30,13 @@ def add_to_cmake(source: Source, addition: Addition, *, python_package: bool = F
     Raises:
         ParseError: CMake could not parse the file.
     """
-    editor = _Editor(source, addition.package)
+    from scaffold.generate.edit import cmake_compiled
+
+    editor = Editor(source, addition.package)
+    if addition.interfaces:
+        cmake_compiled.add_interfaces(editor, addition)
+    if addition.compiled is not None:
+        cmake_compiled.add_compiled(editor, addition.compiled)
     if python_package:
         editor.install_python()
     if addition.program is not None:
@@ -65,7 +71,7 @@ def runs_test(lists: CMakeLists, path: str) -> bool:
     return False
 
 
-class _Editor:
+class Editor:
     """A CMakeLists.txt that is edited step by step and read again after each."""
 
     def __init__(self, source: Source, package: str) -> None:
@@ -74,55 +80,59 @@ class _Editor:
         self.lists = _read(source)
 
     def install_python(self) -> None:
+        """Install the Python package with the name of the project."""
         if self.lists.find(INSTALL_PYTHON):
             return
         line = f"{INSTALL_PYTHON}({_NAME})"
-        if self._refused(line):
+        if self.refused(line):
             return
-        self._edit(cmake_edit.insert_find_package(self.lists, PYTHON))
-        self._edit(cmake_edit.insert_before_end(self.lists, [line]))
+        self.edit(cmake_edit.insert_find_package(self.lists, PYTHON))
+        self.edit(cmake_edit.insert_before_end(self.lists, [line]))
 
     def install_program(self, path: str) -> None:
+        """Install a script where ``ros2 run`` looks for it."""
         if installs_program(self.lists, path, self.package):
             return
         line = f"install(PROGRAMS {path} DESTINATION lib/{_NAME})"
-        if self._refused(line):
+        if self.refused(line):
             return
-        self._edit(_extension(self.lists, "PROGRAMS", path, f"lib/{self.package}"))
+        self.edit(_extension(self.lists, "PROGRAMS", path, f"lib/{self.package}"))
         if not installs_program(self.lists, path, self.package):
-            self._edit(cmake_edit.install_program(self.lists, path))
+            self.edit(cmake_edit.install_program(self.lists, path))
         if not installs_program(self.lists, path, self.package):
-            self._refuse(line, "no place was safe")
+            self.refuse(line, "no place was safe")
 
     def install_directory(self, path: str) -> None:
+        """Install a directory, its name included, to ``share/<package>``."""
         if _installs_directory(self.lists, path):
             return
         line = f"install(DIRECTORY {path} DESTINATION share/{_NAME})"
-        if self._refused(line):
+        if self.refused(line):
             return
         edits = _share_keyword(self.lists, path)
         if edits is None:
             edits = _extension(self.lists, "DIRECTORY", path, f"share/{self.package}")
         if edits is None:
             edits = cmake_edit.install_directory(self.lists, path)
-        self._edit(edits)
+        self.edit(edits)
 
     def add_test(self, path: str) -> None:
+        """Run a pytest file when tests are built."""
         if runs_test(self.lists, path):
             return
         name = path.rpartition("/")[2].removesuffix(".py")
         line = f"{ADD_PYTEST}({name} {path})"
-        if self._refused(line):
+        if self.refused(line):
             return
         if not self.lists.finds_tests_automatically:
-            self._edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
-        self._edit(_behind_last_test(self.lists, line))
+            self.edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
+        self.edit(_behind_last_test(self.lists, line))
         if not runs_test(self.lists, path):
-            self._edit(cmake_edit.insert_in_testing(self.lists, [line]))
+            self.edit(cmake_edit.insert_in_testing(self.lists, [line]))
         if not runs_test(self.lists, path):
-            self._refuse(line, "if(BUILD_TESTING) and endif() are not on lines of their own")
+            self.refuse(line, "if(BUILD_TESTING) and endif() are not on lines of their own")
 
-    def _edit(self, edits: Edits | None) -> None:
+    def edit(self, edits: Edits | None) -> None:
         """Apply edits; those that CMake could not parse afterwards are not applied."""
         if not edits:
             return
@@ -130,18 +140,19 @@ class _Editor:
         if not changed.errors:
             self.lists = changed
 
-    def _refused(self, line: str) -> bool:
+    def refused(self, line: str) -> bool:
         """Leave a line to the user where nothing at all can be added for sure."""
         lists = self.lists
         if lists.project_name != self.package:
-            self._refuse(line, f"the project is not known to be named {self.package!r}")
+            self.refuse(line, f"the project is not known to be named {self.package!r}")
         elif not any(call.depth == 0 for call in lists.find(*LAST_CALLS)):
-            self._refuse(line, f"there is no {LAST_CALLS[0]}() at the top level")
+            self.refuse(line, f"there is no {LAST_CALLS[0]}() at the top level")
         else:
             return False
         return True
 
-    def _refuse(self, line: str, reason: str) -> None:
+    def refuse(self, line: str, reason: str) -> None:
+        """Leave a line to the user."""
         self.by_hand.append(ByHand(self.lists.source.path, line, reason))
 
 

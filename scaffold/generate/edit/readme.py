@@ -95,20 +95,33 @@ def _merge(source: Source, new: Section, order: Sequence[Section]) -> Source:
         at = source.offset(behind.start + 1) if behind else len(source.text)
         body = [f"{_HEADING}{new.title}", "", *new.lines, "", ""]
         return spliced(source, [Edit(source.path, at, at, source.newline.join(body))])
-    if any("|" in line for line in new.lines) or _says(old, new):
+    if _says(old, new):
         return source
-    # What both begin with is said of all parts.
+    # What both begin with is said of all parts, and rows of tables are added one by one.
     shared = 0
     for one, two in zip(old.lines, new.lines, strict=False):
         if one != two or one.startswith(_FENCE):
             break
         shared += 1
-    lines = list(new.lines[shared:])
-    while lines and not lines[0].strip():
-        lines.pop(0)
-    at = source.offset(old.end) + len(source.lines[old.end - 1])
-    text = "".join(f"{source.newline}{line}" for line in ["", *lines])
+    lines = "\n".join(line for line in new.lines[shared:] if not _is_row(line)).strip("\n")
+    if not lines:
+        return source
+    end = old.start + 1 + len(_above_table(source.lines[old.start + 1 : old.end]))
+    at = source.offset(end) + len(source.lines[end - 1])
+    text = "".join(f"{source.newline}{line}" for line in ["", *lines.split("\n")])
     return spliced(source, [Edit(source.path, at, at, text)])
+
+
+def _is_row(line: str) -> bool:
+    return line.startswith("|") and line.rstrip().endswith("|")
+
+
+def _above_table(lines: Sequence[str]) -> Sequence[str]:
+    """Return the lines of a section without the table at its end and the blank lines above."""
+    end = len(lines)
+    while end and (_is_row(lines[end - 1]) or not lines[end - 1].strip()):
+        end -= 1
+    return lines[:end]
 
 
 def _says(old: Section, new: Section) -> bool:

@@ -1,0 +1,219 @@
+"""Adds interfaces and C++ programs to CMakeLists.txt."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scaffold.errors import InputError
+from scaffold.generate.edit.addition import Addition, Compiled
+from scaffold.generate.edit.cmake import INSTALL_PYTHON, Editor
+from scaffold.model import cmake_edit
+from scaffold.model.cmake import CMakeLists, Install
+from scaffold.model.cmake_edit import Edits
+from scaffold.model.cmake_interfaces import GENERATE, Generation, generations_of
+from scaffold.model.cmake_parser import Argument, Command
+
+GENERATORS = "rosidl_default_generators"
+RUNTIME = "rosidl_default_runtime"
+_ADD_TEST = "ament_add_test"
+_EXPORT = "ament_export_dependencies"
+_LANGUAGES = ("C", "CXX", "CUDA", "OBJC", "OBJCXX", "Fortran", "HIP", "ISPC", "Swift", "ASM")
+_STANDARD = "cxx_std_17"
+
+
+def add_interfaces(editor: Editor, addition: Addition) -> None:
+    """Generate code for interfaces, in the call that is there or in a new one.
+
+    Raises:
+        InputError: something else in the package has the name that the generated code needs.
+    """
+    for path in addition.interfaces:
+        found = _generation(editor.lists)
+        if found is None:
+            _refuse_conflict(editor.lists)
+        elif any(listed.path == path for listed in found.files):
+            continue
+        elif not found.files:
+            editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not written out")
+            continue
+        line = f'{GENERATE}(${{PROJECT_NAME}} "{path}")'
+        if editor.refused(line):
+            continue
+        _enable(editor, "C", "CXX")
+        for name in [GENERATORS, *addition.interface_depends]:
+            editor.edit(cmake_edit.insert_find_package(editor.lists, name))
+        found = _generation(editor.lists)
+        editor.edit(_list_file(editor.lists, found, path) if found else _block(editor.lists, path))
+        for name in addition.interface_depends:
+            _depend(editor, name)
+        _export_runtime(editor)
+
+
+def add_compiled(editor: Editor, program: Compiled) -> None:
+    """Build a C++ program and install it where ``ros2 run`` looks for it."""
+    if any(
+        editor.lists.expand_list(command.arguments[:1], command) == [program.name]
+        for command in editor.lists.find("add_executable")
+    ):
+        return
+    lines = [
+        f"add_executable({program.name} {program.source})",
+        f"target_compile_features({program.name} PRIVATE {_STANDARD})",
+    ]
+    install = f"install(TARGETS {program.name} DESTINATION lib/${{PROJECT_NAME}})"
+    if editor.refused(f"{lines[0]} and {install}"):
+        return
+    _enable(editor, "CXX")
+    old = _installed_targets(editor.lists, editor.package)
+    behind = _last_target(editor.lists, before=old.command if old else None)
+    if old is not None and behind is not None:
+        for line in reversed(lines):
+            editor.edit(cmake_edit.insert_below(editor.lists, behind, line))
+        old = _installed_targets(editor.lists, editor.package) or old
+        last = old.items[-1].argument
+        editor.edit(cmake_edit.append_arguments(editor.lists, old.command, last, [program.name]))
+    else:
+        block = [*lines, "", "install(", "  TARGETS", f"    {program.name}"]
+        block += ["  DESTINATION lib/${PROJECT_NAME}", ")"]
+        editor.edit(cmake_edit.insert_before_end(editor.lists, block))
+    _run_in_tests(editor, program.name)
+
+
+def _run_in_tests(editor: Editor, name: str) -> None:
+    """Run a program when tests are built: it passes when it ends without an error."""
+    lists = editor.lists
+    lines = (
+        f"{_ADD_TEST}({name}_runs",
+        f"  COMMAND $<TARGET_FILE:{name}> GENERATE_RESULT_FOR_RETURN_CODE_ZERO)",
+    )
+    block = cmake_edit.testing_block(lists)
+    others = [
+        call for call in lists.find(_ADD_TEST) if block is not None and call.branch is block[0]
+    ]
+    if not others:
+        editor.edit(cmake_edit.insert_in_testing(lists, lines))
+        return
+    start = lists.source.text.rfind("\n", 0, others[-1].start) + 1
+    indent = lists.source.text[start : others[-1].start]
+    text = f"{lists.source.newline}{indent}".join(lines)
+    editor.edit(cmake_edit.insert_below(lists, others[-1], text))
+
+
+# -- interfaces
+
+
+def _generation(lists: CMakeLists) -> Generation | None:
+    """Return the call that generates what the package installs."""
+    for one in generations_of(lists):
+        if not one.for_tests and "SKIP_INSTALL" not in one.options and one.command.depth == 0:
+            return one
+    return None
+
+
+def _refuse_conflict(lists: CMakeLists) -> None:
+    """Raise if a target or a Python package has the name that generated code would have."""
+    name = lists.project_name
+    for command in lists.find("add_library", "add_executable", INSTALL_PYTHON):
+        if lists.expand_list(command.arguments[:1], command) == [name]:
+            at = command.location
+            raise InputError(
+                f"{at.path}:{at.line}:{at.column}: {command.name}() makes something with the name "
+                f"{name!r}, and so would the generated code of interfaces: put them into a package "
+                f"of their own, such as {name}_interfaces"
+            )
+
+
+def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | None:
+    """Add a file behind the last one of its kind."""
+    ending = path.rpartition(".")[2]
+    like = [one for one in generation.files if one.path.endswith(f".{ending}")]
+    last = (like or generation.files)[-1].argument
+    holder = _holder(lists, last)
+    if holder is None:
+        return None
+    written = f'"{path}"' if last.quoted else cmake_edit.quote(path)
+    return cmake_edit.append_arguments(lists, holder, last, [written], raw=True)
+
+
+def _holder(lists: CMakeLists, argument: Argument) -> Command | None:
+    """Return the command that an argument stands in."""
+    for command in lists.commands:
+        if command.start <= argument.start < command.end:
+            return command
+    return None
+
+
+def _block(lists: CMakeLists, path: str) -> Edits | None:
+    lines = [f"{GENERATE}(${{PROJECT_NAME}}", f'  "{path}"', ")"]
+    return cmake_edit.insert_before_end(lists, lines)
+
+
+def _depend(editor: Editor, name: str) -> None:
+    """Name a package whose types the interfaces use."""
+    found = _generation(editor.lists)
+    if found is None or found.dependencies is None or name in found.dependencies:
+        return
+    command = found.command
+    given = command.keyword("DEPENDENCIES", {"LIBRARY_NAME", "ADD_LINTER_TESTS", "SKIP_INSTALL"})
+    last = given[-1] if given else command.arguments[-1]
+    words = [name] if given else [f"DEPENDENCIES {name}"]
+    editor.edit(cmake_edit.append_arguments(editor.lists, command, last, words, raw=True))
+
+
+def _export_runtime(editor: Editor) -> None:
+    calls = editor.lists.find(_EXPORT)
+    if not any(call.has(RUNTIME) for call in calls):
+        line = f"{_EXPORT}({RUNTIME})"
+        editor.edit(cmake_edit.insert_before_end(editor.lists, [line]))
+
+
+# -- programs and languages
+
+
+def _enable(editor: Editor, *languages: str) -> None:
+    """Have CMake look for compilers: ``project(name NONE)`` says that it need not."""
+    project = editor.lists.project
+    if project is None:
+        return
+    written = [one for one in project.arguments[1:] if one.value in {*_LANGUAGES, "NONE"}]
+    if not written:
+        return
+    none = [one for one in written if one.value == "NONE"]
+    missing = [one for one in languages if one not in [other.value for other in written]]
+    if none and len(languages) > 1 and not project.has("LANGUAGES"):
+        editor.edit(cmake_edit.remove_argument(editor.lists, none[0]))
+    elif none:
+        editor.edit(cmake_edit.replace_argument(editor.lists, none[0], missing[0]))
+        _enable(editor, *languages)
+    elif missing:
+        editor.edit(cmake_edit.append_arguments(editor.lists, project, written[-1], missing))
+
+
+def _installed_targets(lists: CMakeLists, package: str) -> Install | None:
+    """Return the install of programs that has nothing but a destination."""
+    for install in lists.installs:
+        is_plain = [argument.value for argument in install.command.arguments[:1]] == ["TARGETS"]
+        if (
+            is_plain
+            and install.command.name == "install"
+            and install.command.depth == 0
+            and set(install.destinations) == {""}
+            and install.destinations[""] == f"lib/{package}"
+            and not install.command.has("EXPORT")
+            and install.items
+        ):
+            return install
+    return None
+
+
+def _last_target(lists: CMakeLists, before: Command | None) -> Command | None:
+    """Return the last command about a target above the one that installs it."""
+    found: Sequence[Command] = [
+        command
+        for command in lists.commands
+        if (command.name == "add_executable" or command.name.startswith("target_"))
+        and command.depth == 0
+        and before is not None
+        and command.index < before.index
+    ]
+    return found[-1] if found else None
