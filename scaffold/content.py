@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+
+TYPE_CHECKING = False  # the one of typing is slow to import, and every start needs this module
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 

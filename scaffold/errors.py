@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+TYPE_CHECKING = False  # the one of typing is slow to import, and every start needs this module
 if TYPE_CHECKING:
     from scaffold.model.source import Location
 

@@ -51,6 +51,6 @@ class LicenceFileMissing(Rule):
             if package.outside.exists(os.path.join(directory, ".git")):
                 return False
             directory = os.path.dirname(directory)
-            if any(name.upper().startswith(NAMES) for name in package.outside.entries(directory)):
+            if package.outside.entries(directory, *NAMES):
                 return True
         return False

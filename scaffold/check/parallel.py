@@ -6,25 +6,28 @@ import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Sequence
 
+from scaffold.check import notes
 from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.session import Result
 from scaffold.model.discovery import Target
+from scaffold.model.package import Package
 
 BATCH = 16
 """Packages per batch: large enough to share the start of ruff, small enough for progress."""
 
 Batch = Callable[[Sequence[Target]], list[Result]]
-_Found = list[tuple[int, list[Diagnostic]]]
+_Found = tuple[list[tuple[int, list[Diagnostic]]], list[notes.Note]]
 
-_work: tuple[Batch, Sequence[Target]]
+_work: tuple[Batch, Sequence[Target], Sequence[Package]]
 """Set before the workers are forked and inherited by them: rules are loaded by path and could not
-be sent; only numbers go in and diagnostics come out."""
+be sent; only numbers go in, and diagnostics and notes come out."""
 
 
 def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
     """Check targets in batches; yield results in their order."""
     global _work  # noqa: PLW0603  see its docstring
-    _work = check, targets
+    packages = _all_packages(targets)
+    _work = check, targets, packages
     starts = range(0, len(targets), BATCH)
     workers = min(len(os.sched_getaffinity(0)), len(starts))
     if workers == 1:
@@ -32,7 +35,9 @@ def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
             yield from check(targets[start : start + BATCH])
         return
     with multiprocessing.get_context("fork").Pool(workers) as pool:
-        for start, found in zip(starts, pool.imap(_run, starts), strict=True):
+        for start, (found, learnt) in zip(starts, pool.imap(_run, starts), strict=True):
+            for note in learnt:
+                note.add_to(packages)
             for target, (files, diagnostics) in zip(
                 targets[start : start + BATCH], found, strict=True
             ):
@@ -40,5 +45,14 @@ def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
 
 
 def _run(start: int) -> _Found:
-    check, targets = _work
-    return [(one.files, one.diagnostics) for one in check(targets[start : start + BATCH])]
+    check, targets, packages = _work
+    found = [(one.files, one.diagnostics) for one in check(targets[start : start + BATCH])]
+    return found, list(notes.take(packages))
+
+
+def _all_packages(targets: Sequence[Target]) -> list[Package]:
+    """Return the packages to check and those around them."""
+    found = {id(target.package): target.package for target in targets}
+    for around in {id(one.package.known_workspace): one for one in targets}.values():
+        found.update((id(package), package) for package in around.package.known_workspace or ())
+    return list(found.values())

@@ -78,6 +78,7 @@ class Session:
             found += style.diagnostics(target.package) if style else []
             result = Result(target.package, len(target.package.files), self._report(target, found))
             results.append(result)
+            _ = target.package.identity  # while the manifest is at hand
             target.package.forget()
         return results
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from io import StringIO
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -66,22 +67,41 @@ def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold import config, content, reporters
     from scaffold.check import registry
+    from scaffold.check.remembered import Memory
     from scaffold.check.session import Session
     from scaffold.cli import progress
     from scaffold.model import discovery
+    from scaffold.model.disk import Disk
 
-    settings = config.load(content=tuple(options.content))
+    disk = Disk()
+    settings = config.load(content=tuple(options.content), disk=disk)
     rules = registry.load(content.roots("rules", settings.content))
     selection = _selection(options, settings, rules)
     session = Session(rules, selection)
-    targets = discovery.find(options.paths)
+    targets = discovery.find(options.paths, disk)
     if options.fix or options.diff:
         return _fix(options, session, targets)
     if options.reference:
         return _reference(targets)
-    results = list(progress.shown(session.run(targets), len(targets), "packages"))
-    reporters.get(options.format)(results, sys.stdout)
-    return exit_code(results)
+    # Nobody knows what else a rule of the user's own looks at.
+    slot = None if settings.content else getattr(options, "slot", None)
+    memory = Memory(slot.load() if slot else None, targets)
+    results = list(progress.shown(memory.run(session), len(targets), "packages"))
+    output = _Copy()
+    reporters.get(options.format)(results, output)
+    sys.stdout.write(output.getvalue())
+    code = exit_code(results)
+    if slot is not None:
+        memory.save(slot, disk, results, code, output.getvalue())
+    return code
+
+
+class _Copy(StringIO):
+    """What is written to standard output, and may be again."""
+
+    def isatty(self) -> bool:
+        """Tell whether colours are seen."""
+        return sys.stdout.isatty()
 
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
-from collections.abc import Sequence
 from importlib import import_module
-from typing import NoReturn
 
 from scaffold import __version__
+from scaffold.check import memory
 from scaffold.errors import ScaffoldError
+
+TYPE_CHECKING = False  # the one of typing is slow to import
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 CLEAN = 0
 FOUND = 1
@@ -29,35 +31,6 @@ VERBS = {
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
 
 
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, as every other error of this tool."""
-
-    def error(self, message: str) -> NoReturn:
-        """Print the line and exit."""
-        self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
-
-
-def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
-    """Return the parser.
-
-    Args:
-        verb: The only verb to define in full; the others are listed but not imported. ``None``
-            defines all, as tab completion needs.
-    """
-    parser = _Parser(
-        prog="ros2-scaffold",
-        description="Generate, lint, fix, build and prove ROS 2 Python packages.",
-    )
-    parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
-    # Without the name argparse would lay out a usage text to find it.
-    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
-    for name, text in VERBS.items():
-        one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
-        if verb is None or verb == name:
-            import_module(f"scaffold.cli.{name}").add_arguments(one)
-    return parser
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a verb and return its exit code.
 
@@ -68,9 +41,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if "_ARGCOMPLETE" in os.environ:
             _complete()
-        verb = next((word for word in given if not word.startswith("-")), "")
-        options = build_parser(verb).parse_args(given)
-        return int(import_module(f"scaffold.cli.{options.verb}").run(options))
+        if given == ["--version"]:
+            sys.stdout.write(f"ros2-scaffold {__version__}\n")
+            sys.exit(CLEAN)
+        return _run(given)
     except ScaffoldError as error:
         sys.stderr.write(f"ros2-scaffold: error: {error}\n")
         return AT_FAULT
@@ -83,6 +57,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return CLEAN
     except Exception as error:  # noqa: BLE001  the last line of defence
         return _defect(error)
+
+
+def _run(given: list[str]) -> int:
+    verb = next((word for word in given if not word.startswith("-")), "")
+    slot = memory.Slot.of(given) if verb == "check" else None
+    last = slot.load() if slot is not None else None
+    if last is not None and last.is_current():
+        # Before argparse: laying out the flags takes longer than looking at a small package.
+        sys.stdout.write(last.output)
+        return last.code
+    from scaffold.cli.parser import build_parser
+
+    options = build_parser(verb).parse_args(given)
+    options.slot = slot
+    return int(import_module(f"scaffold.cli.{options.verb}").run(options))
 
 
 def _defect(error: Exception) -> int:
@@ -101,6 +90,8 @@ def _defect(error: Exception) -> int:
 
 def _complete() -> None:
     import argcomplete
+
+    from scaffold.cli.parser import build_parser
 
     argcomplete.autocomplete(build_parser())
 

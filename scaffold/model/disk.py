@@ -13,7 +13,7 @@ import os
 
 TYPE_CHECKING = False  # the one of typing would take longer to import than a package to check
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     Question = tuple[str, str]
     """What is asked, and of which path."""
@@ -60,10 +60,15 @@ class Disk:
         self.note({("names", directory): _digest_of(*found)})
         return found
 
-    def entries(self, directory: str) -> list[str]:
-        """Return all names in a directory; one that cannot be listed is empty."""
-        found = _entries(directory)
-        self.note({("entries", directory): _digest_of(found)})
+    def entries(self, directory: str, *starts: str) -> list[str]:
+        """Return the names in a directory; one that cannot be listed is empty.
+
+        Args:
+            directory: The directory.
+            starts: How the names start, in capitals, whatever their own case; all without it.
+        """
+        found = _entries(directory, starts)
+        self.note({(" ".join(("entries", *starts)), directory): _digest_of(found)})
         return found
 
     def exists(self, path: str) -> bool:
@@ -91,14 +96,14 @@ class Disk:
         return str(self._ask("stamp", path))
 
     def _ask(self, kind: str, path: str) -> Answer:
-        answer = _ANSWERS[kind](path)
+        answer = _answer(kind, path)
         self.note({(kind, path): answer})
         return answer
 
 
 def holds(seen: Mapping[Question, Answer]) -> bool:
     """Tell whether all questions still have the same answer."""
-    return all(_ANSWERS[kind](path) == answer for (kind, path), answer in seen.items())
+    return all(_answer(kind, path) == answer for (kind, path), answer in seen.items())
 
 
 def digest(data: bytes) -> str:
@@ -140,11 +145,12 @@ def _names(directory: str) -> Names:
     return sorted(files), sorted(directories), sorted(broken)
 
 
-def _entries(directory: str) -> list[str]:
+def _entries(directory: str, starts: Sequence[str]) -> list[str]:
     try:
-        return sorted(os.listdir(directory))
+        names = sorted(os.listdir(directory))
     except OSError:
         return []
+    return [name for name in names if name.upper().startswith((*starts,))] if starts else names
 
 
 def _digest_of(*names: list[str]) -> str:
@@ -177,7 +183,6 @@ def _is_executable(path: str) -> bool:
 _ANSWERS: dict[str, Callable[[str], Answer]] = {
     "content": _digest_of_content,
     "names": lambda path: _digest_of(*_names(path)),
-    "entries": lambda path: _digest_of(_entries(path)),
     "exists": os.path.exists,
     "is_file": os.path.isfile,
     "is_directory": os.path.isdir,
@@ -185,3 +190,8 @@ _ANSWERS: dict[str, Callable[[str], Answer]] = {
     "real": os.path.realpath,
     "stamp": _stamp,
 }
+
+
+def _answer(kind: str, path: str) -> Answer:
+    name, *starts = kind.split(" ")
+    return _digest_of(_entries(path, starts)) if name == "entries" else _ANSWERS[name](path)

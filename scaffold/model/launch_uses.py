@@ -88,7 +88,7 @@ def meant_package(package: Package, use: Use) -> Meant | None:
         return Meant(package.name, f"it has the program {use.executable!r}")
     if is_near(use.name, package.name):
         return Meant(package.name, "this package")
-    for other in sorted(package.workspace.by_name):
+    for other in package.workspace.names:
         if is_near(use.name, other):
             return Meant(other, "a package of the workspace")
     for other in sorted(package.manifest.declared_names):

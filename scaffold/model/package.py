@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 from scaffold.errors import MissingFileError, ParseError, ViewError
 from scaffold.model.source import Location, Source
@@ -20,13 +20,21 @@ if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
     from scaffold.model.python_module import PythonModule
     from scaffold.model.setup_py import SetupPy
-    from scaffold.model.workspace import Workspace
+    from scaffold.model.workspace import Neighbourhood, Workspace
 
 View = TypeVar("View")
 
 CMAKE_LISTS = "CMakeLists.txt"
 SETUP_PY = "setup.py"
 SETUP_CFG = "setup.cfg"
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
+
+
+class Identity(NamedTuple):
+    """What every other package of a workspace may depend on."""
+
+    name: str
+    may_define_interfaces: bool
 
 
 class Package:
@@ -44,6 +52,10 @@ class Package:
         self.directory = directory
         """Path of the root as the user wrote it; empty for a package in memory."""
         self._workspace = workspace
+        self.is_repeatable = True
+        """False when the verdict may change although nothing does that was noted."""
+        self._neighbourhood: Neighbourhood | None = None
+        self._identity: Identity | None = None
         self._views: dict[object, object] = {}
 
     @classmethod
@@ -210,6 +222,23 @@ class Package:
         return name or self.directory.rstrip("/").rpartition("/")[2]
 
     @property
+    def identity(self) -> Identity:
+        """The name, and whether others may get definitions; kept when the views are dropped."""
+        if self._identity is None:
+            defines = any(path.endswith(_INTERFACES) for path in self.tree.files)
+            self._identity = Identity(self.name, defines)
+        return self._identity
+
+    @property
+    def known_identity(self) -> Identity | None:
+        """The identity, if somebody asked for it before."""
+        return self._identity
+
+    def identify(self, name: str, may_define_interfaces: bool) -> None:  # noqa: FBT001  a record's
+        """Take over what another process or an earlier run found out."""
+        self._identity = Identity(name, may_define_interfaces)
+
+    @property
     def build_type(self) -> str:
         """``ament_cmake``, ``ament_python`` ...: as declared, else as the files show."""
         try:
@@ -221,20 +250,25 @@ class Package:
         return "ament_cmake" if self.has(CMAKE_LISTS) else "ament_python"
 
     @property
-    def workspace(self) -> Workspace:
+    def workspace(self) -> Neighbourhood:
         """The packages around this one, itself included."""
+        if self._neighbourhood is None:
+            from scaffold.model.workspace import Neighbourhood, Workspace
 
-        def build() -> Workspace:
-            from scaffold.model.workspace import Workspace
-
-            return Workspace([self])
-
-        return self._workspace or self._view("workspace", build)
+            around = self._workspace or Workspace([self], self.outside)
+            self._neighbourhood = Neighbourhood(around)
+        return self._neighbourhood
 
     @property
     def outside(self) -> Disk:
         """The files around the package: the only way for a rule to look at them."""
-        return self.workspace.disk
+        if self._workspace is not None:
+            return self._workspace.disk
+        if isinstance(self.tree, DiskTree):
+            return self.tree.disk
+        from scaffold.model.disk import Disk
+
+        return Disk()
 
     @property
     def known_workspace(self) -> Workspace | None:
@@ -256,6 +290,8 @@ class Package:
     def forget(self) -> None:
         """Drop the views and the list of files: they are made again when asked for."""
         self._views.clear()
+        if self._workspace is None:
+            self._neighbourhood = None
         if isinstance(self.tree, DiskTree):
             self.tree.forget()
 

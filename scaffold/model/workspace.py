@@ -1,4 +1,4 @@
-"""The packages of a workspace, by name."""
+"""The packages of a workspace, by name, and which of them a verdict needs."""
 
 from __future__ import annotations
 
@@ -46,3 +46,46 @@ class Workspace:
         from scaffold.model.interfaces import Definitions
 
         return Definitions.around(self)
+
+
+class Neighbourhood:
+    """The workspace as one of its packages sees it; notes whom the verdict on that one needs."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self.used: dict[int, Package] = {}
+        """The packages that were looked up, by identity."""
+        self.uses_all = False
+        self.uses_interfaces = False
+        """Whether definitions were looked up: those of any package that has some."""
+
+    def get(self, name: str) -> Package | None:
+        """Return the package of a name, if it is in the workspace."""
+        found = self._workspace.get(name)
+        if found is not None:
+            self.used[id(found)] = found
+        return found
+
+    def __iter__(self) -> Iterator[Package]:
+        self.uses_all = True
+        return iter(self._workspace)
+
+    @property
+    def names(self) -> list[str]:
+        """The sorted names of the packages; these, a memory of verdicts knows for all."""
+        return sorted(self._workspace.by_name)
+
+    @property
+    def disk(self) -> Disk:
+        """What is looked at outside of the packages."""
+        return self._workspace.disk
+
+    @cached_property
+    def interfaces(self) -> Definitions:
+        """The interfaces that these packages can use."""
+        from scaffold.model.interfaces import WatchedDefinitions
+
+        def tell() -> None:
+            self.uses_interfaces = True
+
+        return WatchedDefinitions(self._workspace.interfaces, tell)

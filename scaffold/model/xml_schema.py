@@ -67,7 +67,7 @@ def _check(
     if content is None:
         return 1, f"names the schema {href}, but there is no file {target}"
     base = os.path.join(package.root or "", target)
-    package.outside.is_settled = False  # it may include others, which lxml reads
+    package.is_repeatable = False  # the schema may include others, which lxml reads
     return _validate(root, kind, href, (content, base))
 
 

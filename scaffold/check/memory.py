@@ -1,0 +1,168 @@
+"""What earlier runs of `check` found, and what they looked at (docs/adr/0006).
+
+One small file per command line and directory, in the user's cache. A file that is damaged, of
+another version of the tool or of another Python is as good as none. This module is imported by
+every start and imports next to nothing; ``scaffold.check.remembered`` knows what packages are.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+import sys
+
+from scaffold.content import built_in
+from scaffold.model.disk import digest, holds
+
+TYPE_CHECKING = False  # the one of typing is slow to import
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+    from typing import Any
+
+    from scaffold.model.disk import Answer, Question
+
+    Seen = Mapping[Question, Answer]
+
+SWITCH = "SCAFFOLD_NO_CACHE"
+MAX_RUNS = 400
+KEPT_RUNS = 300
+MAX_BYTES = 16_000_000
+"""A larger run is not kept: reading it back would be no gain."""
+ENVIRONMENT = ("AMENT_PREFIX_PATH", "HOME", "NO_COLOR", "PATH", "PYTHONPATH", "XDG_CONFIG_HOME")
+"""The variables that a verdict, or how it is shown, depends on."""
+
+_MAGIC = b"scaffold-run-1\n"
+_SEAL = len(digest(b""))
+
+
+class Run:
+    """A run as it is remembered; everything in it is made of what marshal can write.
+
+    Args:
+        outside: What was looked at outside of the packages.
+        trees: What was looked at in each package; ``None`` for one that is never remembered.
+        results: What ``scaffold.check.remembered`` wants to know of each package.
+        code: The exit code.
+        output: What was written.
+    """
+
+    def __init__(
+        self,
+        outside: Seen,
+        trees: Sequence[Seen | None],
+        results: Sequence[tuple[Any, ...]],
+        code: int,
+        output: str,
+    ) -> None:
+        self.outside = outside
+        self.trees = trees
+        self.results = results
+        self.code = code
+        self.output = output
+
+    def is_current(self) -> bool:
+        """Tell whether nothing has changed since."""
+        return holds(self.outside) and all(seen is not None and holds(seen) for seen in self.trees)
+
+
+def directory(kind: str) -> str | None:
+    """Return where the user's cache keeps things of a kind, ``None`` if it is switched off."""
+    if os.environ.get(SWITCH):
+        return None
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return os.path.join(home, "ros2-scaffold", kind) if os.path.isabs(home) else None
+
+
+class Slot:
+    """Where a run is remembered: one place for each command line, directory and environment.
+
+    Made before the run, because a rule that is edited meanwhile must not count as the one used.
+    """
+
+    def __init__(self, kept: str, words: Sequence[str]) -> None:
+        where = os.getcwd()
+        variables = [os.environ.get(name) for name in ENVIRONMENT]
+        key = marshal.dumps((list(words), where, variables, sys.stdout.isatty()))
+        self._path = os.path.join(kept, digest(key))
+        self._head = _MAGIC + tool().encode()
+
+    @classmethod
+    def of(cls, words: Sequence[str]) -> Slot | None:
+        """Return the place for a command line, ``None`` if nothing is to be remembered."""
+        kept = directory("runs")
+        try:
+            return cls(kept, words) if kept is not None else None
+        except (OSError, ValueError):
+            return None
+
+    def load(self) -> Run | None:
+        """Return the last run, if this very tool remembered it and nothing damaged it."""
+        try:
+            with open(self._path, "rb", buffering=0) as file:
+                stored = file.read()
+        except OSError:
+            return None
+        start = len(self._head)
+        sealed, data = stored[start : start + _SEAL], stored[start + _SEAL :]
+        if not stored.startswith(self._head) or sealed != digest(data).encode():
+            return None
+        return Run(*marshal.loads(data))  # noqa: S302  own files
+
+    def save(self, run: Run) -> None:
+        """Store a run; written aside and renamed, so that no reader sees half of it."""
+        aside = f"{self._path}.{os.getpid()}"
+        everything: Any = (run.outside, run.trees, run.results, run.code, run.output)
+        data = marshal.dumps(everything)
+        if len(data) > MAX_BYTES:
+            return
+        try:
+            os.makedirs(os.path.dirname(self._path), exist_ok=True)
+            with open(aside, "wb") as file:
+                file.write(self._head + digest(data).encode() + data)
+            os.replace(aside, self._path)
+            _trim(os.path.dirname(self._path))
+        except OSError:
+            return
+
+
+def _trim(kept: str) -> None:
+    """Drop the runs that were not renewed for longest when there are too many."""
+    names = os.listdir(kept)
+    if len(names) > MAX_RUNS:
+        paths = [os.path.join(kept, name) for name in names]
+        for path in sorted(paths, key=os.path.getmtime)[:-KEPT_RUNS]:
+            os.unlink(path)
+
+
+def tool() -> str:
+    """Return a digest of the tool: every file of the engine and the rules, and Python's packages.
+
+    Those are known by their size and times: nobody edits them between two runs by accident.
+    """
+    parts = [sys.version, sys.executable]
+    engine = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    for top in (engine, os.path.join(built_in(), "rules")):
+        parts += _stamps(top)
+    for entry in sys.path:
+        if entry.endswith(("site-packages", "dist-packages")):
+            # Installing, removing or renewing anything touches the directory.
+            parts.append(f"{entry} {_stamp(entry)}")
+    return digest("\n".join(parts).encode("utf-8", "surrogateescape"))
+
+
+def _stamps(top: str) -> Iterator[str]:
+    with os.scandir(top) as entries:
+        for entry in entries:
+            if entry.is_dir():
+                if entry.name != "__pycache__":
+                    yield from _stamps(entry.path)
+            else:
+                yield f"{entry.path} {_stamp(entry.path)}"
+
+
+def _stamp(path: str) -> str:
+    try:
+        status = os.stat(path)
+    except OSError:
+        return ""
+    return f"{status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"

@@ -1,0 +1,39 @@
+"""The command line of every verb; the one definition for the shell, ros2cli and completion."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+from typing import NoReturn
+
+from scaffold import __version__
+from scaffold.cli.main import AT_FAULT, VERBS
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, as every other error of this tool."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the line and exit."""
+        self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
+
+
+def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
+    """Return the parser.
+
+    Args:
+        verb: The only verb to define in full; the others are listed but not imported. ``None``
+            defines all, as tab completion needs.
+    """
+    parser = _Parser(
+        prog="ros2-scaffold",
+        description="Generate, lint, fix, build and prove ROS 2 Python packages.",
+    )
+    parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
+    # Without the name argparse would lay out a usage text to find it.
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
+    for name, text in VERBS.items():
+        one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        if verb is None or verb == name:
+            import_module(f"scaffold.cli.{name}").add_arguments(one)
+    return parser
