@@ -13,10 +13,13 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+from scaffold import content
+from scaffold.check import registry, runner
 from scaffold.check.diagnostic import Edit
 from scaffold.errors import ParseError
 from scaffold.model import cmake_edit
 from scaffold.model.cmake import CMakeLists, Command, Install
+from scaffold.model.package import Package
 from scaffold.model.source import Source
 
 TALKER = """\
@@ -686,3 +689,14 @@ def test_broken_files_are_not_edited() -> None:
     assert cmake_edit.insert_in_testing(lists, ["m()"]) is None
     assert cmake_edit.remove_command(lists, lists.commands[0]) is None
     assert cmake_edit.remove_argument(lists, lists.commands[0].arguments[0]) is None
+
+
+def test_missing_parenthesis_is_said_once() -> None:
+    rules = [rule() for rule in registry.load(content.roots("rules")) if rule.code == "CM083"]
+
+    def said(text: str) -> list[str]:
+        package = Package.of({"CMakeLists.txt": text})
+        return [found.code for found in runner.check(package, rules)]
+
+    assert said("project(talker)\nament_package(\n") == ["SC001"]
+    assert said('set(COLOUR "#fff")\n') == ["CM083"]

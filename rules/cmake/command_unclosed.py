@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
 from scaffold.model import cmake_style
+from scaffold.model.package import CMAKE_LISTS
 
 
 class CommandUnclosed(Rule):
@@ -34,4 +35,13 @@ class CommandUnclosed(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for found in cmake_style.findings(package, "syntax"):
+            if found.location.path == CMAKE_LISTS and _is_unparsable(package):
+                continue  # that it cannot be parsed is said already
             yield self.report(found, f'no ")" follows the "(" of {found.said}')
+
+
+def _is_unparsable(package: Package) -> bool:
+    try:
+        return not package.cmake
+    except ViewError:
+        return True
