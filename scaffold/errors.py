@@ -48,6 +48,10 @@ class ParseError(ViewError):
         self.message = message
 
 
+class TooLargeError(ParseError):
+    """A file that is too large to be read; reported once, as SC004."""
+
+
 class NewerSyntaxError(ViewError):
     """A Python file that only a newer Python than the running one can parse; not a flaw."""
 

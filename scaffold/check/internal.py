@@ -60,4 +60,38 @@ class UnusedSuppression(_Internal):
     severity = Severity.WARNING
 
 
-INTERNAL_RULES: tuple[type[Rule], ...] = (UnparsableFile, RuleCrashed, UnusedSuppression)
+class FileTooLarge(_Internal):
+    """A file is too large to be checked.
+
+    **Why.** What is wrong in it stays unknown. Code is read up to 500 kB, twice the largest file
+    of 800 public packages, data such as YAML up to 2 MB, so that no file can hold the check up.
+
+    **Fix.** Split the file, or keep generated code out of the package's sources.
+    """
+
+    code = "SC004"
+    name = "file-too-large"
+    severity = Severity.WARNING
+
+
+class TooManyFindings(_Internal):
+    """One code is found so often that the search for more ends.
+
+    **Why.** Nobody reads five thousand lines that say the same; what is wrong behind the last
+    one of them is not shown.
+
+    **Fix.** Mend what is shown, by hand or with ``--fix``, and check again.
+    """
+
+    code = "SC005"
+    name = "too-many-findings"
+    severity = Severity.WARNING
+
+
+INTERNAL_RULES: tuple[type[Rule], ...] = (
+    UnparsableFile,
+    RuleCrashed,
+    UnusedSuppression,
+    FileTooLarge,
+    TooManyFindings,
+)

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import islice
 
 from scaffold.check.diagnostic import Diagnostic
-from scaffold.check.internal import RuleCrashed, UnparsableFile
+from scaffold.check.internal import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.rule import Rule
-from scaffold.errors import ViewError
+from scaffold.errors import TooLargeError, ViewError
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 from scaffold.model.tree import MANIFEST
+
+MOST_FINDINGS = 5000
+"""Of one code in one package; a flood of them must not hold the check up."""
 
 
 def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
@@ -21,7 +25,8 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
     said: list[Diagnostic] = []
     for rule in rules:
         try:
-            said.extend(rule.check(package))
+            # One more than is shown, so that the session knows of it.
+            said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
         except ViewError:
             continue
         except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
@@ -40,6 +45,11 @@ def _crash(rule: Rule, error: Exception) -> Diagnostic:
 
 
 def _unparsable(package: Package) -> list[Diagnostic]:
-    rule = UnparsableFile()
-    found = {(error.location, error.message) for error in package.parse_errors}
-    return [rule.report(location, message) for location, message in found]
+    found = {
+        (isinstance(error, TooLargeError), error.location, error.message)
+        for error in package.parse_errors
+    }
+    return [
+        (FileTooLarge if too_large else UnparsableFile)().report(location, message)
+        for too_large, location, message in found
+    ]

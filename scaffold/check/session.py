@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.check import runner, suppression
 from scaffold.check.diagnostic import Diagnostic, Severity
-from scaffold.check.internal import INTERNAL_RULES, RuleCrashed, UnparsableFile
+from scaffold.check.internal import (
+    INTERNAL_RULES,
+    FileTooLarge,
+    RuleCrashed,
+    TooManyFindings,
+    UnparsableFile,
+)
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.model.discovery import Target
@@ -103,17 +109,34 @@ class Session:
         """Return what is asked for, in reading order, each thing once."""
         # flake8 has its own code for a Python file that does not parse.
         told = {d.location.path for d in found if d.code.startswith("E9")}
+        unreadable = (UnparsableFile.code, FileTooLarge.code)
         return sorted(
             (
                 d
-                for d in found
-                if not (d.code == UnparsableFile.code and d.location.path in told)
+                for d in _bounded(found)
+                if not (d.code in unreadable and d.location.path in told)
                 and (target.only is None or d.location.path in target.only)
                 and (d.code == RuleCrashed.code or self.selection.wants(d.code))
                 and self.selection.wants_at(d.code, d.location.path)
             ),
             key=lambda d: d.sort_key,
         )
+
+
+def _bounded(found: list[Diagnostic]) -> list[Diagnostic]:
+    """Leave out what one code says too often, and say so."""
+    if len(found) <= runner.MOST_FINDINGS:
+        return found
+    counts: dict[str, int] = {}
+    kept: list[Diagnostic] = []
+    for one in found:
+        counts[one.code] = count = counts.get(one.code, 0) + 1
+        if count <= runner.MOST_FINDINGS:
+            kept.append(one)
+        elif count == runner.MOST_FINDINGS + 1:
+            said = f"{one.code} is found more than {runner.MOST_FINDINGS} times"
+            kept.append(TooManyFindings().report(one.location, f"{said}; the rest is not shown"))
+    return kept
 
 
 def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:

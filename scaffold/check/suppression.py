@@ -49,7 +49,8 @@ def _codes_on(package: Package, path: str, line: int) -> list[str] | None:
         source = package.source(path)
     except ViewError:
         return None
-    if "noqa" not in source.text or line > len(source.lines):
+    has_any = package.remember(("noqa", path), lambda: "noqa" in source.text)
+    if not has_any or line > len(source.lines):
         return None
     found = re.search(_COMMENT, source.lines[line - 1], re.IGNORECASE)
     return re.findall(_CODE, (found["codes"] or "").upper()) if found else None

@@ -7,6 +7,9 @@ A name that is not here is simply not known; rules stay silent about it.
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Mapping
+
 _ROS_PACKAGES = """
 ackermann_msgs action_msgs action_tutorials_cpp action_tutorials_interfaces action_tutorials_py
 actionlib_msgs actuator_msgs ament_black ament_clang_format ament_clang_tidy ament_cmake
@@ -336,10 +339,27 @@ def similar_package(name: str) -> str | None:
     """
     if name in ROS_PACKAGES:
         return None
-    for known in sorted(ROS_PACKAGES):
-        if is_near(name, known):
-            return known
-    return None
+    plain = name.replace("-", "").replace("_", "").lower()
+    candidates = set(_alike()[len(plain), plain])
+    for length in range(len(name) - 1, len(name) + 2):
+        # Wherever the slip is, one end of the name is as it should be.
+        for end in (name[:1] + "*", "*" + name[-1:]):
+            candidates.update(_alike()[length, end])
+    return next((known for known in sorted(candidates) if is_near(name, known)), None)
+
+
+_ALIKE: defaultdict[tuple[int, str], list[str]] = defaultdict(list)
+
+
+def _alike() -> Mapping[tuple[int, str], list[str]]:
+    """Return the packages by length with first letter, last letter, or all letters."""
+    if not _ALIKE:
+        for name in ROS_PACKAGES:
+            plain = name.replace("_", "")
+            for key in ((len(name), name[0] + "*"), (len(name), "*" + name[-1])):
+                _ALIKE[key].append(name)
+            _ALIKE[len(plain), plain].append(name)
+    return _ALIKE
 
 
 def _one_slip(one: str, other: str) -> bool:

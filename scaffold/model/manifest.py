@@ -162,11 +162,17 @@ class Manifest:
 
         Of several on one package it is the first. Conditions are not looked at.
         """
-        found: dict[str, Dependency] = {}
-        for dependency in self.dependencies:
-            if not kinds or dependency.kind in kinds:
-                found.setdefault(dependency.name, dependency)
-        return found
+        if kinds not in self._depends:
+            found: dict[str, Dependency] = {}
+            for dependency in self.dependencies:
+                if not kinds or dependency.kind in kinds:
+                    found.setdefault(dependency.name, dependency)
+            self._depends[kinds] = found
+        return self._depends[kinds]
+
+    @cached_property
+    def _depends(self) -> dict[tuple[str, ...], dict[str, Dependency]]:
+        return {}
 
     def names_for(self, *purposes: str) -> set[str]:
         """Return the packages that are there on Jazzy for some purposes.

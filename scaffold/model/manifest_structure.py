@@ -18,6 +18,7 @@ from scaffold.model.package import Package
 from scaffold.model.source import Location
 from scaffold.model.xml_tree import BLANK, Attribute, Element, Text
 
+_MOST_UNKNOWN = 1000  # elements that are named; each is compared with all known ones
 FORMATS = (1, 2, 3)
 PLAIN = ("name", "version", "description", "maintainer", "license", "url", "author")
 REQUIRED = PLAIN[:5]
@@ -79,7 +80,7 @@ class Structure:
         """The elements that the format does not have."""
         found = [] if self.is_manifest else [self.root]
         found += [child for child in self.children if child.tag not in self.sections]
-        return [Unknown(element, self._since(element.tag)) for element in found]
+        return [Unknown(element, self._since(element.tag)) for element in found[:_MOST_UNKNOWN]]
 
     def _since(self, tag: str) -> int | None:
         return next((n for n in FORMATS if n > self.format and tag in _sections(n)), None)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.model.constants import Evaluator
@@ -116,17 +117,17 @@ class SelfEvaluator(Evaluator):
         ``None`` does not count: who uses the object waits for the other assignment.
         """
         for _ in range(10):
-            values: Sequence[ast.expr | None] | None = None
+            values: Iterable[ast.expr | None] | None = None
             if isinstance(node, ast.Name):
                 found = self.module.index.lookup(node.id, node)
-                values = [
+                values = (
                     binding.value
                     for binding in (found[1] if found else ())
                     if binding.kind != "annotation"
-                ]
+                )
             elif isinstance(node, ast.Attribute):
                 values = self.attribute_values(node)
-            made = [value for value in values or () if not _is_none(value)]
+            made = list(islice((value for value in values or () if not _is_none(value)), 2))
             if len(made) != 1 or made[0] is None:
                 return node
             node = made[0]

@@ -12,6 +12,10 @@ def shown(package: Package, path: str) -> str:
 
     A file outside the current directory keeps the form in which its package was given.
     """
+    return package.remember(("shown", path), lambda: _shown(package, path))
+
+
+def _shown(package: Package, path: str) -> str:
     joined = os.path.normpath(os.path.join(package.directory, path))
     if not os.path.isabs(joined):
         return joined

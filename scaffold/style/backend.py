@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check.diagnostic import Diagnostic, Edit, Fix, Safety
+from scaffold.check.runner import MOST_FINDINGS
 from scaffold.errors import ViewError
-from scaffold.model.package import Package
+from scaffold.model.package import Package, most_bytes
 from scaffold.model.source import Location, Source
 from scaffold.style import ruff
 from scaffold.style.cache import Cache
@@ -65,9 +66,12 @@ class StyleCheck:
             EnvironmentMissingError: ruff does not run.
         """
         found: list[Diagnostic] = []
+        counts: dict[str, int] = {}
         for file in self._files.pop(id(package), ()):
-            findings = self._findings(file)
-            found.extend(_diagnostic(package, file.path, one) for one in findings)
+            for one in self._findings(file):
+                counts[one.code] = count = counts.get(one.code, 0) + 1
+                if count <= MOST_FINDINGS + 1:
+                    found.append(_diagnostic(package, file.path, one))
         return found
 
     def _findings(self, file: _File) -> list[Finding]:
@@ -114,6 +118,11 @@ class StyleCheck:
             except OSError:
                 continue
             file = _File(path, "", data, linters)
+            if len(data) > most_bytes(path):
+                said = "the file is too large to be checked"
+                file.findings = [Finding("E902", 1, 1, said, linters=linters)]
+                files.append(file)
+                continue
             if self._cache is not None:
                 file.key = self._cache.key(path.rpartition("/")[2], linters, data)
                 file.findings = self._cache.get(file.key)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
+from functools import cached_property
 
 from scaffold.style.finding import Finding
 from scaffold.style.logical import LogicalLine, ends_statement, expand_indent
@@ -75,16 +77,31 @@ class _State:
 
     def _is_in_function(self, logical: LogicalLine) -> bool:
         """Look for the block around the definition, upwards, by indentation."""
-        level = logical.indent
-        nested = False
-        for line in self.lines[logical.end_row - AT_TOP :: -1]:
-            width = expand_indent(line)
-            if line.strip() and width < level:
+        around, level = self._around, logical.indent
+        row = logical.end_row - AT_TOP
+        while row >= 0:
+            width, above = around[row]
+            if width < level:
+                if re.match(_FUNCTION, self.lines[row].lstrip()):
+                    return True
                 level = width
-                nested = bool(re.match(_FUNCTION, line.lstrip()))
-                if nested or level == 0:
-                    break
-        return nested
+            row = above
+        return False
+
+    @cached_property
+    def _around(self) -> list[tuple[int, int]]:
+        """Return of each line its indentation, and the number of the next one above with less.
+
+        Blank lines are as wide as can be.
+        """
+        found: list[tuple[int, int]] = []
+        for number, line in enumerate(self.lines):
+            width = expand_indent(line) if line.strip() else sys.maxsize
+            above = number - 1
+            while above >= 0 and found[above][0] >= width:
+                above = found[above][1]
+            found.append((width, above))
+        return found
 
     def _is_one_liner(self, logical: LogicalLine) -> bool:
         """Tell whether the definition ends on its own line: such ones may stand together."""

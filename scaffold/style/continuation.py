@@ -23,6 +23,8 @@ from scaffold.style.tokens import (
 )
 
 INDENT = 4
+MOST_ROWS = 100
+"""Earlier lines of a bracket that a line may be indented against."""
 
 _MESSAGES = {
     "E122": "continuation line is not indented",
@@ -138,7 +140,10 @@ class _Walk:
     def _hang(self, bracket: _Bracket) -> tuple[int, bool]:
         """Return the indentation against the opening line, and whether that is a good one."""
         hang, good = 0, False
-        for row in reversed(bracket.rows):
+        rows = bracket.rows
+        if len(rows) > MOST_ROWS:
+            rows = [rows[0], *rows[-MOST_ROWS:]]
+        for row in reversed(rows):
             hang = self.relative[self.row] - self.relative[row]
             good = hang in self.valid_hangs
             if good:

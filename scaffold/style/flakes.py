@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 from scaffold.style.finding import Finding
 from scaffold.style.ruff import Said
@@ -12,19 +13,21 @@ from scaffold.style.text import PythonText
 
 def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     """Yield what pyflakes would say, given what ruff says."""
-    codes = {(one.line, one.code) for one in said}
-    has_star_use = any(code == "F405" for _, code in codes)
+    stricter = _Stricter(text, said)
+    imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
+    has_star_use = any(one.code == "F405" for one in said)
     for one in said:
         finding = plain(one)
         if one.code == "F401":
-            finding = _at_statement(text, finding)
+            node = imports.get(finding.line)
+            finding = finding if node is None else _moved(text, finding, node)
         elif one.code in ("F405", "F822"):
             finding = _at_exports(text, finding)
             if one.code == "F822" and text.name == "__init__.py":
                 continue
         elif one.code == "F841":
             finding = _at_handler(text, finding)
-        if one.code not in OWN and not _is_stricter(text, one, codes):
+        if one.code not in OWN and not stricter.is_alone(one):
             yield finding
         if one.code == "F403" and not has_star_use:
             unused = "nothing of the star import is used"
@@ -55,31 +58,51 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 """Judged in ``literals`` and ``redefinitions``."""
 
 
-def _is_stricter(text: PythonText, said: Said, codes: set[tuple[int, str]]) -> bool:
-    """Tell whether ruff goes further than pyflakes does."""
-    if said.code == "F507":
-        return not any(
-            isinstance(node, ast.BinOp)
+class _Stricter:
+    """Knows where ruff goes further than pyflakes does."""
+
+    def __init__(self, text: PythonText, said: Sequence[Said]) -> None:
+        self._text = text
+        self._codes = {(one.line, one.code) for one in said}
+
+    def is_alone(self, said: Said) -> bool:
+        """Tell whether only ruff says this."""
+        if said.code == "F507":
+            return said.line not in self._tuple_formats
+        if said.code == "F821" and (said.line, said.column) in self._conditional_deletions:
+            return True
+        rival = {"F502": "F506", "F523": "F525"}.get(said.code)
+        return (said.line, rival) in self._codes
+
+    @cached_property
+    def _tuple_formats(self) -> set[int]:
+        return {
+            node.lineno
+            for node in self._text.nodes
+            if isinstance(node, ast.BinOp)
             and isinstance(node.op, ast.Mod)
             and isinstance(node.right, ast.Tuple)
-            for node in text.nodes
-            if getattr(node, "lineno", 0) == said.line
-        )
-    if said.code == "F821" and "del " in text.lines[said.line - 1]:
-        return (said.line, said.column) in _conditional_deletions(text)
-    rival = {"F502": "F506", "F523": "F525"}.get(said.code)
-    return (said.line, rival) in codes
+        }
 
-
-def _conditional_deletions(text: PythonText) -> set[tuple[int, int]]:
-    """Return the places of ``del name`` that may not run: pyflakes does not look at them."""
-    return {
-        (part.lineno, text.column(part.lineno, part.col_offset))
-        for node in text.nodes
-        if isinstance(node, (ast.If, ast.While))
-        for part in ast.walk(node)
-        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del)
-    }
+    @cached_property
+    def _conditional_deletions(self) -> set[tuple[int, int]]:
+        """The places of ``del name`` that may not run: pyflakes does not look at them."""
+        if "del " not in self._text.text:
+            return set()
+        pending: list[ast.AST] = [
+            node for node in self._text.nodes if isinstance(node, (ast.If, ast.While))
+        ]
+        seen: set[ast.AST] = set()
+        found: set[tuple[int, int]] = set()
+        while pending:
+            part = pending.pop()
+            if part in seen:
+                continue
+            seen.add(part)
+            pending.extend(ast.iter_child_nodes(part))
+            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del):
+                found.add((part.lineno, self._text.column(part.lineno, part.col_offset)))
+        return found
 
 
 def _at_handler(text: PythonText, finding: Finding) -> Finding:
@@ -92,12 +115,14 @@ def _at_handler(text: PythonText, finding: Finding) -> Finding:
     return finding
 
 
-def _at_statement(text: PythonText, finding: Finding) -> Finding:
-    """Move a finding to the start of its import statement."""
+def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
+    """Return the import statement that covers a line; the first of several."""
+    found: dict[int, ast.stmt] = {}
     for node in text.nodes:
-        if isinstance(node, (ast.Import, ast.ImportFrom)) and _covers(node, finding.line):
-            return _moved(text, finding, node)
-    return finding
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+                found.setdefault(line, node)
+    return found
 
 
 def _at_exports(text: PythonText, finding: Finding) -> Finding:

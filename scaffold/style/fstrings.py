@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import tokenize
+from bisect import bisect_left
 from collections.abc import Generator, Iterator
 from tokenize import TokenInfo
 
@@ -51,6 +52,7 @@ class _Opened:
         self._line = token.line
         self._first = len(prefix) + width
         self._last = len(text) - width
+        self._breaks = [at for at, one in enumerate(text) if one == "\n"] if "\n" in text else []
 
     def tokens(self) -> Iterator[TokenInfo]:
         """Yield the tokens of the string."""
@@ -60,10 +62,9 @@ class _Opened:
 
     def _place(self, at: int) -> Position:
         row, column = self._start
-        before = self._text[:at]
-        breaks = before.count("\n")
+        breaks = bisect_left(self._breaks, at)
         if breaks:
-            return row + breaks, at - before.rindex("\n") - 1
+            return row + breaks, at - self._breaks[breaks - 1] - 1
         return row, column + at
 
     def _token(self, kind: int, start: int, end: int, text: str | None = None) -> TokenInfo:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from scaffold.style.finding import Finding
 from scaffold.style.text import PythonText
-from scaffold.style.tokens import FSTRING_END, FSTRING_START, STRING
 
 MAX_LENGTH = 99
 
@@ -51,7 +50,7 @@ def _trailing(text: PythonText) -> Iterator[Finding]:
 
 
 def _is_inside_string(text: PythonText, line: int) -> bool:
-    return not text.tokens or line in multiline_rows(text)
+    return not text.tokens or line in text.multiline_rows
 
 
 def _end(text: PythonText) -> Iterator[Finding]:
@@ -94,18 +93,4 @@ def _is_excused(text: PythonText, number: int, line: str) -> bool:
         return False
     if words[:-1] == ["#"]:
         return True
-    return len(words) == 1 and number in multiline_rows(text)
-
-
-def multiline_rows(text: PythonText) -> set[int]:
-    """Return the rows that end within a string."""
-    rows: set[int] = set()
-    start = 0
-    for token in text.tokens:
-        if token.type == FSTRING_START:
-            start = token.start[0]
-        elif token.type == FSTRING_END:
-            rows.update(range(start, token.end[0]))
-        elif token.type == STRING and token.start[0] != token.end[0]:
-            rows.update(range(token.start[0], token.end[0]))
-    return rows
+    return len(words) == 1 and number in text.multiline_rows

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from scaffold.style.logical import LogicalLine, split
-from scaffold.style.tokens import Token, read
+from scaffold.style.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 
 BOM = "\ufeff"
 
@@ -80,6 +80,20 @@ class PythonText:
     def tokens(self) -> list[Token]:
         """The tokens as Python 3.12 cuts them; empty when the file cannot be cut."""
         return read(self.lines)
+
+    @cached_property
+    def multiline_rows(self) -> set[int]:
+        """The rows that end within a string."""
+        rows: set[int] = set()
+        start = 0
+        for token in self.tokens:
+            if token.type == FSTRING_START:
+                start = token.start[0]
+            elif token.type == FSTRING_END:
+                rows.update(range(start, token.end[0]))
+            elif token.type == STRING and token.start[0] != token.end[0]:
+                rows.update(range(token.start[0], token.end[0]))
+        return rows
 
     @cached_property
     def logical_lines(self) -> list[LogicalLine]:
