@@ -1,0 +1,78 @@
+"""MS020: a topic or service of a package has one type."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Endpoint
+from scaffold.model.topics import services_of, topics_of
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import Bool, String\n"
+    "from std_srvs.srv import Empty, Trigger\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_{}\n"
+)
+
+
+class TopicTypeDiffers(Rule):
+    """The two sides of a topic or service in one package use different types.
+
+    **Why.** They do not connect: nothing arrives, and a client waits for ever, without an error.
+
+    **Fix.** Use one type on both sides, or two names.
+
+    **Source.** ROS 2 documentation, "Topics": a topic has one type.
+    """
+
+    code = "MS020"
+    name = "topic-type-differs"
+    examples = (
+        Example(
+            "one type",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+        ),
+        Example(
+            "two types of a topic",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
+            },
+            at=("a.py:9", "b.py:9"),
+        ),
+        Example(
+            "two types of a service",
+            {
+                "a.py": _NODE.format("service(Trigger, 'reset', print)"),
+                "b.py": _NODE.format("client(Empty, 'reset')"),
+            },
+            at=("a.py:9", "b.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for name, topic in topics_of(package).items():
+            if topic.is_plain:
+                yield from self._check(name, topic.publishers, topic.subscriptions)
+        for name, service in services_of(package).items():
+            if service.is_plain:
+                yield from self._check(name, service.services, service.clients)
+
+    def _check(
+        self, name: str, ones: Sequence[Endpoint], others: Sequence[Endpoint]
+    ) -> Iterator[Diagnostic]:
+        types = [{one.interface for one in side} for side in (ones, others)]
+        if any(len(side) != 1 or None in side for side in types) or types[0] == types[1]:
+            return
+        for here, there in ((ones[0], others[0]), (others[0], ones[0])):
+            message = (
+                f"{name!r} is {here.interface} here, but {there.interface} in "
+                f"{there.location.path}:{there.location.line}: they do not connect"
+            )
+            yield self.report(here.type_argument or here, message)

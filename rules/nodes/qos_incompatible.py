@@ -1,0 +1,135 @@
+"""ND051: publishers and subscriptions of a package fit each other."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Endpoint, Publisher, Subscription
+from scaffold.model.topics import topics_of
+
+_NODE = (
+    "from rclpy.node import Node\n"
+    "from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data\n"
+    "from std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_{}\n"
+)
+_LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
+
+
+class _Conflict(NamedTuple):
+    """What does not fit."""
+
+    offers: str
+    asks: str
+
+
+class QosIncompatible(Rule):
+    """A subscription asks for more than any publisher of its topic in the package offers.
+
+    **Why.** They do not connect, and nothing arrives; the only sign is a warning ``New publisher
+    discovered on topic ..., offering incompatible QoS``.
+
+    **Fix.** Give both the same profile.
+
+    **Source.** ROS 2 documentation, "About quality of service settings", compatibilities.
+    """
+
+    code = "ND051"
+    name = "qos-incompatible"
+    examples = (
+        Example(
+            "compatible",
+            {
+                "a.py": _NODE.format(f"publisher(String, 'chatter', {_LATCHED})"),
+                "b.py": _NODE.format(
+                    "subscription(String, 'chatter', print, qos_profile_sensor_data)"
+                ),
+            },
+        ),
+        Example(
+            "best effort for reliable",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+            at=("a.py:9", "b.py:9"),
+        ),
+        Example(
+            "volatile for transient local",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format(f"subscription(String, 'chatter', print, {_LATCHED})"),
+            },
+            at=("a.py:9", "b.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for name, topic in topics_of(package).items():
+            if not topic.publishers or not topic.is_plain:
+                continue
+            for subscription in topic.subscriptions:
+                pairs = [(one, _conflict(one, subscription)) for one in topic.publishers]
+                publisher, conflict = pairs[0]
+                if conflict is None or not all(other for _, other in pairs):
+                    continue
+                both = ((subscription, publisher), (publisher, subscription))
+                for here, there in both:
+                    said = (conflict.offers, conflict.asks)
+                    other, has = said if here is subscription else said[::-1]
+                    message = (
+                        f"{_kind(here)} of {name!r} {has}, but {_kind(there)} in "
+                        f"{there.location.path}:{there.location.line} {other}: nothing arrives"
+                    )
+                    yield self.report(here.qos or here, message)
+
+
+def _kind(endpoint: Endpoint) -> str:
+    return "the publisher" if isinstance(endpoint, Publisher) else "the subscription"
+
+
+def _conflict(publisher: Publisher, subscription: Subscription) -> _Conflict | None:
+    """Return what is offered and what is asked for, if that does not fit."""
+    offered, asked = publisher.qos, subscription.qos
+    if offered is None or asked is None:
+        return None
+    if offered.reliability == "BEST_EFFORT" and asked.reliability == "RELIABLE":
+        return _Conflict("is BEST_EFFORT", "wants RELIABLE")
+    if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
+        return _Conflict("is VOLATILE", "wants TRANSIENT_LOCAL")
+    return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
+
+
+def _conflict_of_time(
+    offered: dict[str, str] | None, asked: dict[str, str] | None
+) -> _Conflict | None:
+    if offered is None or asked is None:
+        return None
+    if "deadline" in asked and "deadline" not in offered:
+        return _Conflict("has no deadline", "wants a deadline")
+    if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
+        return _Conflict("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
+    return None
+
+
+def _profile_words(endpoint: Endpoint) -> dict[str, str] | None:
+    """Return what is given to the QoSProfile of an endpoint; none for a depth or a preset."""
+    argument = endpoint.argument("qos_profile")
+    if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
+        return None
+    if isinstance(argument.value, int) or endpoint.qos.profile is not None:
+        return {}
+    facts = endpoint.owner.facts if endpoint.owner else None
+    value = facts.evaluator.single_value(argument.node) if facts else None
+    if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
+        return None
+    names = ("deadline", "liveliness")
+    if facts is None or any(facts.evaluator.stores(name) for name in names):
+        return None
+    return {word.arg or "": ast.unparse(word.value) for word in value.keywords}

@@ -1,0 +1,102 @@
+"""ND048: the callback of a service returns the response."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.node_entities import Service
+from scaffold.model.returns import is_generator, may_end, returned
+from scaffold.model.scopes import FunctionNode
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_service(Trigger, 'report', self.report)\n\n"
+    "    def report(self, request, response):\n"
+    "        response.success = True\n"
+    "{}"
+)
+
+
+class ResponseNotReturned(Rule):
+    """The callback of a service returns something else than the response, or nothing.
+
+    **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request: the node dies,
+    and the client waits for ever.
+
+    **Fix.** End the callback with ``return response``, on every path.
+
+    **Source.** ``rclpy/service.py``, ``Service.send_response``.
+    """
+
+    code = "ND048"
+    name = "response-not-returned"
+    examples = (
+        Example("returned", {"server.py": _NODE.format("        return response\n")}),
+        Example("nothing", {"server.py": _NODE.format("")}, at=("server.py:10",)),
+        Example(
+            "on one path only, and something else",
+            {
+                "server.py": _NODE.format(
+                    "        if request is None:\n            return True\n"
+                    "        for _ in range(3):\n            return response\n"
+                )
+            },
+            at=("server.py:10", "server.py:13"),
+        ),
+        Example(
+            "the request",
+            {"server.py": _NODE.format("        return Trigger.Request()\n")},
+            at=("server.py:12",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        seen: set[FunctionNode] = set()
+        for types in MessageTypes.of_package(package):
+            for service in types.facts.services:
+                callback = service.callback
+                function = callback.function if callback else None
+                if function is None or isinstance(function, ast.Lambda) or function in seen:
+                    continue
+                if callback and (callback.is_called or function.decorator_list):
+                    continue
+                seen.add(function)
+                yield from self._check(types, service, function)
+
+    def _check(
+        self, types: MessageTypes, service: Service, function: FunctionNode
+    ) -> Iterator[Diagnostic]:
+        module = types.module
+        if is_generator(function):
+            return
+        said = f"the service made in line {service.location.line} sends what is returned"
+        if may_end(function):
+            never = " on every path" if returned(function) else ""
+            message = f"{function.name} does not return the response{never}; {said}: TypeError"
+            yield self.report(module.name_location(function), message)
+        for statement in returned(function):
+            wrong = _wrong(types, service, statement.value)
+            if wrong:
+                message = f"returns {wrong}, not the response; {said}: TypeError"
+                yield self.report(module.location(statement), message)
+
+
+def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str:
+    """Return what is returned if that surely is no response, else nothing."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, ast.Constant):
+        return "None" if value.value is None else f"a {type(value.value).__name__}"
+    if isinstance(value, ast.Dict | ast.List | ast.Tuple | ast.Set):
+        return f"a {type(value).__name__.lower()}"
+    found = types.type_of(value)
+    if found is not None and service.interface and found.name != f"{service.interface}.Response":
+        return found.name
+    class_ = types.class_of(value) if isinstance(value, ast.Name | ast.Attribute) else None
+    return f"the class {class_.name}" if class_ else ""

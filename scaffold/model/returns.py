@@ -1,0 +1,63 @@
+"""What a function returns, and whether it may come to its end without doing so."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.scopes import FunctionNode
+
+_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
+
+
+def returned(function: FunctionNode) -> Sequence[ast.Return]:
+    """Return the ``return`` statements of a function, those of functions inside left out."""
+    return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
+
+
+def is_generator(function: FunctionNode) -> bool:
+    """Tell whether a call of the function gives a generator."""
+    return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
+
+
+def may_end(function: FunctionNode) -> bool:
+    """Tell whether the end of the function may be reached, so that it returns ``None``."""
+    return _passes(function.body)
+
+
+def _own_nodes(function: FunctionNode) -> Iterator[ast.AST]:
+    pending: list[ast.AST] = list(function.body)
+    while pending:
+        node = pending.pop()
+        yield node
+        if not isinstance(node, _SCOPES):
+            pending.extend(ast.iter_child_nodes(node))
+
+
+def _passes(body: Sequence[ast.stmt]) -> bool:
+    """Tell whether what stands behind some statements may be reached."""
+    return all(_passes_one(statement) for statement in body)
+
+
+def _passes_one(statement: ast.stmt) -> bool:
+    passes = True
+    match statement:
+        case ast.Return() | ast.Raise() | ast.Continue() | ast.Break():
+            passes = False
+        case ast.If(body=body, orelse=orelse):
+            passes = _passes(body) or _passes(orelse)
+        case ast.With(body=body) | ast.AsyncWith(body=body):
+            passes = _passes(body)
+        case ast.While(test=ast.Constant(value=value)) if value:
+            passes = any(isinstance(node, ast.Break) for node in ast.walk(statement))
+        case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=final):
+            runs = _passes([*body, *orelse]) or any(_passes(one.body) for one in handlers)
+            passes = runs and _passes(final)
+        case ast.Match(cases=cases):
+            is_total = any(isinstance(one.pattern, ast.MatchAs) and not one.guard for one in cases)
+            passes = not is_total or any(_passes(one.body) for one in cases)
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
+            passes = False
+    return passes

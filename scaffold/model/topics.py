@@ -1,0 +1,84 @@
+"""Who publishes and subscribes to which topic in a package, as far as that is plain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.model.node_entities import Client, Endpoint, Publisher, Service, Subscription
+from scaffold.model.values import Unknown
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+class Topic(NamedTuple):
+    """The endpoints of one topic."""
+
+    publishers: list[Publisher]
+    subscriptions: list[Subscription]
+    is_plain: bool
+    """Every endpoint of the topic is created for sure, once, by a node without a namespace."""
+
+
+class ServiceName(NamedTuple):
+    """The endpoints of one service."""
+
+    services: list[Service]
+    clients: list[Client]
+    is_plain: bool
+
+
+def topics_of(package: Package) -> Mapping[str, Topic]:
+    """Return the topics by their names as written, a leading slash aside."""
+    return package.remember("topics", lambda: _topics(package))
+
+
+def services_of(package: Package) -> Mapping[str, ServiceName]:
+    """Return the services by their names as written, a leading slash aside."""
+    return package.remember("services", lambda: _services(package))
+
+
+def _topics(package: Package) -> Mapping[str, Topic]:
+    found: dict[str, Topic] = {}
+    for name, endpoints in _by_name(package, (Publisher, Subscription)).items():
+        found[name] = Topic(
+            [one for one in endpoints if isinstance(one, Publisher)],
+            [one for one in endpoints if isinstance(one, Subscription)],
+            all(map(_is_plain, endpoints)),
+        )
+    return found
+
+
+def _services(package: Package) -> Mapping[str, ServiceName]:
+    found: dict[str, ServiceName] = {}
+    for name, endpoints in _by_name(package, (Service, Client)).items():
+        found[name] = ServiceName(
+            [one for one in endpoints if isinstance(one, Service)],
+            [one for one in endpoints if isinstance(one, Client)],
+            all(map(_is_plain, endpoints)),
+        )
+    return found
+
+
+def _by_name(package: Package, kinds: tuple[type[Endpoint], ...]) -> Mapping[str, list[Endpoint]]:
+    found: dict[str, list[Endpoint]] = {}
+    for facts in package.rclpy_files():
+        for endpoint in facts.endpoints:
+            name = endpoint.name
+            if not isinstance(endpoint, kinds) or isinstance(name, Unknown):
+                continue
+            if not name.startswith("~"):
+                found.setdefault(name.removeprefix("/"), []).append(endpoint)
+    return found
+
+
+def _is_plain(endpoint: Endpoint) -> bool:
+    owner = endpoint.owner
+    return (
+        owner is not None
+        and owner.namespace is None
+        and not endpoint.is_conditional
+        and endpoint.from_parameter is None
+        and not endpoint.has_unknown_arguments
+    )
