@@ -23,6 +23,7 @@ INTERRUPTED = 130
 VERBS = {
     "new": "write a package",
     "add": "add a node, an interface or a program to a package",
+    "update": "bring a package in step with the templates of today",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
     "interfaces": "list the known messages, services and actions, or show some",

@@ -93,6 +93,7 @@ def _given(
 def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     """Compare with what is there; an existing package is left alone without ``--force``."""
     from scaffold.errors import ConflictError
+    from scaffold.generate import record
     from scaffold.plan import WritePlan
 
     directory = os.path.normpath(os.path.join(options.destination_directory, made.name))
@@ -101,7 +102,8 @@ def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     if os.path.lexists(directory) and not options.force:
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} exists already; {hint}")
-    return WritePlan.of(directory, made.rendered.files, executable=made.rendered.executable)
+    files = {**made.rendered.files, record.NAME: record.Record.of(made).text()}
+    return WritePlan.of(directory, files, executable=made.rendered.executable)
 
 
 def _report_defects(defects: list[Diagnostic]) -> None:
@@ -126,8 +128,10 @@ def _summary(options: argparse.Namespace, made: Draft, plan: WritePlan) -> str:
 
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:
+    from scaffold.generate import record
     from scaffold.plan import State
 
+    notes_of = {record.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
     words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}
     rows: list[tuple[str, str]] = [(f"{made.name}/", "")]
     parents: list[str] = []
@@ -137,7 +141,7 @@ def _tree(made: Draft, plan: WritePlan) -> list[str]:
             if above[: depth + 1] != parents[: depth + 1]:
                 rows.append(("    " * (depth + 1) + parent + "/", ""))
         parents = above
-        notes = [made.rendered.notes.get(file.path, ""), words.get(file.state, "")]
+        notes = [notes_of.get(file.path, ""), words.get(file.state, "")]
         note = ", ".join(note for note in notes if note)
         rows.append(("    " * (len(above) + 1) + name, note))
     width = max(len(name) for name, _ in rows)

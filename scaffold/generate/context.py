@@ -27,6 +27,7 @@ def package_context(
     layers: Sequence[Template],
     parts: Sequence[Part],
     renderer: Renderer,
+    day: date,
 ) -> dict[str, Any]:
     """Return the variables of all files.
 
@@ -40,7 +41,6 @@ def package_context(
     Raises:
         InputError: two answers contradict each other.
     """
-    day = today()
     context: dict[str, Any] = {
         **answers,
         "version": VERSION,
@@ -122,9 +122,17 @@ def _node(
         )
     taken = [value.name for value in part.answers.values() if hasattr(value, "import_line")]
     node |= {"module": name, "class_name": names.class_name(name, taken)}
+    flags: dict[tuple[str, str], str] = {}
     for question in part.template.questions:
         if question.type in _GRAPH_NAMES:
-            node[f"{question.name}_name"] = _full_name(question, node[question.name], name)
+            full_name = _full_name(question, node[question.name], name)
+            node[f"{question.name}_name"] = full_name
+            other = flags.setdefault((question.type, full_name), flag(question.name))
+            if other != flag(question.name):
+                raise InputError(
+                    f"{other} and {flag(question.name)} are both {full_name!r}: the node would "
+                    "receive what it sends"
+                )
     build = next(one for one in layers if one.role is Role.BUILD_TYPE)
     scope = {**context, "node": node}
     node["executable"] = renderer.text(build.executable_name, scope)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import parts, questions
-from scaffold.generate.context import package_context, part_scopes
+from scaffold.generate.context import package_context, part_scopes, today
 from scaffold.generate.defaults import User
 from scaffold.generate.parts import Part, Request
 from scaffold.generate.questions import Given
@@ -32,6 +33,8 @@ class Draft(NamedTuple):
     """What the user should know, a line each."""
     answers: Mapping[str, Any]
     """Every answer, as in an answers file."""
+    day: date
+    """The date in its files."""
 
 
 class Order(NamedTuple):
@@ -48,7 +51,11 @@ class Order(NamedTuple):
 
 
 def draft(
-    roots: Sequence[str], templates: Mapping[str, Template], given: Mapping[str, Given], user: User
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    given: Mapping[str, Given],
+    user: User,
+    day: date | None = None,
 ) -> Draft:
     """Render a package.
 
@@ -57,12 +64,13 @@ def draft(
         templates: The templates in them.
         given: The user's answers by question.
         user: Knows what was not given.
+        day: The date for its files; today by default.
 
     Raises:
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
-    composed = compose(roots, templates, given, user)
+    composed = compose(roots, templates, given, user, day=day)
     context, renderer = composed.context, composed.renderer
     return Draft(
         name=context["package"],
@@ -74,6 +82,7 @@ def draft(
         rendered=renderer.package(part_scopes(composed.layers, context)),
         remarks=_remarks(renderer, context, user),
         answers=composed.answers,
+        day=date.fromisoformat(context["date"]),
     )
 
 
@@ -94,6 +103,7 @@ def compose(
     given: Mapping[str, Given],
     user: User,
     *,
+    day: date | None = None,
     fixed: Mapping[str, Any] | None = None,
     messages: Sequence[str] = (),
 ) -> Composed:
@@ -104,6 +114,7 @@ def compose(
         templates: The templates in them.
         given: The user's answers by question.
         user: Knows what was not given.
+        day: The date for its files; today by default.
         fixed: Answers for the package that are as they are, such as the name of an existing one.
         messages: The messages that it has already.
 
@@ -127,7 +138,7 @@ def compose(
     values = {**(fixed or {}), **answers.values}
     made, written = _parts(order.requests, given, values, renderer)
     parts.refuse_impossible(made, values["package"], values["build_type"], messages)
-    context = package_context(values, order.layers, made, renderer)
+    context = package_context(values, order.layers, made, renderer, day or today())
     return Composed(
         order.layers,
         context,

@@ -1,0 +1,85 @@
+"""``ros2-scaffold update [DIR]``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.generate.update import Updated
+    from scaffold.plan import WritePlan
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.add_argument(
+        "directory",
+        nargs="?",
+        default=".",
+        metavar="DIR",
+        help="a package that `new` made (default: the current directory)",
+    )
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be changed, and change nothing"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="show the changes as a diff, and change nothing"
+    )
+    parser.add_argument(
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with templates/ of your own",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Bring a package in step with the templates; 1 when there is something to decide."""
+    from scaffold import config, content
+    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.errors import InputError
+    from scaffold.generate import template, update
+    from scaffold.generate.defaults import User
+    from scaffold.model.tree import DiskTree
+    from scaffold.plan import WritePlan
+
+    directory = os.path.normpath(options.directory)
+    if not os.path.isdir(directory):
+        raise InputError(f"{directory}: no such directory")
+    roots = content.roots("templates", config.load(content=tuple(options.content)).content)
+    templates = template.load(roots)
+    updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
+    plan = WritePlan.of(directory, updated.files, executable=updated.executable)
+    if options.diff:
+        sys.stdout.write(plan.diff())
+    elif not options.dry_run:
+        plan.write(force=True)
+    for remark in updated.remarks:
+        sys.stderr.write(f"note: {remark}\n")
+    if not options.diff:
+        print(_summary(options, updated, plan))
+    return FOUND if updated.conflicts else CLEAN
+
+
+def _summary(options: argparse.Namespace, updated: Updated, plan: WritePlan) -> str:
+    """Return a line for each file that changes, and what to do about conflicts."""
+    from scaffold.plan import State
+
+    if not updated.changed:
+        return "The package is in step with the templates."
+    words = {State.NEW: "new", State.DIFFERING: "merged", State.SAME: "unchanged"}
+    lines: list[str] = []
+    for file in plan.files:
+        if file.path not in updated.changed:
+            continue
+        count = updated.conflicts.get(file.path, 0)
+        note = f", {count} conflict{'s' if count > 1 else ''} to decide" if count else ""
+        lines.append(f"{file.path}: {words[file.state]}{note}")
+    if options.dry_run:
+        lines.append("Nothing was written (--dry-run).")
+    elif updated.conflicts:
+        lines.append("Decide between the marks <<<<<<< and >>>>>>>, then run the tests.")
+    return "\n".join(lines)

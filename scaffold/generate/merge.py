@@ -1,0 +1,53 @@
+"""Three-way merges of one file, as git makes them."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+
+LABELS = ("yours", "template before", "template now")
+"""What stands behind the marks of a conflict."""
+_FAILED = 128
+"""The least exit code of ``git merge-file`` that is no number of conflicts."""
+
+
+class Merged(NamedTuple):
+    """A merged file."""
+
+    content: bytes
+    conflicts: int
+
+
+def merge(yours: bytes, before: bytes, now: bytes) -> Merged:
+    """Bring the change from one text to another into a third one.
+
+    Args:
+        yours: The user's file; its line endings stay.
+        before: What the template gave when the file was made.
+        now: What it gives today.
+
+    Raises:
+        InputError: git is not there, or refuses, as it does for binary files.
+    """
+    if b"\r\n" in yours and b"\r\n" not in before:
+        before, now = (text.replace(b"\n", b"\r\n") for text in (before, now))
+    with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as directory:
+        names: list[str] = []
+        for name, content in zip(("yours", "before", "now"), (yours, before, now), strict=True):
+            names.append(os.path.join(directory, name))
+            with open(names[-1], "wb") as file:
+                file.write(content)
+        labels = [word for label in LABELS for word in ("-L", label)]
+        command = ["git", "merge-file", "--stdout", "--diff3", *labels, *names]
+        try:
+            done = subprocess.run(command, capture_output=True, check=False)
+        except FileNotFoundError:
+            raise InputError("git is needed to merge files; install it") from None
+    if done.returncode >= _FAILED or done.returncode < 0:
+        reason = " ".join(done.stderr.decode(errors="replace").split())
+        raise InputError(f"git cannot merge: {reason}")
+    return Merged(done.stdout, done.returncode)

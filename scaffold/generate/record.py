@@ -1,0 +1,89 @@
+"""What a package remembers of its making: the answers, and the files as they were written.
+
+``update`` merges what changed in the templates since then. The templates of that day may be gone
+when it is wanted, so the record holds what they gave (docs/adr/0007-packages-keep-their-origin.md).
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from collections.abc import Mapping
+from datetime import date
+from typing import Any, NamedTuple
+
+from scaffold import __version__
+from scaffold.errors import InputError
+from scaffold.generate.draft import Draft
+
+NAME = ".ros2-scaffold.yaml"
+"""The record's path in a package."""
+
+_LINE = 100
+_HEAD = """\
+# How ros2-scaffold made this package: `ros2-scaffold update` needs it. Commit it, do not edit it.
+"""
+_MOST = 20_000_000
+"""Bytes of the files in a record; more is no package of ours."""
+
+
+class Record(NamedTuple):
+    """How a package was made."""
+
+    date: date
+    """The day that stands in its files."""
+    answers: Mapping[str, Any]
+    """As in an answers file."""
+    rendered: Mapping[str, str]
+    """The files as the templates gave them, by path."""
+    version: str = __version__
+    """Of this tool."""
+
+    @classmethod
+    def of(cls, made: Draft) -> Record:
+        """Return the record of a package that is made now."""
+        return cls(made.day, made.answers, made.rendered.files)
+
+    def text(self) -> str:
+        """Return the record as a file."""
+        import yaml
+
+        data = json.dumps(dict(self.rendered), ensure_ascii=False).encode()
+        packed = base64.b64encode(zlib.compress(data, 9)).decode()
+        answers = json.loads(json.dumps(dict(self.answers)))  # lists instead of tuples
+        entries = {"version": self.version, "date": self.date, "answers": answers}
+        written = yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=_LINE)
+        lines = [packed[start : start + _LINE - 2] for start in range(0, len(packed), _LINE - 2)]
+        return _HEAD + written + "rendered: |\n" + "".join(f"  {line}\n" for line in lines)
+
+
+def parse(text: str, path: str) -> Record:
+    """Return the record in a file.
+
+    Args:
+        text: What is in it.
+        path: For messages.
+
+    Raises:
+        InputError: it is damaged.
+    """
+    import yaml
+
+    try:
+        entries = yaml.safe_load(text)
+        packed = zlib.decompressobj()
+        data = packed.decompress(base64.b64decode(entries["rendered"]), _MOST)
+        rendered = json.loads(data)
+        record = Record(entries["date"], entries["answers"], rendered, str(entries["version"]))
+    except (yaml.YAMLError, ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
+        raise InputError(f"{path}: damaged: {' '.join(str(error).split()) or 'cut off'}") from error
+    texts = [*record.rendered, *record.rendered.values()] if isinstance(rendered, dict) else [None]
+    if not (
+        isinstance(record.date, date)
+        and isinstance(record.answers, dict)
+        and all(isinstance(part, dict) for part in record.answers.get("add", []))
+        and all(isinstance(one, str) for one in [*texts, *record.answers])
+    ):
+        raise InputError(f"{path}: damaged: an entry has the wrong type")
+    return record

@@ -1,0 +1,137 @@
+"""Brings what changed in the templates into a package that was made with older ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.generate import draft, questions
+from scaffold.generate.defaults import User
+from scaffold.generate.draft import Draft
+from scaffold.generate.merge import merge
+from scaffold.generate.parts import ADD, KIND
+from scaffold.generate.questions import Given
+from scaffold.generate.record import NAME, Record, parse
+from scaffold.generate.template import Template
+from scaffold.model.tree import Tree
+
+
+class Updated(NamedTuple):
+    """A package in step with the templates, in memory."""
+
+    files: Mapping[str, bytes]
+    """What is written: files that change, and the record."""
+    executable: frozenset[str]
+    conflicts: Mapping[str, int]
+    """How many places of a file the user has to decide, by path."""
+    remarks: tuple[str, ...]
+    """What the user should know, a line each."""
+
+    @property
+    def changed(self) -> list[str]:
+        """The files that change, besides the record."""
+        return [path for path in self.files if path != NAME]
+
+
+def update(
+    tree: Tree, where: str, roots: Sequence[str], templates: Mapping[str, Template], user: User
+) -> Updated:
+    """Merge the difference between the recorded files and those of today into the user's.
+
+    Args:
+        tree: The package.
+        where: Its directory, for messages.
+        roots: The ``templates`` directories; a later one wins.
+        templates: The templates in them.
+        user: Knows what new questions may want.
+
+    Raises:
+        InputError: the package has no record, a damaged one, or answers that the templates of
+            today do not accept.
+        ContentError: a template is broken.
+    """
+    record = read(tree, where)
+    remarks: list[str] = []
+    given = _given(record, templates, where, remarks)
+    made = draft.draft(roots, templates, given, user, record.date)
+    files, conflicts = _merged(tree, record, made, remarks)
+    if record.rendered != made.rendered.files:
+        files[NAME] = Record.of(made).text().encode()
+    executable = frozenset(path for path in made.rendered.executable if path in files)
+    return Updated(files, executable, conflicts, tuple(remarks))
+
+
+def read(tree: Tree, where: str) -> Record:
+    """Return the record of a package.
+
+    Raises:
+        InputError: there is none, or it is damaged.
+    """
+    path = f"{where}/{NAME}"
+    if NAME not in tree.files:
+        raise InputError(
+            f"{path} is missing: ros2-scaffold did not make this package, or before it kept records"
+        )
+    try:
+        return parse(tree.read(NAME).decode(), path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _given(
+    record: Record, templates: Mapping[str, Template], where: str, remarks: list[str]
+) -> dict[str, Given]:
+    """Return the recorded answers that the templates of today still ask for."""
+    origin = f"{where}/{NAME}"
+    known = {question.name for question in questions.unique(templates.values())}
+    given: dict[str, Given] = {}
+    for name, value in record.answers.items():
+        if name in known:
+            given[name] = Given(value, f"{origin}: {name}")
+        else:
+            remarks.append(f"the templates no longer ask for {name}")
+    parts = [_known_part(part, templates, remarks) for part in record.answers.get(ADD, ())]
+    given[ADD] = Given(parts, f"{origin}: {ADD}")
+    return given
+
+
+def _known_part(
+    part: Mapping[str, object], templates: Mapping[str, Template], remarks: list[str]
+) -> dict[str, object]:
+    template = templates.get(str(part.get(KIND)))
+    if template is None:
+        return dict(part)
+    known = {KIND, *(question.name for question in template.questions)}
+    remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in known]
+    return {name: value for name, value in part.items() if name in known}
+
+
+def _merged(
+    tree: Tree, record: Record, made: Draft, remarks: list[str]
+) -> tuple[dict[str, bytes], dict[str, int]]:
+    files: dict[str, bytes] = {}
+    conflicts: dict[str, int] = {}
+    present = set(tree.files)
+    for path, text in made.rendered.files.items():
+        before, now = record.rendered.get(path), text.encode()
+        if before == text:
+            continue
+        if path not in present:
+            if before is None:
+                files[path] = now
+            else:
+                remarks.append(f"{path} changed in the templates; you have removed it")
+            continue
+        yours = tree.read(path)
+        found = merge(yours, (before or "").encode(), now) if yours != now else None
+        if found is not None and found.content != yours:
+            files[path] = found.content
+            if found.conflicts:
+                conflicts[path] = found.conflicts
+    remarks += [
+        f"{path} is no longer in the templates; remove it if you do not need it"
+        for path in record.rendered
+        if path in present and path not in made.rendered.files
+    ]
+    return files, conflicts
