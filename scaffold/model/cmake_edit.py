@@ -290,6 +290,11 @@ def _install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None
             edits = append_arguments(lists, install.command, install.items[-1].argument, [path])
             if edits is not None:
                 return edits
+    return insert_install(lists, kind, path, base)
+
+
+def insert_install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None:
+    """Add an install of its own for a file or a directory, in ``<base>/${PROJECT_NAME}``."""
     opening = "install("
     if lists.find("install"):
         like = lists.find("install")[0]

@@ -98,7 +98,7 @@ class Editor:
             return
         self.edit(_extension(self.lists, "PROGRAMS", path, f"lib/{self.package}"))
         if not installs_program(self.lists, path, self.package):
-            self.edit(cmake_edit.install_program(self.lists, path))
+            self.edit(cmake_edit.insert_install(self.lists, "PROGRAMS", path, "lib"))
         if not installs_program(self.lists, path, self.package):
             self.refuse(line, "no place was safe")
 
@@ -113,7 +113,7 @@ class Editor:
         if edits is None:
             edits = _extension(self.lists, "DIRECTORY", path, f"share/{self.package}")
         if edits is None:
-            edits = cmake_edit.install_directory(self.lists, path)
+            edits = cmake_edit.insert_install(self.lists, "DIRECTORY", path, "share")
         self.edit(edits)
 
     def add_test(self, path: str) -> None:

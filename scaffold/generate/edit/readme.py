@@ -103,7 +103,9 @@ def _merge(source: Source, new: Section, order: Sequence[Section]) -> Source:
         if one != two or one.startswith(_FENCE):
             break
         shared += 1
-    lines = "\n".join(line for line in new.lines[shared:] if not _is_row(line)).strip("\n")
+    has_rows = any(map(_is_row, old.lines))
+    added = [line for line in new.lines[shared:] if not (has_rows and _is_row(line))]
+    lines = "\n".join(added).strip("\n")
     if not lines:
         return source
     end = old.start + 1 + len(_above_table(source.lines[old.start + 1 : old.end]))
