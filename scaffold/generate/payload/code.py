@@ -16,7 +16,8 @@ WIDTH = 91
 """Columns of a line of a method without its indentation."""
 INDENT = "    "
 
-_COUNTER = "self.count"
+COUNTER = "self.count"
+"""What counts where nothing else does."""
 _CLOCK = "self.get_clock().now().to_msg()"
 _SINE = "math.sin({} / 10.0)"
 
@@ -24,7 +25,7 @@ _SINE = "math.sin({} / 10.0)"
 class Block:
     """Statements on one level, with the loops in it."""
 
-    def __init__(self, parent: Block | None = None, counter: str = _COUNTER) -> None:
+    def __init__(self, parent: Block | None = None, counter: str = COUNTER) -> None:
         self._parent = parent
         self._counter = counter
         self._items: list[str | tuple[str, Block]] = []
@@ -53,7 +54,7 @@ class Block:
         text = (
             re.sub(r"\n(\s*\n)+", "\n", dedent(code))
             .strip()
-            .replace(_COUNTER, COUNT)
+            .replace(COUNTER, COUNT)
             .replace(_CLOCK, NOW)
         )
         text = re.sub(r"(?<![.\w])msg\b", target, text)
@@ -143,12 +144,35 @@ def wrapped(line: str, width: int) -> Iterator[str]:
     if len(code) <= width:
         yield code
         return
-    bracket = min((at for at in map(code.find, "([{") if at > 0), default=-1)
-    if bracket < 0 or "'" in code[:bracket]:
+    if code.endswith(":"):
         yield code
         return
+    bracket = min((at for at in map(code.find, "([{") if at > 0), default=-1)
+    if bracket < 0 or "'" in code[:bracket]:
+        yield from _in_brackets(code, margin)
+        return
+    *pieces, last = _pieces(code[bracket + 1 :])
+    end = last[len(last.rstrip(")]}")) :]
+    if len(end) != 1:
+        pieces, end = [*pieces, last], ""
+    elif last[:-1]:
+        pieces.append(f"{last[:-1]},")
     yield code[: bracket + 1]
-    yield from _filled(_pieces(code[bracket + 1 :]), margin + INDENT, width)
+    yield from _filled(pieces, margin + INDENT, width)
+    if end:
+        yield margin + end
+
+
+def _in_brackets(code: str, margin: str) -> Iterator[str]:
+    """Yield an assignment with its value on lines of its own, broken before operators."""
+    target, equals, value = code.partition(" = ")
+    if not equals:
+        yield code
+        return
+    yield f"{target} = ("
+    for piece in value.replace(" + ", "\n+ ").split("\n"):
+        yield f"{margin}{INDENT}{piece}"
+    yield f"{margin})"
 
 
 def _pieces(text: str) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Sequence
 
+from scaffold.generate.filters import MAX_COLUMNS
 from scaffold.generate.payload.lookup import Types
 
 MODULES = ("math", "struct", "uuid", "zlib")
@@ -41,10 +42,19 @@ def imports(
             for name in messages
             if name.startswith(f"{package}/")
         )
-        lines.append(f"from {package}.msg import {', '.join(classes)}")
+        lines.append(_from(f"{package}.msg", classes))
     return tuple(packages), tuple(lines)
 
 
 def _names(code: str) -> set[str]:
     """Return the names that code uses."""
     return {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}
+
+
+def _from(module: str, classes: Sequence[str]) -> str:
+    """Return an import, on several lines if it would be too long for one."""
+    line = f"from {module} import {', '.join(classes)}"
+    if len(line) <= MAX_COLUMNS:
+        return line
+    names = "".join(f"    {one},\n" for one in classes)
+    return f"from {module} import (\n{names})"

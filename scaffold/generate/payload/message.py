@@ -14,7 +14,11 @@ from scaffold.generate.payload.records import Payload
 from scaffold.generate.payload.walk import Walk
 from scaffold.model.interfaces import Definitions
 
+MAX_LINES = 24
+"""Statements that a reader takes in."""
 MAX_CHECKS = 4
+MAX_CHECK = 84
+"""Characters of an expression in a test."""
 MAX_LOG = 52
 """Characters of a line of the log."""
 MAX_SAYS = 70
@@ -33,13 +37,12 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
     """
     types = lookup.find(text, "msg", interfaces)
     own = types.interface
-    block, walk = Block(), Walk(types, "msg")
-    walk.message(block, own.full_name, "msg")
-    lines = block.lines()
-    if not _changes(lines) and own.fields:
-        block, walk = Block(), Walk(types, "msg", changing=True)
+    for changing, brief in ((False, False), (True, False), (False, True), (True, True)):
+        block, walk = Block(), Walk(types, "msg", changing=changing, brief=brief)
         walk.message(block, own.full_name, "msg")
         lines = block.lines()
+        if not own.fields or (changes(lines) and len(lines) <= MAX_LINES):
+            break
     words_ = _words(types, walk)
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
@@ -49,17 +52,18 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         statements=tuple(lines),
         log=words_.log,
         says=words_.says,
-        checks=words_.checks[:MAX_CHECKS],
+        checks=tuple(one for one in words_.checks if len(one) <= MAX_CHECK)[:MAX_CHECKS],
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
         frame=words_.frame,
         constants=walk.constants,
-        is_changing=_changes(lines),
+        is_changing=changes(lines),
     )
 
 
-def _changes(lines: Iterable[str]) -> bool:
+def changes(lines: Iterable[str]) -> bool:
+    """Tell whether the lines give another message each time."""
     return any(re.search(r"self\.(count|get_clock)|uuid4", line) for line in lines)
 
 
@@ -73,9 +77,6 @@ def _words(types: Types, walk: Walk) -> Recipe:
         found = _words_of_part(types) or _words_of_fields(types, walk)
     if is_stamped:
         found = found._replace(checks=("message.header.stamp.sec > 0", *found.checks))
-    if not found.log:
-        shown = "{msg.header.stamp.sec} s" if is_stamped else "{msg}"
-        found = found._replace(log=shown)
     return found
 
 
@@ -99,7 +100,7 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
     names = [words.phrase(field.name) for field in types.interface.fields if field.name != "header"]
     return Recipe(
         says=enumerated(names, "example values for ", MAX_SAYS) if names else "nothing",
-        log=joined(walk.shown) or ("" if names else "an empty message"),
+        log=joined(walk.shown) or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
         checks=tuple(
             re.sub(r"\bmsg\b", "message", one) for one in walk.checks if "header.stamp" not in one
         ),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from scaffold.generate.payload import words
-from scaffold.generate.payload.code import Block
+from scaffold.generate.payload.code import COUNTER, Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
-from scaffold.generate.payload.message import enumerated, joined
+from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
 from scaffold.generate.payload.records import Part
 from scaffold.generate.payload.walk import Walk
 from scaffold.model.interface_syntax import Field, Section
@@ -34,44 +34,40 @@ def by_recipe(
 
 def asked(types: Types, section: Section) -> Part:
     """Return what a client sends: a request or a goal."""
-    block = Block()
-    walk = Walk(types, section.name)
-    walk.fill(block, section, _owner(types, section), section.name)
-    part = _part(types, section, block.lines(), joined(walk.shown), walk.checks[:3])
-    return part._replace(constants=walk.constants)
+    return _filled(types, section, {})
 
 
 def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
     """Return what a server answers: a response or a result, taken from what it was given."""
-    block = Block()
-    walk = Walk(types, section.name)
-    checks: list[str] = []
-    for field in section.fields:
-        value = _answer(field, given)
-        if value is None:
-            only = section._replace(fields=(field,))
-            walk.fill(block, only, _owner(types, section), section.name)
-        else:
-            block.add(f"{section.name}.{field.name} = {value}")
-            checks += _check(f"{section.name}.{field.name}", value)
-    log = joined(walk.shown) or _first_scalar(section)
-    part = _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
-    return part._replace(constants=walk.constants)
+    values = {field.name: _answer(field, given) for field in section.fields}
+    return _filled(types, section, values)
 
 
 def reported(types: Types, section: Section) -> Part:
     """Return what a server says at each step: a feedback."""
-    block = Block(counter="step")
-    walk = Walk(types, section.name)
-    for field in section.fields:
-        value = _progress(field)
-        if value is None:
-            only = section._replace(fields=(field,))
-            walk.fill(block, only, _owner(types, section), section.name)
-        else:
-            block.add(f"{section.name}.{field.name} = {value}")
+    values = {field.name: _progress(field) for field in section.fields}
+    return _filled(types, section, values, counter="step")
+
+
+def _filled(
+    types: Types, section: Section, values: Mapping[str, str | None], counter: str = COUNTER
+) -> Part:
+    """Fill the fields: some have values, the others are walked, in brief if they are many."""
+    for brief in (False, True):
+        block, walk = Block(counter=counter), Walk(types, section.name, brief=brief)
+        checks: list[str] = []
+        for field in section.fields:
+            value = values.get(field.name)
+            if value is None:
+                target = f"{section.name}.{field.name}"
+                walk.field(block, section, _owner(types, section), field, target)
+            else:
+                block.add(f"{section.name}.{field.name} = {value}")
+                checks += _check(f"{section.name}.{field.name}", value)
+        if len(block.lines()) <= MAX_LINES:
+            break
     log = joined(walk.shown) or _first_scalar(section)
-    part = _part(types, section, block.lines(), log, walk.checks[:3])
+    part = _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
     return part._replace(constants=walk.constants)
 
 
@@ -107,9 +103,10 @@ def _sum(field: Field, given: Sequence[Section]) -> str | None:
 
 
 def _check(target: str, value: str) -> list[str]:
+    """Return what is true of a field with a value that does not depend on the moment."""
     if value == "True":
         return [target]
-    return [] if value == "''" else [f"{target} == {value}"]
+    return [] if value == "''" or "step" in value else [f"{target} == {value}"]
 
 
 def _progress(field: Field) -> str | None:
@@ -132,20 +129,20 @@ def _first_scalar(section: Section) -> str:
     for field in section.fields:
         if field.type.is_primitive and not field.type.is_array:
             return f"{{{section.name}.{field.name}}}"
-    return f"{{{section.name}}}" if section.fields else ""
+    return ""
 
 
 def _part(
     types: Types, section: Section, lines: Sequence[str], log: str, checks: Iterable[str]
 ) -> Part:
-    log = log or (f"{{{section.name}}}" if section.fields else f"an empty {section.name}")
-    packages, lines_of_imports = imports(types, [*lines, f"f'{log}'"])
     names = [words.phrase(field.name) for field in section.fields]
+    log = log or (enumerated(names, "", MAX_LOG) if names else f"an empty {section.name}")
+    packages, lines_of_imports = imports(types, [*lines, f"f'{log}'"])
     return Part(
         statements=tuple(lines),
         log=log,
         says=enumerated(names, "", 60) if names else "",
-        checks=tuple(checks),
+        checks=tuple(one for one in checks if len(one) <= MAX_CHECK),
         imports=lines_of_imports,
         packages=packages,
         is_stamped=any("self.frame_id" in line for line in lines),

@@ -26,12 +26,16 @@ class Walk:
         types: The interface.
         root: The variable that is filled.
         changing: Whether fields that would stay the same change too.
+        brief: Whether only the most telling fields are filled.
     """
 
-    def __init__(self, types: Types, root: str, *, changing: bool = False) -> None:
+    def __init__(
+        self, types: Types, root: str, *, changing: bool = False, brief: bool = False
+    ) -> None:
         self._types = types
         self._root = root
         self._changing = changing
+        self._brief = brief
         self._stamped: list[str] = []
         self.checks: list[str] = []
         """Expressions that are true of the root."""
@@ -58,9 +62,15 @@ class Walk:
             owner: What the constants belong to, as code.
             target: What is filled, as code.
         """
-        for field in section.fields:
-            if field.default is None or self._changing:
-                self._field(block, section, owner, field, f"{target}.{field.name}")
+        wanted = [one for one in section.fields if one.default is None or self._changing]
+        depth = min(target.count("."), len(_BRIEF) - 1)
+        shown = telling(section, wanted, _BRIEF[depth]) if self._brief else wanted
+        for field in shown:
+            self.field(block, section, owner, field, f"{target}.{field.name}")
+        left = len(wanted) - len(shown)
+        if left and target == self._root:
+            are = "field keeps its default" if left == 1 else f"{left} fields keep their defaults"
+            block.add(f"# the other {are}")
 
     def message(self, block: Block, full_name: str, target: str) -> None:
         """Add statements that fill a message."""
@@ -78,8 +88,17 @@ class Walk:
                 self._header(block, f"{target}.header")
             code = self._with_constants(found, target)
             block.embed(self._types.renamed(code, full_name), target)
+            self._judge(found, target)
         else:
             self.fill(block, section, full_name.rpartition("/")[2], target)
+
+    def _judge(self, found: Recipe, target: str) -> None:
+        """Take the words of a recipe over for the root."""
+        if target.startswith(f"{self._root}."):
+            if found.log:
+                self._spare.append(re.sub(r"\bmsg\.", f"{target}.", found.log))
+            for one in found.checks[:1]:
+                self.checks.append(re.sub(r"\bmessage\.", f"{target}.", one))
 
     def _with_constants(self, found: Recipe, target: str) -> str:
         """Return the code of a recipe whose constants are defined.
@@ -259,6 +278,25 @@ _DIAGONALS = {4: 3, 9: 4, 16: 5, 36: 7}
 """The distance of the elements on the diagonal of a square matrix, by its size."""
 _COARSE = 0.1
 """A quantity that swings by less is not shown with two decimals."""
+
+
+_BRIEF = (12, 4, 2)
+"""How many fields of a message are filled in brief, of the root and of what is nested in it."""
+
+
+def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field]:
+    """Return the fields whose names and types tell most, in their order."""
+
+    def rank(field: Field) -> int:
+        if not field.type.is_primitive:
+            return 2 if field.type.is_array else 0
+        if field.type.is_array:
+            return 1
+        known = words.quantity(field.name) is not words.NUMBER
+        return 0 if known or constants_of(section, field) else 1
+
+    chosen = sorted(fields, key=rank)[:count]
+    return [field for field in fields if field in chosen]
 
 
 def said(field: Field, unit: str) -> str:

@@ -39,11 +39,13 @@ RECIPES: dict[str, Recipe] = {
             if self.count % 2 == 0:
                 msg.transition.id = Transition.TRANSITION_ACTIVATE
                 msg.transition.label = 'activate'
-                msg.start_state, msg.goal_state = inactive, active
+                msg.start_state = inactive
+                msg.goal_state = active
             else:
                 msg.transition.id = Transition.TRANSITION_DEACTIVATE
                 msg.transition.label = 'deactivate'
-                msg.start_state, msg.goal_state = active, inactive
+                msg.start_state = active
+                msg.goal_state = inactive
         """,
         log="{msg.start_state.label} to {msg.goal_state.label}",
         checks=("{message.start_state.label, message.goal_state.label} == {'active', 'inactive'}",),
