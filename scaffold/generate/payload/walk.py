@@ -127,7 +127,8 @@ class Walk:
 
     # -- fields
 
-    def _field(self, block: Block, section: Section, owner: str, field: Field, target: str) -> None:
+    def field(self, block: Block, section: Section, owner: str, field: Field, target: str) -> None:
+        """Add statements that fill one field of a section, as `fill` does for all."""
         if field.type.is_array:
             self._array(block, field, target)
         elif field.type.full_name == DURATION:
