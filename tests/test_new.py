@@ -799,6 +799,7 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert said.err == ""
     assert said.out == dedent(f"""\
         talker/
+            .ros2-scaffold.yaml            what `ros2-scaffold update` needs
             CHANGELOG.rst                  what changed, for releases
             CMakeLists.txt                 what is installed and tested
             LICENSE                        the full text of the licence
@@ -1092,7 +1093,7 @@ def package_variables() -> list[str]:
     part = parts.Part(publisher, answers(list(publisher.questions)))
     of_publisher = {question.name for question in TEMPLATES["publisher"].questions}
     frame = answers(questions.unique(order.frame))
-    made = context.package_context(frame, order.layers, [part], renderer)
+    made = context.package_context(frame, order.layers, [part], renderer, context.today())
     node = made["nodes"][0]
     return [*(set(made) - of_publisher), *(set(node) - of_publisher)]
 
