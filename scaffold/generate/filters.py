@@ -89,14 +89,32 @@ def import_block(lines: Iterable[str]) -> str:
     """Return import statements in the order of ament_flake8: by module, not by kind.
 
     Args:
-        lines: Statements, with or without a comment behind; repeated ones count once.
+        lines: Statements, with or without a comment behind; what is imported twice counts once.
     """
     groups: tuple[list[str], list[str]] = ([], [])
-    for line in dict.fromkeys(lines):
+    for line in _merged(lines):
         root = _module(line).partition(".")[0]
         groups[root not in sys.stdlib_module_names].append(line)
     blocks = ["\n".join(sorted(group, key=_import_key)) for group in groups if group]
     return "\n\n".join(blocks)
+
+
+def _merged(lines: Iterable[str]) -> list[str]:
+    """Return the statements with all names that come from one module on one line, if they fit."""
+    names: dict[str, set[str]] = {}
+    others: dict[str, None] = {}
+    for line in lines:
+        match = re.fullmatch(r"from (\S+) import ([\w, ]+)", line)
+        if match:
+            names.setdefault(match[1], set()).update(match[2].split(", "))
+        else:
+            others[line] = None
+    for module, imported in names.items():
+        whole = f"from {module} import {', '.join(sorted(imported, key=str.lower))}"
+        fits = len(whole) <= MAX_COLUMNS
+        separate = [f"from {module} import {name}" for name in sorted(imported)]
+        others.update(dict.fromkeys([whole] if fits else separate))
+    return list(others)
 
 
 def _module(line: str) -> str:
