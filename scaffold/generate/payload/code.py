@@ -30,6 +30,7 @@ class Block:
         self._counter = counter
         self._items: list[str | tuple[str, Block]] = []
         self._locals: dict[str, str] = {}
+        self._comment = ""
 
     @property
     def is_loop(self) -> bool:
@@ -38,6 +39,10 @@ class Block:
 
     def add(self, line: str, comment: str = "") -> None:
         """Add a line; it may hold tokens."""
+        if comment and comment == self._comment:
+            comment = ""
+        else:
+            self._comment = comment
         self._items.append(f"{line}  # {comment}" if comment else line)
 
     def loop(self, head: str, counter: str) -> Block:
@@ -58,10 +63,11 @@ class Block:
             .replace(_CLOCK, NOW)
         )
         text = re.sub(r"(?<![.\w])msg\b", target, text)
-        for name, definition in re.findall(r"(?m)^([a-z]\w*) = (.*)$", text):
+        for name, value in re.findall(r"(?m)^([a-z]\w*) = (.*)$", text):
+            definition = self._placed(value)
             known = self.local(name)
             if known == definition:
-                text = text.replace(f"{name} = {definition}\n", "", 1)
+                text = re.sub(rf"(?m)^{name} = .*\n", "", text, count=1)
             elif known is not None:
                 new = f"{target.rpartition('.')[2]}_{name}"
                 text = re.sub(rf"(?<![.\w]){name}\b(?!=)", new, text)
@@ -69,6 +75,10 @@ class Block:
             else:
                 self._locals[name] = definition
         self._items.extend(text.splitlines())
+
+    def _placed(self, text: str) -> str:
+        """Return what a text means here, where the count may be that of a loop."""
+        return text.replace(COUNT, self._counter)
 
     def local(self, name: str) -> str | None:
         """Return how a local name is defined here or around, if it is."""

@@ -90,7 +90,7 @@ def find(text: str, kind: str, definitions: Definitions) -> Types:
             the nearest ones, or the file and the line of what is wrong.
     """
     full_name = _full_name(text, kind, definitions)
-    interface = definitions.resolve(full_name)
+    interface = definitions.find(full_name) or definitions.resolve(full_name)
     messages: dict[str, Interface] = {}
     if kind == "msg":
         messages[full_name] = interface

@@ -11,7 +11,7 @@ from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import HEADER, Types
 from scaffold.generate.payload.recipe import Recipe
 from scaffold.generate.payload.records import Payload
-from scaffold.generate.payload.walk import Walk
+from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interfaces import Definitions
 
 MAX_LINES = 24
@@ -37,12 +37,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
     """
     types = lookup.find(text, "msg", interfaces)
     own = types.interface
-    for changing, brief in ((False, False), (True, False), (False, True), (True, True)):
-        block, walk = Block(), Walk(types, "msg", changing=changing, brief=brief)
-        walk.message(block, own.full_name, "msg")
-        lines = block.lines()
-        if not own.fields or (changes(lines) and len(lines) <= MAX_LINES):
-            break
+    lines, walk = _fill(types)
     words_ = _words(types, walk)
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
@@ -60,6 +55,22 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         constants=walk.constants,
         is_changing=changes(lines),
     )
+
+
+def _fill(types: Types) -> tuple[list[str], Walk]:
+    """Return statements: no more than a reader takes in, and at least one that changes."""
+    own = types.interface
+    brief, is_changing = 0, False
+    while True:
+        block, walk = Block(), Walk(types, "msg", changing=is_changing, brief=brief)
+        walk.message(block, own.full_name, "msg")
+        lines = block.lines()
+        if len(lines) > MAX_LINES and brief < MAX_BRIEF:
+            brief += 1
+        elif own.fields and not changes(lines) and not is_changing:
+            is_changing = True
+        else:
+            return lines, walk
 
 
 def changes(lines: Iterable[str]) -> bool:

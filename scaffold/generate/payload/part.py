@@ -11,7 +11,7 @@ from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
 from scaffold.generate.payload.records import Part
-from scaffold.generate.payload.walk import Walk
+from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
 
@@ -53,7 +53,7 @@ def _filled(
     types: Types, section: Section, values: Mapping[str, str | None], counter: str = COUNTER
 ) -> Part:
     """Fill the fields: some have values, the others are walked, in brief if they are many."""
-    for brief in (False, True):
+    for brief in range(MAX_BRIEF + 1):
         block, walk = Block(counter=counter), Walk(types, section.name, brief=brief)
         checks: list[str] = []
         for field in section.fields:

@@ -15,8 +15,19 @@ from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, Field
 
 ELEMENTS = 3
 """Of an array of any length."""
+WRAPPERS = ("std_msgs", "example_interfaces")
+"""Packages with messages that hold nothing but a primitive value."""
 _STAMP = (f"{{}}.stamp = {NOW}", "{}.frame_id = self.frame_id")
-_DULL = re.compile("UNKNOWN|NONE|NOT_SET|UNSET|INVALID|UNDEFINED|ERROR|FAIL|DEFAULT|OFF")
+_DULL = re.compile(
+    "UNKNOWN|NONE|NOT_SET|UNSET|UNSPECIFIED|UNDEFINED|INVALID|NOTHING|ERROR|FAIL|DEFAULT|DISABLED"
+    "|OFF$|IDLE"
+)
+_TIMESTAMP = "self.get_clock().now().nanoseconds"
+_ENUMS = frozenset(
+    {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
+    | {"reason", "result", "severity", "stage", "state", "status", "type"}
+)
+"""The last words of the names of fields that have a few values, each with a constant."""
 
 
 class Walk:
@@ -26,16 +37,14 @@ class Walk:
         types: The interface.
         root: The variable that is filled.
         changing: Whether fields that would stay the same change too.
-        brief: Whether only the most telling fields are filled.
+        brief: 0 to fill all fields; more, to fill fewer of them, the most telling ones.
     """
 
-    def __init__(
-        self, types: Types, root: str, *, changing: bool = False, brief: bool = False
-    ) -> None:
+    def __init__(self, types: Types, root: str, *, changing: bool = False, brief: int = 0) -> None:
         self._types = types
         self._root = root
         self._changing = changing
-        self._brief = brief
+        self._limits = _BRIEF[brief - 1] if brief else ()
         self._stamped: list[str] = []
         self.checks: list[str] = []
         """Expressions that are true of the root."""
@@ -63,8 +72,10 @@ class Walk:
             target: What is filled, as code.
         """
         wanted = [one for one in section.fields if one.default is None or self._changing]
-        depth = min(target.count("."), len(_BRIEF) - 1)
-        shown = telling(section, wanted, _BRIEF[depth]) if self._brief else wanted
+        shown = wanted
+        if self._limits:
+            depth = min(target.count("."), len(self._limits) - 1)
+            shown = telling(section, wanted, self._limits[depth])
         for field in shown:
             self.field(block, section, owner, field, f"{target}.{field.name}")
         left = len(wanted) - len(shown)
@@ -136,9 +147,9 @@ class Walk:
         elif not field.type.is_primitive:
             self._nested(block, field, target)
         elif options := constants_of(section, field):
-            value = self._enum(options, owner)
+            value = self._enum(block, field, options, owner)
             block.add(f"{target} = {value}", said(field, ""))
-            if not self._changing:
+            if not self._changing and owner.partition(".")[0] == self._types.interface.name:
                 self._expect(target, f"{{}} == {value}")
         else:
             self._scalar(block, field, target)
@@ -150,13 +161,24 @@ class Walk:
                 block.add(f"{target}.{axis} = {quantity.expression}", said(field, quantity.unit))
             self._expect(f"{target}.x", quantity.check("{}"))
             self._show(f"{target}.x", ":.2f")
+        elif wrapped := self._wrapped(field):
+            self._scalar(block, wrapped, f"{target}.data")
         else:
             self.message(block, field.type.full_name, target)
 
-    def _enum(self, options: Sequence[Constant], owner: str) -> str:
+    def _wrapped(self, field: Field) -> Field | None:
+        """Return the only field of a message such as std_msgs/Float64, by its name here."""
+        fields = self._types.message(field.type.full_name).fields
+        if field.type.package not in WRAPPERS or [one.name for one in fields] != ["data"]:
+            return None
+        data = fields[0]
+        return field._replace(type=data.type) if data.type.is_primitive else None
+
+    def _enum(self, block: Block, field: Field, options: Sequence[Constant], owner: str) -> str:
         if self._changing and len(options) > 1:
             names = [f"{owner}.{one.name}" for one in options[:ELEMENTS]]
-            return f"[{', '.join(names)}][{COUNT} % {len(names)}]"
+            every = block.define(f"every_{field.name}", f"[{', '.join(names)}]")
+            return f"{every}[{COUNT} % {len(names)}]"
         telling = [one for one in options if not _DULL.search(one.name)]
         return f"{owner}.{(telling or options)[0].name}"
 
@@ -176,6 +198,8 @@ class Walk:
             value = f"bytes([{COUNT} % 256])"
         elif type_.name in INTEGER_RANGES:
             value = self._integer(name, type_)
+            if value == _TIMESTAMP and re.search("us$|micro", f"{name} {field.comment.lower()}"):
+                value += " // 1000"
         else:
             value = self._text(name, type_)
         block.add(f"{target} = {value}", said(field, ""))
@@ -192,7 +216,7 @@ class Walk:
         if constant is not None and constant <= limit and not self._changing:
             return str(constant)
         if limit >= INTEGER_RANGES["int64"][1]:
-            return COUNT
+            return _TIMESTAMP if "timestamp" in name else COUNT
         return f"{COUNT} % {1000 if limit >= 1000 else 100}"  # noqa: PLR2004  round numbers
 
     def _text(self, name: str, type_: FieldType) -> str:
@@ -281,8 +305,10 @@ _COARSE = 0.1
 """A quantity that swings by less is not shown with two decimals."""
 
 
-_BRIEF = (12, 4, 2)
+_BRIEF = ((12, 4, 2), (10, 3, 1), (8, 2, 1), (6, 2, 1), (5, 1, 1))
 """How many fields of a message are filled in brief, of the root and of what is nested in it."""
+MAX_BRIEF = len(_BRIEF)
+"""As brief as can be."""
 
 
 def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field]:
@@ -290,7 +316,7 @@ def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field
 
     def rank(field: Field) -> int:
         if not field.type.is_primitive:
-            return 2 if field.type.is_array else 0
+            return 2 if field.type.is_array else 1
         if field.type.is_array:
             return 1
         known = words.quantity(field.name) is not words.NUMBER
@@ -348,7 +374,7 @@ def variable(field: Field) -> str:
         "id",
     }
     if name == field.name or iskeyword(name) or name in bad:
-        snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", field.type.name).lower()
+        snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", field.type.name).lower()
         name = snake if snake not in bad else "element"
     return name
 
@@ -381,9 +407,13 @@ def constants_of(section: Section, field: Field) -> list[Constant]:
     ]
     taken = {one for other in section.fields for one in _by_name(section, other)}
     free = [one for one in section.constants if one.type == field.type and one not in taken]
-    if len(rivals) == 1:
+    if len(rivals) > 1:
+        free = [one for one in free if _is_next_to(one, field, section)]
+    if words.split(field.name)[-1] in _ENUMS:
         return free
-    return [one for one in free if _is_next_to(one, field, section)]
+    own = set(words.split(field.name))
+    alike = [one for one in free if own & set(one.name.lower().split("_"))]
+    return alike if len(alike) > 1 else []
 
 
 def _by_name(section: Section, field: Field) -> list[Constant]:
