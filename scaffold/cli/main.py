@@ -26,6 +26,7 @@ VERBS = {
     "update": "bring a package in step with the templates of today",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
+    "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
 }

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from scaffold.errors import ScaffoldError
+from scaffold.generate import draft
+from scaffold.generate.defaults import User
+from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD
+from scaffold.generate.questions import Given
 from scaffold.generate.template import PARTS, Role, Template, of_role
+
+if TYPE_CHECKING:
+    from scaffold.check.diagnostic import Diagnostic
+    from scaffold.check.rule import Rule
 
 PACKAGE = "example_package"
 """The name of a package whose example has none."""
@@ -48,3 +57,49 @@ def _is_for(template: Template, build_type: str) -> bool:
     if template.role is Role.BUILD_TYPE:
         return template.name == build_type
     return not template.build_types or build_type in template.build_types
+
+
+class Tried(NamedTuple):
+    """An example and what became of it."""
+
+    example: Example
+    made: Draft | None
+    """``None`` when it cannot be rendered."""
+    defects: tuple[str, ...]
+    """What is wrong, a line each."""
+
+
+def check(
+    names: Iterable[str],
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    rules: Sequence[type[Rule]],
+) -> Iterator[Tried]:
+    """Render the examples of some templates and check the packages with every rule."""
+    for name in names:
+        for example in of(templates[name], templates):
+            yield _tried(example, roots, templates, rules)
+
+
+def _tried(
+    example: Example,
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    rules: Sequence[type[Rule]],
+) -> Tried:
+    answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
+    origin = f"example {example.title!r} of {example.template}"
+    given = {
+        name: Given(value, f"{origin}: {name}")
+        for name, value in {**answers, **example.answers}.items()
+    }
+    try:
+        made = draft.draft(roots, templates, given, User("."))
+    except ScaffoldError as error:
+        return Tried(example, None, (str(error),))
+    return Tried(example, made, tuple(map(_line, draft.defects(made, rules))))
+
+
+def _line(defect: Diagnostic) -> str:
+    at = defect.location
+    return f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}"

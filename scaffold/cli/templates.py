@@ -1,0 +1,154 @@
+"""``ros2-scaffold templates [list | test] [DIR]``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from scaffold.generate.draft import Draft
+    from scaffold.generate.examples import Example, Tried
+    from scaffold.generate.template import Template
+    from scaffold.model.package import Package
+
+ACTIONS = ("list", "test")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.add_argument(
+        "action",
+        nargs="?",
+        choices=ACTIONS,
+        default="list",
+        help="list the templates (the default), or test them: render their examples and check "
+        "the packages with every rule",
+    )
+    parser.add_argument(
+        "directory",
+        nargs="?",
+        metavar="DIR",
+        help="a directory with templates/ of your own: test those in it (default: all)",
+    )
+    parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
+
+
+def run(options: argparse.Namespace) -> int:
+    """List templates, or test them."""
+    from scaffold import config, content
+    from scaffold.generate import template
+
+    own = _own(options.directory)
+    roots = content.roots("templates", (*config.load().content, *own))
+    templates = template.load(roots)
+    if options.directory is not None:
+        within = os.path.realpath(options.directory) + os.sep
+        templates_of = [
+            name
+            for name, one in templates.items()
+            if os.path.realpath(one.directory).startswith(within)
+        ]
+    else:
+        templates_of = list(templates)
+    if options.action == "list":
+        print(_listed(templates, templates_of))
+        return 0
+    return _test(options, roots, templates, templates_of)
+
+
+def _own(directory: str | None) -> tuple[str, ...]:
+    from scaffold.errors import InputError
+
+    if directory is None:
+        return ()
+    if not os.path.isdir(os.path.join(directory, "templates")):
+        raise InputError(f"{directory}: there is no directory templates in it")
+    return (directory,)
+
+
+def _listed(templates: Mapping[str, Template], names: Sequence[str]) -> str:
+    from scaffold.generate.template import Role
+
+    width = max(map(len, names), default=0)
+    lines: list[str] = []
+    for role in Role:
+        of_role = [templates[name] for name in names if templates[name].role is role]
+        if of_role:
+            lines += ["", f"{role.value.replace('_', ' ')}:"]
+            lines += [f"    {one.name:{width}}  {one.summary}" for one in of_role]
+    return "\n".join(lines[1:])
+
+
+def _test(
+    options: argparse.Namespace,
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    names: Sequence[str],
+) -> int:
+    """Say what became of each example; 1 if something is wrong, or nothing can be."""
+    from scaffold import content
+    from scaffold.check import registry
+    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.generate import examples
+
+    rules = registry.load(content.roots("rules"))
+    tried: list[Tried] = []
+    for one in examples.check(names, roots, templates, rules):
+        tried.append(one)
+        print(f"{one.example.template}: {one.example.title}: {'wrong' if one.defects else 'ok'}")
+        for defect in one.defects:
+            print(f"    {defect}")
+    wrong = sum(bool(one.defects) for one in tried)
+    if options.build:
+        wrong += _build(tried)
+    without = sorted(set(names) - {one.example.template for one in tried})
+    for name in without:
+        sys.stderr.write(f"note: {name} has no examples: nothing of it was tested\n")
+    print(f"{len(tried)} examples, {wrong} wrong")
+    return FOUND if wrong or not tried else CLEAN
+
+
+def _build(tried: Sequence[Tried]) -> int:
+    """Build what was rendered; return how many packages do not."""
+    import tempfile
+
+    from scaffold.smoke.only_build import only_build
+
+    wrong = 0
+    for together in _rounds(tried):
+        with tempfile.TemporaryDirectory(prefix="ros2-scaffold-templates-") as directory:
+            packages = [_written(made, directory) for _, made in together.values()]
+            for name, built in only_build(packages).items():
+                example, _ = together[name]
+                wrong += not built.ok
+                state = "built" if built.ok else "does not build"
+                print(f"{example.template}: {example.title}: {state}")
+                for line in () if built.ok else built.errors:
+                    print(f"    {line}")
+    return wrong
+
+
+def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
+    """Return the packages by name; colcon cannot build two of one name together."""
+    rounds: list[dict[str, tuple[Example, Draft]]] = []
+    for one in tried:
+        if one.made is None:
+            continue
+        if all(one.made.name in together for together in rounds):
+            rounds.append({})
+        free = next(together for together in rounds if one.made.name not in together)
+        free[one.made.name] = (one.example, one.made)
+    return rounds
+
+
+def _written(made: Draft, directory: str) -> Package:
+    from scaffold.model.package import Package
+    from scaffold.plan import WritePlan
+
+    place = os.path.join(directory, made.name)
+    WritePlan.of(place, made.rendered.files, executable=made.rendered.executable).write()
+    return Package.at(place)
