@@ -83,7 +83,9 @@ def judge(package: Package, root: Path, ros: environment.Environment | None) -> 
     again, changes, _ = run_add(directory, "--diff")
     built = before
     if before == "builds" and ros is not None and code in {main.CLEAN, main.FOUND}:
-        built = "builds" if builds(root, package, ros, NODE) == "builds" else "broken"
+        # What is left to the user may be what installs the program.
+        program = NODE if code == main.CLEAN else ""
+        built = "builds" if builds(root, package, ros, program) == "builds" else "broken"
     added, removed = counts(diff)
     lines = error.splitlines()
     return Outcome(

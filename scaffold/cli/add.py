@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.plan import WritePlan
 
-_OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
-"""The questions of the base that a part asks, too; a package has answered most of them."""
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
@@ -102,11 +99,12 @@ def run(options: argparse.Namespace) -> int:
 def _asked(templates: Mapping[str, Template], kinds: list[str]) -> list[Question]:
     """Return the questions that may be answered; the name is an argument of its own."""
     from scaffold.generate import questions
+    from scaffold.generate.add import OF_PACKAGES
     from scaffold.generate.template import BASE
 
     names = {templates[kind].name_question for kind in kinds}
     own = [one for one in questions.unique(templates[k] for k in kinds) if one.name not in names]
-    general = [one for one in templates[BASE].questions if one.name in _OF_PACKAGES]
+    general = [one for one in templates[BASE].questions if one.name in OF_PACKAGES]
     return [*own, *general]
 
 
@@ -222,7 +220,8 @@ def _next_commands(package: Package, added: Added) -> list[str]:
     top = place.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
     build = f"colcon build --packages-select {package.name}"
     if top and os.path.realpath(top) != os.path.realpath("."):
-        build = f"cd {quote(os.path.relpath(top))} && {build}"
+        shortest = min(os.path.relpath(top), os.path.realpath(top), key=len)
+        build = f"cd {quote(shortest)} && {build}"
     lines = [
         "Next:",
         f"    ros2-scaffold check {quote(package.directory)}",

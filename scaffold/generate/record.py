@@ -49,7 +49,7 @@ class Record(NamedTuple):
         """Return the record as a file."""
         import yaml
 
-        data = json.dumps(dict(self.rendered), ensure_ascii=False).encode()
+        data = json.dumps(dict(self.rendered), ensure_ascii=False, sort_keys=True).encode()
         packed = base64.b64encode(zlib.compress(data, 9)).decode()
         answers = json.loads(json.dumps(dict(self.answers)))  # lists instead of tuples
         entries = {"version": self.version, "date": self.date, "answers": answers}

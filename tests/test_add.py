@@ -1,0 +1,404 @@
+"""`add`: parts in existing packages, ours and those of others, judged from outside."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+from scaffold.cli.main import main
+from scaffold.smoke import environment
+from tests.test_generated import Workspace, counts, needs_ros
+
+PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
+CMAKE = {
+    "package.xml": """\
+        <package format="3">
+          <name>demo</name>
+          <version>1.0.0</version>
+          <description>Says hello</description>
+          <maintainer email="grace@example.com">Grace</maintainer>
+          <license>BSD-3-Clause</license>
+          <buildtool_depend>ament_cmake</buildtool_depend>
+          <exec_depend>rclpy</exec_depend>
+          <export>
+            <build_type>ament_cmake</build_type>
+          </export>
+        </package>
+        """,
+    "CMakeLists.txt": """\
+        cmake_minimum_required(VERSION 3.20)
+        project(demo NONE)
+        find_package(ament_cmake REQUIRED)
+
+        install(PROGRAMS scripts/hello.py  # the first one
+          DESTINATION lib/${PROJECT_NAME})
+
+        ament_package()
+        """,
+    "scripts/hello.py": """\
+        #!/usr/bin/env python3
+        # Copyright 2020 The Hello Company. All rights reserved.
+        print('hello')
+        """,
+}
+PYTHON = {
+    "package.xml": """\
+        <package format="3">
+          <name>demo</name>
+          <version>1.0.0</version>
+          <description>Says hello</description>
+          <maintainer email="grace@example.com">Grace</maintainer>
+          <license>Apache License 2.0</license>
+          <exec_depend>rclpy</exec_depend>
+          <export>
+            <build_type>ament_python</build_type>
+          </export>
+        </package>
+        """,
+    "setup.py": """\
+        from setuptools import setup
+
+        setup(
+            name='demo',
+            version='1.0.0',
+            packages=['demo'],
+            data_files=[
+                ('share/ament_index/resource_index/packages', ['resource/demo']),
+                ('share/demo', ['package.xml']),
+            ],
+            extras_require={'test': ['pytest']},
+            entry_points={'console_scripts': ['hello = demo.hello:main']},
+        )
+        """,
+    "setup.cfg": """\
+        [develop]
+        script_dir=$base/lib/demo
+        [install]
+        install_scripts=$base/lib/demo
+        """,
+    "resource/demo": "",
+    "demo/__init__.py": "",
+    "demo/hello.py": "def main():\n    print('hello')\n",
+}
+
+
+def write(directory: Path, files: Mapping[str, str]) -> Path:
+    for path, text in files.items():
+        file = directory / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(dedent(text))
+        if text.lstrip().startswith("#!"):
+            file.chmod(0o755)
+    return directory
+
+
+def read(directory: Path) -> dict[str, bytes]:
+    files = [file for file in directory.rglob("*") if file.is_file()]
+    return {str(file.relative_to(directory)): file.read_bytes() for file in files}
+
+
+def add(directory: Path, *words: str) -> int:
+    return main(["add", *words, "--package-directory", str(directory)])
+
+
+@pytest.fixture(params=["ament_cmake", "ament_python"])
+def demo(tmp_path: Path, request: pytest.FixtureRequest) -> Path:
+    """A package of somebody else."""
+    files = CMAKE if request.param == "ament_cmake" else PYTHON
+    return write(tmp_path / "demo", files)
+
+
+# -- our own packages
+
+PARTS = ("publisher:talker", "publisher:beat")
+
+
+@pytest.mark.parametrize("build_type", ["ament_cmake", "ament_python"])
+@pytest.mark.parametrize("comments", ["brief", "tutorial"])
+def test_new_and_add_make_what_new_makes_of_both(
+    build_type: str, comments: str, tmp_path: Path
+) -> None:
+    answers = tmp_path / "answers.yaml"
+    answers.write_text(
+        f"build_type: {build_type}\ncomments: {comments}\ndescription: Beats\n"
+        "add:\n  - {kind: publisher, name: talker}\n"
+        "  - {kind: publisher, name: beat, topic: beat, message_type: std_msgs/Float32, rate: '5'}\n"
+    )
+    both, first = tmp_path / "both", tmp_path / "first"
+    words = ["new", "demo", *PERSON, "--destination-directory"]
+    assert main([*words, str(both), "--answers", str(answers)]) == 0
+    general = ["--build-type", build_type, "--comments", comments, "--description", "Beats"]
+    assert main([*words, str(first), "--node-name", "talker", *general]) == 0
+    part = ["publisher", "beat", "--topic", "beat", "--message-type", "std_msgs/Float32"]
+    assert add(first / "demo", *part, "--rate", "5", "--comments", comments) == 0
+    assert read(first / "demo") == read(both / "demo")
+    assert main(["update", str(first / "demo"), "--diff"]) == 0
+    assert os.access(first / "demo" / "demo" / "beat.py", os.X_OK)
+
+
+@pytest.mark.parametrize(
+    ("first", "kind", "name"),
+    [
+        ("message:Status", "message", "Speed"),
+        ("message:Status", "service", "Reset"),
+        ("cpp_program:one", "cpp_program", "two"),
+    ],
+)
+def test_interfaces_and_programs_join_their_like(
+    first: str, kind: str, name: str, tmp_path: Path
+) -> None:
+    words = ["new", "demo", *PERSON, "--description", "Both", "--add", first]
+    both, one = tmp_path / "both", tmp_path / "one"
+    assert main([*words, "--add", f"{kind}:{name}", "--destination-directory", str(both)]) == 0
+    assert main([*words, "--destination-directory", str(one)]) == 0
+    assert add(one / "demo", kind, name) == 0
+    found, expected = read(one / "demo"), read(both / "demo")
+    assert found.keys() == expected.keys()
+    differing = {path for path in found if found[path] != expected[path]}
+    if kind == "cpp_program":  # `new` puts the commands of programs into one block
+        assert differing == {"README.md", ".ros2-scaffold.yaml"}
+    else:
+        assert differing == set()
+    assert add(one / "demo", kind, name, "--diff") == 0
+
+
+# -- packages of others
+
+
+def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = read(demo)
+    assert add(demo, "publisher", "talker", "--diff") == 0
+    assert read(demo) == before
+    edits, _, _ = capsys.readouterr().out.partition("--- /dev/null")
+    lines = re.findall(r"^[+-](?![+-]{2} ).*", edits, re.MULTILINE)
+    is_cmake = (demo / "CMakeLists.txt").exists()
+    if is_cmake:
+        assert lines == [
+            "-install(PROGRAMS scripts/hello.py  # the first one",
+            "+install(PROGRAMS scripts/hello.py scripts/talker.py  # the first one",
+            "+if(BUILD_TESTING)",
+            "+  find_package(ament_cmake_pytest REQUIRED)",
+            "+  ament_add_pytest_test(test_talker test/test_talker.py)",
+            "+endif()",
+            "+",
+            "+  <exec_depend>std_msgs</exec_depend>",
+            "+  <test_depend>ament_cmake_pytest</test_depend>",
+            "+  <test_depend>ament_index_python</test_depend>",
+        ]
+
+
+def test_a_second_run_changes_nothing(
+    demo: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    assert add(demo, "publisher", "talker") == 0
+    after = read(demo)
+    capsys.readouterr()
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1800000000")  # three years later
+    assert add(demo, "publisher", "talker") == 0
+    assert "nothing was changed" in capsys.readouterr().out
+    assert read(demo) == after
+
+
+def test_a_dry_run_changes_nothing(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = read(demo)
+    assert add(demo, "publisher", "talker", "--dry-run") == 0
+    assert capsys.readouterr().out.endswith("Nothing was changed (--dry-run).\n")
+    assert read(demo) == before
+
+
+def test_check_has_nothing_new_to_say(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["check", str(demo)])
+    before = capsys.readouterr().out
+    assert add(demo, "publisher", "talker") == 0
+    capsys.readouterr()
+    main(["check", str(demo)])
+    after = capsys.readouterr().out
+    assert {re.sub(r"\d+", "", line) for line in after.splitlines()} <= {
+        re.sub(r"\d+", "", line) for line in before.splitlines()
+    }
+
+
+def test_the_header_is_that_of_the_package(tmp_path: Path) -> None:
+    demo = write(tmp_path / "demo", CMAKE)
+    assert add(demo, "publisher", "talker") == 0
+    lines = (demo / "scripts" / "talker.py").read_text().splitlines()
+    assert re.fullmatch(r"# Copyright \d{4} The Hello Company", lines[1])
+    assert "Redistribution and use in source and binary forms" in lines[3]
+    assert "Author: Grace" in lines
+
+
+def test_an_unknown_licence_gives_the_header_of_the_other_files(tmp_path: Path) -> None:
+    manifest = CMAKE["package.xml"].replace("BSD-3-Clause", "Ours")
+    demo = write(tmp_path / "demo", {**CMAKE, "package.xml": manifest})
+    assert add(demo, "publisher", "talker") == 0
+    lines = (demo / "scripts" / "talker.py").read_text().splitlines()
+    assert lines[:3] == [
+        "#!/usr/bin/env python3",
+        "# Copyright 2020 The Hello Company. All rights reserved.",
+        "",
+    ]
+
+
+def test_without_any_licence_there_is_no_header(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = {**CMAKE, "scripts/hello.py": "#!/usr/bin/env python3\nprint('hello')\n"}
+    files["package.xml"] = CMAKE["package.xml"].replace("BSD-3-Clause", "TODO")
+    demo = write(tmp_path / "demo", files)
+    assert add(demo, "publisher", "talker") == 0
+    assert (demo / "scripts" / "talker.py").read_text().startswith('#!/usr/bin/env python3\n"""\n')
+    said = capsys.readouterr().err
+    assert "the licence of demo is 'TODO'; --license gives them one" in said
+    assert add(demo, "publisher", "other", "--license", "MIT") == 0
+    assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
+
+
+def test_the_package_is_the_one_around_the_current_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", CMAKE)
+    monkeypatch.chdir(demo / "scripts")
+    assert main(["add", "publisher", "talker"]) == 0
+    assert (demo / "scripts" / "talker.py").exists()
+    monkeypatch.chdir(tmp_path)
+    assert main(["add", "publisher", "talker"]) == 2
+    assert "no package.xml here or above" in capsys.readouterr().err
+
+
+def test_what_cannot_be_edited_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lists = CMAKE["CMakeLists.txt"].replace("ament_package()", "if(X)\n ament_package()\nendif()")
+    demo = write(tmp_path / "demo", {**CMAKE, "CMakeLists.txt": lists})
+    before = (demo / "CMakeLists.txt").read_bytes()
+    assert add(demo, "publisher", "talker") == 1
+    assert (demo / "CMakeLists.txt").read_bytes() == before
+    said = capsys.readouterr().err
+    assert (
+        f"    {demo}/CMakeLists.txt: ament_add_pytest_test(test_talker test/test_talker.py)\n"
+        "        because there is no ament_package() at the top level\n"
+    ) in said
+
+
+# -- refusals
+
+
+def refused(demo: Path, capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    before = read(demo)
+    assert add(demo, *words) == 2
+    assert read(demo) == before
+    (line,) = capsys.readouterr().err.splitlines()
+    return line.removeprefix("ros2-scaffold: error: ")
+
+
+def test_a_file_is_not_overwritten_unasked(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory = "scripts" if (demo / "scripts").exists() else "demo"
+    path = demo / directory / "talker.py"
+    path.write_text("mine = True\n")
+    said = refused(demo, capsys, "publisher", "talker")
+    assert said == (
+        f"{directory}/talker.py in {demo} exists already and differs; "
+        "choose another name, or overwrite it with --force"
+    )
+    assert add(demo, "publisher", "talker", "--force") == 0
+    assert "class Talker(Node):" in path.read_text()
+
+
+@pytest.mark.parametrize(
+    ("files", "path", "text", "where"),
+    [
+        (CMAKE, "package.xml", "<package>\n<name>demo</nam>\n", "package.xml:2:"),
+        (CMAKE, "CMakeLists.txt", "project(demo)\nfind_package(x\n", "CMakeLists.txt:2:"),
+        (CMAKE, "scripts/hello.py", "#!/usr/bin/env python3\ndef f(:\n", "scripts/hello.py:2:"),
+        (PYTHON, "setup.py", "from setuptools import setup\nsetup(\n", "setup.py:2:"),
+        (PYTHON, "setup.cfg", "[develop]\nx\n", "setup.cfg:2:"),
+        (PYTHON, "demo/hello.py", "def main():\nprint('hello')\n", "demo/hello.py:2:"),
+    ],
+)
+def test_a_package_that_does_not_parse_is_refused(
+    files: Mapping[str, str],
+    path: str,
+    text: str,
+    where: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    demo = write(tmp_path / "demo", {**files, path: text})
+    assert refused(demo, capsys, "publisher", "talker").startswith(f"{demo}/{where}")
+
+
+def test_a_program_that_is_there_is_not_added_again(
+    demo: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if (demo / "CMakeLists.txt").exists():
+        text = (
+            (demo / "CMakeLists.txt").read_text().replace("scripts/hello.py", "a/hello.py b/x.py")
+        )
+        write(demo, {"CMakeLists.txt": text, "a/hello.py": "", "b/x.py": ""})
+        expected = "demo has a program 'hello.py' already, a/hello.py: choose another name"
+    else:
+        text = (demo / "setup.py").read_text().replace("demo.hello:main", "demo.other:main")
+        write(demo, {"setup.py": text, "demo/other.py": "def main():\n    pass\n"})
+        (demo / "demo" / "hello.py").unlink()
+        expected = "demo has a program 'hello' already, demo/other.py: choose another name"
+    assert refused(demo, capsys, "publisher", "hello") == expected
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("publischer", "x_y"), "did you mean publisher?"),
+        (("publisher", "Bad-Name"), "NAME"),
+        (("publisher", "talker", "--rate", "fast"), "--rate: 'fast' is not a number"),
+        (("message", "Status"), "message needs the build type ament_cmake, not ament_python"),
+    ],
+)
+def test_unusable_answers_are_refused(
+    words: tuple[str, ...], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert said in refused(write(tmp_path / "demo", PYTHON), capsys, *words)
+
+
+def test_a_directory_without_a_package_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "demo").mkdir()
+    said = refused(tmp_path / "demo", capsys, "publisher", "talker")
+    assert said == f"{tmp_path}/demo: no package: there is no package.xml in it"
+
+
+# -- colcon
+
+
+@pytest.mark.build
+@needs_ros
+def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
+    made = Workspace(tmp_path, environment.select(os.environ))
+    for name, files in (("cmake_demo", CMAKE), ("python_demo", PYTHON)):
+        renamed = {
+            path.replace("demo", name): text.replace("demo", name) for path, text in files.items()
+        }
+        directory = write(tmp_path / "src" / name, renamed)
+        assert add(directory, "publisher", "talker", "--topic", f"{name}/talk") == 0
+    done = made.colcon("build")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "stderr" not in done.stderr
+    installed = tmp_path / "install"
+    assert set(os.listdir(installed / "cmake_demo" / "lib" / "cmake_demo")) == {
+        "hello.py",
+        "talker.py",
+    }
+    assert set(os.listdir(installed / "python_demo" / "lib" / "python_demo")) == {
+        "hello",
+        "talker",
+    }
+    done = made.colcon("test", "--return-code-on-test-failure")
+    assert done.returncode == 0, done.stdout + done.stderr
+    build = tmp_path / "build"
+    assert counts(build / "python_demo" / "pytest.xml") == (2, 0)
+    (report,) = build.glob("cmake_demo/test_results/cmake_demo/test_talker.xunit.xml")
+    assert counts(report) == (2, 0)
