@@ -35,7 +35,7 @@ class FindMisspelt(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for found in package.cmake.found_packages:
             meant = similar_package(found.name)
-            if meant is None or meant == found.name.lower():
+            if meant is None or (meant == found.name.lower() and not _is_of_ros(meant)):
                 continue
             if package.workspace.get(found.name) is not None:
                 continue
@@ -46,3 +46,8 @@ class FindMisspelt(Rule):
                 fix = Fix(f"write {meant}", (edit,))
             message = f"no package {found.name!r} is known; {meant!r} is meant"
             yield self.report(found, message, fix)
+
+
+def _is_of_ros(name: str) -> bool:
+    """Tell a package of ROS from a library, which may well have capitals in CMake."""
+    return name.startswith(("ament_", "rcl", "rosidl_")) or name.endswith(("_msgs", "_srvs"))

@@ -63,14 +63,22 @@ class ProgramDestinationDiffers(Rule):
 
     def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
         """Tell a node from a helper that is rightly elsewhere, such as an environment hook."""
-        if given.startswith(("share/", "include", "etc", "/")) or "python" in given:
+        if given.startswith(("include", "etc", "/")) or "python" in given:
             return False
-        if given.startswith("lib/") and given != "lib/PROJECT_NAME":
-            return self._is_near(package, given)
-        return any(
-            item.path is not None and package.has(item.path) and self._is_node(package, item.path)
-            for item in install.items
-        )
+        paths = [item.path for item in install.items if item.path and package.has(item.path)]
+        if given.startswith("share/") or (given.startswith("lib/") and given != "lib/PROJECT_NAME"):
+            programs = bool(paths) and all(self._is_program(package, path) for path in paths)
+            return programs or self._is_near(package, given)
+        return any(self._is_node(package, path) for path in paths)
+
+    def _is_program(self, package: Package, path: str) -> bool:
+        """Tell whether a file is a node that is started, and installed nowhere else."""
+        if not self._is_node(package, path):
+            return False
+        module = package.module(path)
+        places = [one for one in package.cmake.installs for item in one.items if item.path == path]
+        is_node = "rclpy" in module.imports_by_root and module.is_script and module.has_main_guard
+        return is_node and not module.in_tests and len(places) == 1
 
     def _is_near(self, package: Package, given: str) -> bool:
         name = given.removeprefix("lib/")

@@ -1,0 +1,102 @@
+"""CM090: programs are installed with their executable bit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.model.cmake import Install
+
+_NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
+_LISTS = (
+    "project(talker)\ninstall({} talker/node.py DESTINATION lib/${{PROJECT_NAME}})\n"
+    "ament_package()\n"
+)
+
+
+class ProgramInstalledAsFile(Rule):
+    """A script is installed to ``lib/<package>`` with ``FILES`` or ``DIRECTORY``.
+
+    **Why.** Only ``PROGRAMS`` keeps the executable bit, and ``ros2 run`` lists nothing without it:
+    ``No executable found``.
+
+    **Fix.** Write ``PROGRAMS``.
+
+    **Source.** CMake documentation, ``install``; ``ros2pkg/api/__init__.py``,
+    ``get_executable_paths``.
+    """
+
+    code = "CM090"
+    name = "program-installed-as-file"
+    examples = (
+        Example(
+            "as a program",
+            {"CMakeLists.txt": _LISTS.format("PROGRAMS"), "talker/node.py": _NODE},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "as a file",
+            {"CMakeLists.txt": _LISTS.format("FILES"), "talker/node.py": _NODE},
+            at=("CMakeLists.txt:2",),
+            fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "its directory",
+            {
+                "CMakeLists.txt": _LISTS.format("DIRECTORY").replace("/node.py", ""),
+                "talker/node.py": _NODE,
+            },
+            at=("CMakeLists.txt:2",),
+            executable=("talker/node.py",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        programs = {
+            item.path
+            for install in package.cmake.installs
+            if install.kind == "PROGRAMS"
+            for item in install.items
+        }
+        for install in package.cmake.installs:
+            if not self._loses_bits(package, install):
+                continue
+            for item in install.items:
+                path = self._script(package, item.path or "", install.kind)
+                if path and path not in programs:
+                    message = (
+                        f"install({install.kind}) drops the executable bit of {path}: `ros2 run` "
+                        "finds no executable; install it with PROGRAMS"
+                    )
+                    yield self.report(item, message, self._fix(install))
+
+    def _loses_bits(self, package: Package, install: Install) -> bool:
+        target = (install.destination or "").rstrip("/")
+        keeps = {"PERMISSIONS", "FILE_PERMISSIONS", "USE_SOURCE_PERMISSIONS"}
+        return (
+            install.kind in {"FILES", "DIRECTORY"}
+            and target == f"lib/{package.cmake.project_name}"
+            and not keeps & set(install.command.values)
+        )
+
+    def _script(self, package: Package, path: str, kind: str) -> str:
+        """Return the node that a path is, or the first in a directory."""
+        paths = [path]
+        if kind == "DIRECTORY":
+            paths = [one for one in package.files if one.startswith(f"{path}/")]
+        for one in paths:
+            if one in package.python_files and not one.endswith("__init__.py"):
+                module = package.module(one)
+                if module.is_script and module.has_main_guard:
+                    return one
+        return ""
+
+    def _fix(self, install: Install) -> Fix | None:
+        if install.kind != "FILES" or len(install.items) != 1:
+            return None
+        for argument in install.command.arguments:
+            if argument.raw == "FILES":
+                edit = Edit("CMakeLists.txt", argument.start, argument.end, "PROGRAMS")
+                return Fix("write PROGRAMS", (edit,), Safety.SAFE)
+        return None

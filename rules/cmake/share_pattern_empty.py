@@ -1,0 +1,69 @@
+"""CM100: the patterns of a directory leave something to install."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake import Install
+
+_LISTS = (
+    "project(talker)\ninstall(DIRECTORY config DESTINATION share/${{PROJECT_NAME}}{})\n"
+    "ament_package()\n"
+)
+_FILES = {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 1.0\n"}
+
+
+class SharePatternEmpty(Rule):
+    """The patterns of ``install(DIRECTORY)`` leave no file of the directory.
+
+    **Why.** The directory is installed without its files, and without a word: they are not found
+    at run time.
+
+    **Fix.** Correct the pattern, or remove it.
+
+    **Source.** CMake documentation, ``install(DIRECTORY)``: ``FILES_MATCHING``, ``PATTERN``.
+    """
+
+    code = "CM100"
+    name = "share-pattern-empty"
+    examples = (
+        Example(
+            "a file is left",
+            {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yaml"'), **_FILES},
+        ),
+        Example(
+            "another ending",
+            {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
+            at=("CMakeLists.txt:2",),
+        ),
+        Example(
+            "all left out",
+            {"CMakeLists.txt": _LISTS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
+            at=("CMakeLists.txt:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            if install.kind != "DIRECTORY" or install.command.has("REGEX"):
+                continue
+            for item in install.items:
+                path = item.path or ""
+                files = [one for one in package.files if path and one.startswith(f"{path}/")]
+                if files and not any(_is_taken(install, one) for one in files):
+                    message = f"the patterns leave nothing of {path}/, for instance {files[0]}"
+                    yield self.report(item, message)
+
+
+def _is_taken(install: Install, path: str) -> bool:
+    parts = path.split("/")
+    if any(fnmatchcase(part, pattern) for part in parts for pattern in install.excludes):
+        return False
+    if not install.command.has("FILES_MATCHING"):
+        return True
+    return any(
+        fnmatchcase(parts[-1], pattern) or fnmatchcase(path, f"*{pattern}")
+        for pattern in install.patterns
+    )

@@ -1,0 +1,86 @@
+"""CM091: a variable that stands for the name of the package is PROJECT_NAME."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.cmake import CMakeLists
+from scaffold.model.cmake_parser import Argument
+
+_WANTED = "PROJECT_NAME"
+_OTHERS = frozenset({"PACKAGE_NAME", "PKG_NAME", "PACKAGE", "PROJECT", "PROJECTNAME"})
+_KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
+_LISTS = "project(talker)\n{}install(FILES a.yaml DESTINATION share/${{{}}})\nament_package()\n"
+
+
+class VariableMisspelt(Rule):
+    """A variable is used in place of ``PROJECT_NAME`` that nothing sets.
+
+    **Why.** CMake takes it for empty, without a word: files are installed in ``lib/`` or
+    ``share/`` instead of the directory of the package.
+
+    **Fix.** Write ``${PROJECT_NAME}``; variables of CMake are case-sensitive.
+
+    **Source.** CMake documentation, "cmake-language", variables.
+    """
+
+    code = "CM091"
+    name = "variable-misspelt"
+    examples = (
+        Example(
+            "set",
+            {
+                "CMakeLists.txt": _LISTS.format("set(PACKAGE_NAME talker)\n", "PACKAGE_NAME"),
+                "a.yaml": "",
+            },
+        ),
+        Example(
+            "in lower case",
+            {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
+            at=("CMakeLists.txt:2",),
+            fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if cmake.find("include", "add_subdirectory"):
+            return
+        named = {value for command in cmake.commands for value in command.values}
+        for command in cmake.commands:
+            for argument in command.arguments:
+                for name in _variables(argument):
+                    if name not in named and _is_meant(name) and not _is_made(cmake, name):
+                        yield self._found(argument, name)
+
+    def _found(self, argument: Argument, name: str) -> Diagnostic:
+        fix = None
+        at = argument.raw.find(f"${{{name}}}")
+        if at >= 0:
+            start = argument.start + at + 2
+            edit = Edit("CMakeLists.txt", start, start + len(name), _WANTED)
+            fix = Fix(f"write {_WANTED}", (edit,))
+        message = f"nothing sets {name}: it is empty; ${{{_WANTED}}} is meant"
+        return self.report(argument, message, fix)
+
+
+def _variables(argument: Argument) -> Iterator[str]:
+    """Yield the variables that an argument refers to."""
+    for part in argument.text.split("${")[1:]:
+        name, closed, _ = part.partition("}")
+        if closed:
+            yield name
+
+
+def _is_meant(name: str) -> bool:
+    if name in _KNOWN or name.startswith("CMAKE_"):
+        return False
+    close = get_close_matches(name.upper(), [_WANTED], 1, 0.85)
+    return name in _OTHERS or name.upper() == _WANTED or bool(close)
+
+
+def _is_made(cmake: CMakeLists, name: str) -> bool:
+    """Tell whether a variable is a parameter of a function, or of a loop."""
+    return any(name in command.values for command in cmake.find("function", "macro", "foreach"))
