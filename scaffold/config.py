@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from scaffold.errors import ConfigError
 from scaffold.model.disk import Disk
+from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"
 USER_FILE = os.path.join("ros2-scaffold", "config.toml")
@@ -79,9 +80,7 @@ class Config(NamedTuple):
         return self.values[key].origin
 
 
-def load(
-    directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None
-) -> Config:
+def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None) -> Config:
     """Read the user's and the project's file.
 
     Args:

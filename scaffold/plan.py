@@ -14,9 +14,9 @@ import stat
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from enum import Enum
-from typing import NamedTuple
 
 from scaffold.errors import ConflictError, InputError
+from scaffold.record import NamedTuple
 
 _EXECUTABLE = stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH
 

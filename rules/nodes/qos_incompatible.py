@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import Endpoint, Publisher, Subscription
 from scaffold.model.topics import topics_of
+from scaffold.record import NamedTuple
 
 _NODE = (
     "from rclpy.node import Node\n"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import NamedTuple
 
 from scaffold.model.source import Location
+from scaffold.record import NamedTuple
 
 
 class Severity(Enum):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import NamedTuple
 
 from scaffold.check.diagnostic import (
     CreateFile,
@@ -16,6 +15,7 @@ from scaffold.check.diagnostic import (
 )
 from scaffold.model.package import Package
 from scaffold.model.tree import Tree
+from scaffold.record import NamedTuple
 
 MAX_ROUNDS = 10
 """Fixes that still find work after this many rounds work against each other."""

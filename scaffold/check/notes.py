@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.tree import DiskTree
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.disk import Answer, Disk, Question

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from scaffold.check import diagnostic as kinds
 from scaffold.check.diagnostic import Change, Diagnostic, Fix, Safety, Severity
@@ -15,6 +15,7 @@ from scaffold.check.session import Result, Session
 from scaffold.errors import EnvironmentMissingError
 from scaffold.model.disk import holds
 from scaffold.model.source import Location
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.memory import Seen

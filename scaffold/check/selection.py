@@ -6,9 +6,9 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
-from typing import NamedTuple
 
 from scaffold.errors import ConfigError
+from scaffold.record import NamedTuple
 
 
 class Selection(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
 from scaffold.check.diagnostic import Diagnostic, Severity
@@ -18,6 +18,7 @@ from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.model.discovery import Target
 from scaffold.model.package import Package
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.style import StyleCheck

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.errors import ParseError
 from scaffold.model import cmake_parser
@@ -12,6 +11,7 @@ from scaffold.model.cmake_lexer import Token
 from scaffold.model.cmake_parser import Argument, Command
 from scaffold.model.cmake_variables import ROOT, Variables
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 __all__ = [
     "Argument",

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import NamedTuple, overload
+from typing import overload
+
+from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
 

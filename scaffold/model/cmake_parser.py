@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from typing import NamedTuple
 
 from scaffold.model.cmake_lexer import KNOWN_COMMANDS, MOST_ERRORS, LexicalError, Tokens, tokenize
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 _ENDINGS = {
     "endif": "if",

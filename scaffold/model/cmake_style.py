@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import NamedTuple
 
 from scaffold.errors import ViewError
 from scaffold.model.ament_files import lintable
 from scaffold.model.package import Package
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 LINE_LENGTH = 140
 INDENTATION = 2

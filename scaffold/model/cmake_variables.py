@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from scaffold.model.cmake_parser import Argument, Command
+from scaffold.record import NamedTuple
 
 ROOT = "\0"
 """Stands for the directory of the package; no file can contain it."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import NamedTuple, NoReturn
+from typing import NoReturn
+
+from scaffold.record import NamedTuple
 
 JAZZY: Mapping[str, str] = {
     "ROS_VERSION": "2",

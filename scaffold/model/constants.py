@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.values import (
     COMPARISONS,
@@ -24,6 +24,7 @@ from scaffold.model.values import (
     same,
     text_method,
 )
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python_module import PythonModule

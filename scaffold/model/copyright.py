@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import re
 from functools import lru_cache
-from typing import NamedTuple
 
 from scaffold.model.ament_files import broken_links, lintable
 from scaffold.model.package import Package
 from scaffold.model.source import Location
+from scaffold.record import NamedTuple
 
 EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cmake", ".py"})
 REPOSITORY_FILES = ("CONTRIBUTING.md", "LICENSE")

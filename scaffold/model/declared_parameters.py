@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass, NodeOwner
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_entities import Parameter

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.model.disk import Disk
 from scaffold.model.package import Package
 from scaffold.model.tree import BUILD_DIRECTORIES, MANIFEST, DiskTree
 from scaffold.model.workspace import Workspace
+from scaffold.record import NamedTuple
 
 IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ParseError
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.diagnostic import Edit

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_interfaces import generations
 from scaffold.model.interface_sources import is_test_data
 from scaffold.model.interface_syntax import SECTIONS, Definition, Problem, ProblemKind, parse
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

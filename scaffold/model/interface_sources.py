@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_interfaces import generations
 from scaffold.model.disk import Disk
 from scaffold.model.interface_syntax import SECTIONS
 from scaffold.model.source import Source
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

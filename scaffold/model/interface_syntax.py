@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
-from typing import NamedTuple
 
 from scaffold.model.interface_values import (
     PRIMITIVES,
@@ -24,6 +23,7 @@ from scaffold.model.interface_values import (
     parse_value,
 )
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 SEPARATOR = "---"
 SECTIONS = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import InputError
 from scaffold.model.interface_sources import (
@@ -25,6 +25,7 @@ from scaffold.model.interface_syntax import (
     parse,
 )
 from scaffold.model.interface_values import TEXTS, Value
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.workspace import Workspace

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model import xml_tree, yaml_tree
 from scaffold.model.source import Location, Source
 from scaffold.model.xml_tree import Attribute
 from scaffold.model.yaml_tree import Mapping, Scalar, Sequence, YamlNode
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

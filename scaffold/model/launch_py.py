@@ -5,11 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.constants import Evaluator
 from scaffold.model.source import Location
 from scaffold.model.values import UNKNOWN, PathValue, Unknown, join_paths
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.known import ROS_PACKAGES, is_near, similar_package
@@ -11,6 +11,7 @@ from scaffold.model.launch_markup import is_known, markup_files
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.package_programs import programs_of
 from scaffold.model.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import parameter_type
 from scaffold.model.parameter_files import text_type
 from scaffold.model.values import is_known
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.launch_py import LaunchFile

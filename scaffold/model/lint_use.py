@@ -6,11 +6,11 @@ import ast
 import re
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
-from typing import NamedTuple
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake import CMakeLists
 from scaffold.model.package import Package
+from scaffold.record import NamedTuple
 
 LINTER = "ament_cmake_copyright"
 COLLECTIONS = ("ament_lint_common", LINTER)

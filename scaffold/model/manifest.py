@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model import xml_tree
 from scaffold.model.source import Location, Source
 from scaffold.model.xml_tree import Comment, Document, Element, Instruction, decode
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -11,12 +11,12 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
 
 from scaffold.model.manifest import Manifest
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 from scaffold.model.xml_tree import BLANK, Attribute, Element, Text
+from scaffold.record import NamedTuple
 
 _MOST_UNKNOWN = 1000  # elements that are named; each is compared with all known ones
 FORMATS = (1, 2, 3)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from scaffold.model.message_types import MessageClass, MessageTypes
+from scaffold.record import NamedTuple
 
 _HEADER = "std_msgs/msg/Header"
 _MEASURED = ("sensor_msgs/msg/", "nav_msgs/msg/Odometry", "geometry_msgs/msg/TransformStamped")

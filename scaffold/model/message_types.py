@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.errors import ViewError
 from scaffold.model.interface_syntax import Field, Section
@@ -16,6 +15,7 @@ from scaffold.model.nodes import NodeFacts
 from scaffold.model.package import Package
 from scaffold.model.scopes import Binding
 from scaffold.model.self_values import Store
+from scaffold.record import NamedTuple
 
 PARTS = {
     "msg": {},

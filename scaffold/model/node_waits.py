@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import Service, Subscription, Timer
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from scaffold.errors import MissingFileError, ParseError, TooLargeError, ViewError
 from scaffold.model.source import Location, Source
 from scaffold.model.tree import MANIFEST, DiskTree, MemoryTree, Tree
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     import os

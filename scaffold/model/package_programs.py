@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_facts import programs
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner

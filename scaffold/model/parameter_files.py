@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ParseError, ViewError
 from scaffold.model import yaml_tree
 from scaffold.model.yaml_tree import Alias, Mapping, Scalar, Sequence, YamlNode
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from difflib import SequenceMatcher
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.declared_parameters import own_nodes
 from scaffold.model.launch_nodes import StartedNode, consumers, started_nodes
 from scaffold.model.share_files import share_of
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner

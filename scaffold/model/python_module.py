@@ -6,12 +6,12 @@ import ast
 import builtins
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.errors import ParseError
 from scaffold.model.python_syntax import BOM, Positions, decode, parse_tree, past_jazzy
 from scaffold.model.scopes import FunctionNode, Node, SyntaxIndex
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 MAX_DEPTH = 300
 """Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass, NodeObject
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts

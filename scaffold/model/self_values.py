@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.constants import Evaluator
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python_module import PythonModule

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 import sys
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from scaffold.check.diagnostic import Edit
 from scaffold.model.python_module import PythonModule
 from scaffold.model.setup_py import SetupPy
+from scaffold.record import NamedTuple
 
 MAX_LINE = 99
 """Characters in a line, as ament_flake8 counts them."""

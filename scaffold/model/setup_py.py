@@ -6,12 +6,12 @@ import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.model.constants import Element, Evaluator
 from scaffold.model.python_module import PythonModule
 from scaffold.model.source import Location
 from scaffold.model.values import UNKNOWN, Glob, Unknown
+from scaffold.record import NamedTuple
 
 _SETUP_FUNCTIONS = frozenset({"setuptools.setup", "distutils.core.setup", "setuptools.core.setup"})
 _FIND_PACKAGES = frozenset(

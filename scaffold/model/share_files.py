@@ -5,12 +5,13 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.model.setup_files import matches
 from scaffold.model.values import Glob
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.cmake import Install, InstallItem

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.node_waits import in_callbacks
 from scaffold.model.program_starts import Run, files_of, run_of, starts_of
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.errors import ParseError
+from scaffold.record import NamedTuple
 
 
 class Location(NamedTuple):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import Client, Endpoint, Publisher, Service, Subscription
 from scaffold.model.values import Unknown
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

@@ -5,11 +5,11 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
 from xml.parsers import expat
 
 from scaffold.errors import ParseError
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 BLANK = " \t\r\n"
 BOM = "\ufeff"

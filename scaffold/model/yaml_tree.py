@@ -6,10 +6,11 @@ built from tags.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from scaffold.errors import ParseError
 from scaffold.model.source import Location, Source
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     import yaml

@@ -7,9 +7,9 @@ and the convention ``ament`` of ament_pep257 leave out is not here.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from scaffold.check.diagnostic import Severity
+from scaffold.record import NamedTuple
 from scaffold.style.finding import FLAKE8, PEP257
 
 BOTH = FLAKE8 | PEP257

@@ -8,8 +8,8 @@ import warnings
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
+from scaffold.record import NamedTuple
 from scaffold.style.text import PythonText
 from scaffold.style.tokens import COMMENT, NEWLINE, NL
 

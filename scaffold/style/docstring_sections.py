@@ -11,8 +11,8 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from textwrap import dedent
-from typing import NamedTuple
 
+from scaffold.record import NamedTuple
 from scaffold.style.definitions import METHOD, Definition
 
 Said = Iterator[tuple[str, str]]

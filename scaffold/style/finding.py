@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from scaffold.record import NamedTuple
 
 FLAKE8 = 1
 """Reported by ament_flake8."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
+from scaffold.record import NamedTuple
 from scaffold.style.finding import Finding
 from scaffold.style.imports import MIXED, Statement, describe, fold
 from scaffold.style.text import PythonText

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import NamedTuple
 
+from scaffold.record import NamedTuple
 from scaffold.style.finding import Finding
 from scaffold.style.stdlib import STDLIB
 from scaffold.style.text import PythonText

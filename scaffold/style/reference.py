@@ -12,9 +12,9 @@ import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
 from importlib import import_module
-from typing import NamedTuple
 
 from scaffold.model.package import Package
+from scaffold.record import NamedTuple
 from scaffold.style import docstrings
 from scaffold.style.finding import PEP257
 from scaffold.style.selection import select

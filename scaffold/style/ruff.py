@@ -11,9 +11,10 @@ import os
 import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from scaffold.errors import EnvironmentMissingError
+from scaffold.record import NamedTuple
 from scaffold.style.finding import Replacement
 
 if TYPE_CHECKING:

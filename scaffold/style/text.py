@@ -9,8 +9,8 @@ import tokenize
 import warnings
 from bisect import bisect_right
 from functools import cached_property
-from typing import NamedTuple
 
+from scaffold.record import NamedTuple
 from scaffold.style.logical import LogicalLine, split
 from scaffold.style.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 
