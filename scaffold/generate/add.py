@@ -129,10 +129,15 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
     Lines may have moved; and a line that is added to a file follows the style of that file, so
     what is found of style there already is not new.
     """
+    from scaffold.check.diagnostic import Severity
     from scaffold.style.codes import CODES
 
     known = Counter(map(_said, before))
-    styles = {(one.code, one.location.path) for one in before if one.code in CODES}
+    styles = {
+        (one.code, one.location.path)
+        for one in before
+        if one.code in CODES or one.severity is not Severity.ERROR
+    }
     found: list[Diagnostic] = []
     for diagnostic in after:
         if known[_said(diagnostic)]:
