@@ -291,11 +291,14 @@ def _restorer(file: PlannedFile) -> Callable[[], None]:
 def _diff(file: PlannedFile) -> str:
     from difflib import unified_diff
 
+    from scaffold.printable import printable
+
+    path = printable(file.path)
     if file.state is State.DIFFERING and file.before == file.content:
-        return f"{file.path} becomes executable\n"
+        return f"{path} becomes executable\n"
     is_removed = file.state is State.REMOVED
-    old = "/dev/null" if file.before is None else f"a/{file.path}"
-    new = "/dev/null" if is_removed else f"b/{file.path}"
+    old = "/dev/null" if file.before is None else f"a/{path}"
+    new = "/dev/null" if is_removed else f"b/{path}"
     try:
         before = _lines(file.before or b"")
         after = _lines(b"" if is_removed else file.content)

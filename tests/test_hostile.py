@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import json
 import os
+import pty
 import resource
+import socket
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from scaffold import content
+from scaffold.check import registry
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.model.package import Package
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">
@@ -255,6 +264,81 @@ def test_odd_names(tmp_path: Path) -> None:
     assert "\x1b" not in text
     assert "caf\\xe9.py:1:1: " in text
     assert "a\\nb.py:1:1: " in text
+
+
+def test_odd_directories(tmp_path: Path) -> None:
+    """Packages in directories whose names are no text, hold line ends or escapes."""
+    for name in (b"caf\xe9", b"a\nb", b"a\x1b[31mb"):
+        package = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), name)))
+        _package(package, {"hostile/node.py": b"import os\n", "caf\udce9.py": b"x = 1 \n"})
+        assert "F401" in {one["code"] for one in _check(package)}
+        for arguments in ((), ("--diff",), ("--fix",)):
+            done = _run(*arguments, package)
+            assert done.returncode == 1
+            assert b"\x1b" not in done.stdout + done.stderr
+        done = _run(package / "nothing")
+        assert done.returncode == 2
+        assert b"\x1b" not in done.stderr
+        assert done.stderr.count(b"\n") == 1
+
+
+def test_terminals_are_not_given_escapes_of_files(tmp_path: Path) -> None:
+    """A patch is exact in a file and spelled out on a terminal."""
+    package = _package(tmp_path, {"node.py": b"X = '\x1b[2J\xc2\x9b'  \n"})
+    assert b"+X = '\x1b[2J\xc2\x9b'\n" in _run("--diff", package).stdout
+    leader, follower = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-m", "scaffold", "check", "--diff", package],
+        stdin=subprocess.DEVNULL,
+        stdout=follower,
+        stderr=follower,
+        env={**os.environ, "NO_COLOR": "1"},
+    ):
+        os.close(follower)
+        shown = b""
+        with suppress(OSError):  # the end of a terminal is an error
+            while part := os.read(leader, 1 << 16):
+                shown += part
+    os.close(leader)
+    assert b"\\x1b[2J\\x9b" in shown
+    assert b"\x1b" not in shown
+    assert b"\xc2\x9b" not in shown
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_too_large(tmp_path: Path, place: str) -> None:
+    """Three megabytes of any kind: nothing is said of what is in it."""
+    found = _check(_package(tmp_path, {PLACES[place]: b"# " + b"x \n" * 1_000_000}))
+    here = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
+    about_the_file = {"SC004", "E902", "LY006", "LY020", "PX050"}
+    assert here <= about_the_file
+
+
+def test_too_many_findings(tmp_path: Path) -> None:
+    """A flood ends, and says so."""
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x = 1  \n" * 6000}))
+    assert sum(one["code"] == "W291" for one in found) == 5000
+    (told,) = (one for one in found if one["code"] == "SC005")
+    assert told["line"] == 5001
+
+
+def test_files_that_vanish(tmp_path: Path) -> None:
+    """Every file is there when it is listed and gone when it is read."""
+    package = Package.at(_package(tmp_path, dict.fromkeys(PLACES.values(), b"x = 1\n")))
+    assert package.files
+    for path in package.files:
+        (tmp_path / path).unlink()
+    rules = registry.load(content.roots("rules", ()))
+    said = Session(rules, Selection()).check(package)
+    assert "SC002" not in {one.code for one in said}
+
+
+def test_sockets_are_no_files(tmp_path: Path) -> None:
+    """A socket named like a source file."""
+    package = _package(tmp_path, {})
+    with socket.socket(socket.AF_UNIX) as listening:
+        listening.bind(str(package / "a.py"))
+        _check(package)
 
 
 def test_many_files(tmp_path: Path) -> None:

@@ -64,6 +64,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.defaults import User
     from scaffold.generate.questions import choose
     from scaffold.model.package import Package
+    from scaffold.printable import write_lines
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
@@ -84,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         _report(package, said)
         return DEFECT
     if options.diff:
-        sys.stdout.write(plan.diff())
+        write_lines(plan.diff(), sys.stdout)
     elif not options.dry_run:
         plan.write(force=True)
     for note in [*added.remarks, *(_line(package, diagnostic) for diagnostic in said)]:

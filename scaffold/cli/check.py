@@ -109,6 +109,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.check import fixer
     from scaffold.check.session import Result
     from scaffold.errors import InputError
+    from scaffold.printable import write_lines
 
     remaining: list[Result] = []
     count = 0
@@ -120,7 +121,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
         count += fixed.applied
         plan = _plan(package.root, fixed)
         if options.diff:
-            sys.stdout.write(plan.diff())
+            write_lines(plan.diff(), sys.stdout)
         else:
             plan.write(force=True)
         found = session.check(fixed.package)
@@ -149,13 +150,15 @@ def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int
 def _reference(targets: Sequence[Target]) -> int:
     """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
     from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.printable import printable
     from scaffold.reporters.paths import shown
     from scaffold.style import reference
 
     count = 0
     for package, one in reference.differences([target.package for target in targets]):
         count += 1
-        sys.stdout.write(f"{shown(package, one.path)}:{one.line}: {one.message}\n")
+        place = f"{shown(package, one.path)}:{one.line}"
+        sys.stdout.write(f"{printable(place)}: {printable(one.message)}\n")
     sys.stdout.write(f"{count or 'no'} differences to pydocstyle\n")
     return DEFECT if count else CLEAN
 

@@ -48,7 +48,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.exit(CLEAN)
         return _run(given)
     except ScaffoldError as error:
-        sys.stderr.write(f"ros2-scaffold: error: {error}\n")
+        from scaffold.printable import printable
+
+        sys.stderr.write(f"ros2-scaffold: error: {printable(str(error))}\n")
         return AT_FAULT
     except KeyboardInterrupt:
         sys.stderr.write("ros2-scaffold: interrupted\n")
@@ -81,9 +83,11 @@ def _defect(error: Exception) -> int:
 
     if os.environ.get("SCAFFOLD_DEBUG"):
         traceback.print_exception(error)
+    from scaffold.printable import printable
+
     last = traceback.extract_tb(error.__traceback__)[-1]
     sys.stderr.write(
-        f"ros2-scaffold: defect: {type(error).__name__}: {error} "
+        f"ros2-scaffold: defect: {type(error).__name__}: {printable(str(error))} "
         f"({os.path.basename(last.filename)}:{last.lineno}); "
         "please report it; SCAFFOLD_DEBUG=1 shows more\n"
     )

@@ -15,6 +15,9 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the line and exit."""
+        from scaffold.printable import printable
+
+        message = printable(message)
         self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
 
 

@@ -45,6 +45,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.defaults import User
     from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
+    from scaffold.printable import write_lines
 
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
@@ -54,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
     plan = WritePlan.of(directory, updated.files, executable=updated.executable)
     if options.diff:
-        sys.stdout.write(plan.diff())
+        write_lines(plan.diff(), sys.stdout)
     elif not options.dry_run:
         plan.write(force=True)
     for remark in updated.remarks:

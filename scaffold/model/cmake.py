@@ -43,6 +43,7 @@ _INSTALL_KEYWORDS = frozenset(
 _FOR_BUILDING = ("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE")
 _FOR_USERS = ("INCLUDES", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "FILE_SET")
 _ARTIFACTS = frozenset({*_FOR_BUILDING, *_FOR_USERS})
+_MOST_ITEMS = 20_000  # that are installed; lists and loops multiply
 _DEEPEST = 200  # blocks around a command; what is deeper counts as not guarded
 _PREFIX = "${CMAKE_INSTALL_PREFIX}/"
 _NO_BINDINGS: Mapping[str, str] = {}
@@ -287,10 +288,14 @@ class CMakeLists:
     def installs(self) -> list[Install]:
         """What is installed, with ``install`` and with ``ament_auto_package`` and its like."""
         found: list[Install] = []
+        items = 0
         for command in self.find("install", *LAST_CALLS[1:]):
             # A loop over something unknown still tells what is written down.
             for bindings in self._variables.combinations(command) or ({},):
+                if items > _MOST_ITEMS:
+                    return found
                 found.extend(self._installs_of(command, bindings))
+                items += len(found[-1].items) if found else 0
         return found
 
     def _installs_of(self, command: Command, bindings: Mapping[str, str]) -> Iterator[Install]:

@@ -50,6 +50,8 @@ class Elements(NamedTuple):
 
 MAX_DEPTH = 60
 """Expressions inside expressions, through names too."""
+MOST_ASSIGNMENTS = 200
+"""Of one name; a name with more has no value that anybody knows."""
 MAX_STEPS = 20_000
 """Expressions visited for one value: names that stand for each other multiply."""
 
@@ -321,7 +323,9 @@ class Evaluator:
         assigned = [binding for binding in bindings if binding.kind != "annotation"]
         if len(assigned) == 1 and isinstance(assigned[0].node, ast.arg):
             return self.argument(assigned[0].node)
-        if not assigned or any(binding.kind != "assignment" for binding in assigned):
+        if not 0 < len(assigned) <= MOST_ASSIGNMENTS or any(
+            binding.kind != "assignment" for binding in assigned
+        ):
             return UNKNOWN
         values = [self.evaluate(binding.value) for binding in assigned]
         if any(value is UNKNOWN or not same(value, values[0]) for value in values):

@@ -34,6 +34,8 @@ MOST_BYTES = 500_000
 """Of a file with code; among 800 public packages the largest has 270 kB."""
 MOST_BYTES_OF_DATA = 2_000_000
 """Of any other file that is read as text."""
+MOST_BYTES_OF_CMAKE = 250_000
+"""Of CMakeLists.txt; the largest of those packages has 60 kB."""
 MOST_BYTES_OF_DECLARATIONS = 100_000
 """Of package.xml, setup.py and setup.cfg, which have a few kB."""
 _DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
@@ -68,9 +70,20 @@ class Package:
         self._views: dict[object, object] = {}
 
     @classmethod
-    def at(cls, directory: str | os.PathLike[str], workspace: Workspace | None = None) -> Package:
-        """Return the package in a directory."""
-        tree = DiskTree(directory)
+    def at(
+        cls,
+        directory: str | os.PathLike[str],
+        workspace: Workspace | None = None,
+        disk: Disk | None = None,
+    ) -> Package:
+        """Return the package in a directory.
+
+        Args:
+            directory: The directory.
+            workspace: What is around it.
+            disk: Notes what was looked at in it, if the package itself is not to.
+        """
+        tree = DiskTree(directory, disk)
         return cls(tree, directory=tree.root, workspace=workspace)
 
     @classmethod
@@ -359,5 +372,6 @@ def most_bytes(path: str) -> int:
     """Return the size up to which a file is read: by kind, far above what people write."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_BYTES_OF_DECLARATIONS
-    is_data = path.endswith(_DATA) and not path.endswith(CMAKE_LISTS)
-    return MOST_BYTES_OF_DATA if is_data else MOST_BYTES
+    if path.endswith(CMAKE_LISTS):
+        return MOST_BYTES_OF_CMAKE
+    return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MOST_BYTES

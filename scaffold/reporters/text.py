@@ -8,6 +8,7 @@ from typing import TextIO
 
 from scaffold.check.diagnostic import Severity
 from scaffold.check.session import Result, Summary
+from scaffold.printable import printable
 from scaffold.reporters.paths import shown
 
 _COLOURS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
@@ -19,28 +20,12 @@ def report(results: Sequence[Result], out: TextIO) -> None:
     for result in results:
         for diagnostic in result.diagnostics:
             at = diagnostic.location
-            place = f"{_printable(shown(result.package, at.path))}:{at.line}:{at.column}:"
+            place = f"{printable(shown(result.package, at.path))}:{at.line}:{at.column}:"
             severity = paint(diagnostic.severity.value, _COLOURS[diagnostic.severity])
             code = paint(diagnostic.code, "1")
-            out.write(
-                f"{place} {severity} {code} {_printable(diagnostic.message)} [{diagnostic.name}]\n"
-            )
+            message = printable(diagnostic.message)
+            out.write(f"{place} {severity} {code} {message} [{diagnostic.name}]\n")
     out.write(_summary(results) + "\n")
-
-
-def _printable(text: str) -> str:
-    """Return one line without escapes for terminals; what cannot be shown is spelled out."""
-    if text.isprintable():
-        return text
-    raw = (
-        c
-        if c.isprintable()
-        else f"\\x{ord(c) - 0xDC00:02x}"
-        if "\udc80" <= c <= "\udcff"
-        else c.encode("unicode_escape").decode("ascii")
-        for c in text
-    )
-    return "".join(raw)
 
 
 def _summary(results: Sequence[Result]) -> str:

@@ -6,6 +6,7 @@ configuration and are followed here without being reported.
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from collections.abc import Iterator
 
 from scaffold.style.finding import Finding
@@ -79,6 +80,8 @@ class _Walk:
         # Rows of levels that were closed and may be opened again in the same statement.
         self.spare: list[list[int]] = [self.stack[0].rows]
         self.chances: dict[int, object] = {}
+        self.columns: list[int] = []
+        """The columns of the chances, sorted."""
         self.last_start = start
         self.visual: object = None
         self.row = 0
@@ -159,14 +162,14 @@ class _Walk:
         column = token.start[1]
         if self.opened[self.row] and token.type not in (NL, COMMENT) and not bracket.indent:
             bracket.indent = column
-            self.chances[column] = True
+            self._allow(column, True)  # noqa: FBT003  a value, not a switch
         elif token.type in (STRING, COMMENT, FSTRING_START):
-            self.chances[column] = str
+            self._allow(column, str)
         elif at_start and (
             token.string in ("assert", "raise", "with")
             or (token.string == "if" and not self.chances)
         ):
-            self.chances[token.end[1] + 1] = True
+            self._allow(token.end[1] + 1, True)  # noqa: FBT003  a value, not a switch
         elif token.string == ":" and self._rest(token).isspace():
             bracket.rows.append(self.row)
 
@@ -184,7 +187,13 @@ class _Walk:
             self.opened[self.row] += 1
         elif token.string in ")]}" and len(self.stack) > 1:
             self._close()
-        self.chances.setdefault(token.start[1], token.string)
+        if token.start[1] not in self.chances:
+            self._allow(token.start[1], token.string)
+
+    def _allow(self, column: int, chance: object) -> None:
+        if column not in self.chances:
+            insort(self.columns, column)
+        self.chances[column] = chance
 
     def _close(self) -> None:
         limit = self.stack.pop().indent or self.last_start[1]
@@ -192,11 +201,13 @@ class _Walk:
         for outer in self.stack:
             if outer.indent > limit:
                 outer.indent = 0
-        for column in [column for column in self.chances if column >= limit]:
+        kept = bisect_left(self.columns, limit)
+        for column in self.columns[kept:]:
             del self.chances[column]
+        del self.columns[kept:]
         del self.spare[depth + 1 :]
         if depth > 1:
-            self.chances[self.stack[-1].indent] = True
+            self._allow(self.stack[-1].indent, True)  # noqa: FBT003  a value, not a switch
         for row in range(self.row, -1, -1):
             if self.opened[row]:
                 self.opened[row] -= 1
