@@ -8,7 +8,7 @@ import pytest
 
 from scaffold.errors import InputError
 from scaffold.model import discovery
-from scaffold.model.tree import DiskTree
+from scaffold.model.tree import IGNORE_MARKERS, DiskTree
 
 MANIFEST = "<package format='3'><name>{}</name></package>\n"
 
@@ -30,7 +30,7 @@ def workspace(tmp_path: Path) -> Path:
     make_package(tmp_path / "src" / "group" / "a_package")
     for skipped in ("build", "install", "log", ".hidden"):
         make_package(tmp_path / skipped / f"in_{skipped.strip('.')}")
-    for marker in discovery.IGNORE_MARKERS:
+    for marker in IGNORE_MARKERS:
         ignored = make_package(tmp_path / "src" / f"with_{marker.lower()}")
         (ignored / marker).touch()
     return tmp_path

@@ -8,11 +8,10 @@ from collections.abc import Iterator, Sequence
 from scaffold.errors import InputError
 from scaffold.model.disk import Disk
 from scaffold.model.package import Package
-from scaffold.model.tree import BUILD_DIRECTORIES, MANIFEST, DiskTree
+from scaffold.model.surroundings import Surroundings, sources_around
+from scaffold.model.tree import BUILD_DIRECTORIES, IGNORE_MARKERS, MANIFEST, DiskTree
 from scaffold.model.workspace import Workspace
 from scaffold.record import NamedTuple
-
-IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 
 
 class Target(NamedTuple):
@@ -66,7 +65,17 @@ def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
         targets.append(Target(package, frozenset(names)))
     for target in targets:
         workspace.add(target.package)
+    workspace.around = _surroundings(disk, workspace, directories)
     return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _surroundings(disk: Disk, workspace: Workspace, given: Sequence[str]) -> Surroundings | None:
+    """Return the packages beside those given, unless the whole workspace was given."""
+    own = [disk.real(one.directory) for one in workspace if not isinstance(one.tree, _LooseFiles)]
+    covered = [os.path.join(disk.real(path), "") for path in given]
+    sources = dict.fromkeys(filter(None, (sources_around(disk, one) for one in own)))
+    open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
+    return Surroundings(open_, frozenset(own), workspace) if open_ else None
 
 
 def _sort_files(

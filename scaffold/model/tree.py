@@ -11,6 +11,8 @@ from scaffold.model.disk import Disk
 
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+"""Files that hide a directory from colcon."""
 
 
 class Tree(Protocol):
@@ -38,9 +40,9 @@ class Tree(Protocol):
 class DiskTree:
     """A directory; it is listed once, when first asked."""
 
-    def __init__(self, root: str | os.PathLike[str]) -> None:
+    def __init__(self, root: str | os.PathLike[str], disk: Disk | None = None) -> None:
         self.root = os.fspath(root)
-        self.disk = Disk()
+        self.disk = disk or Disk()
         self._nested: list[str] = []
         self._broken: list[str] = []
 

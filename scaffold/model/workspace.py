@@ -11,6 +11,7 @@ from scaffold.model.disk import Disk
 if TYPE_CHECKING:
     from scaffold.model.interfaces import Definitions
     from scaffold.model.package import Package
+    from scaffold.model.surroundings import Surroundings
 
 
 class Workspace:
@@ -20,6 +21,8 @@ class Workspace:
         self._packages = list(packages)
         self.disk = disk or Disk()
         """What is looked at outside of the packages."""
+        self.around: Surroundings | None = None
+        """The packages that were not given, but lie in the same workspace on disk."""
 
     def add(self, package: Package) -> None:
         """Add a package; only before the first look at the workspace."""
@@ -38,7 +41,8 @@ class Workspace:
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        return self.by_name.get(name)
+        found = self.by_name.get(name)
+        return self.around.get(name) if found is None and self.around is not None else found
 
     @cached_property
     def interfaces(self) -> Definitions:
@@ -54,26 +58,29 @@ class Neighbourhood:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self.used: dict[int, Package] = {}
-        """The packages that were looked up, by identity."""
+        """The given packages that were looked up, by identity."""
         self.uses_all = False
         self.uses_interfaces = False
         """Whether definitions were looked up: those of any package that has some."""
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        found = self._workspace.get(name)
-        if found is not None:
-            self.used[id(found)] = found
-        return found
+        given = self._workspace.by_name.get(name)
+        if given is not None:
+            self.used[id(given)] = given
+            return given
+        return self._workspace.get(name)
 
     def __iter__(self) -> Iterator[Package]:
         self.uses_all = True
-        return iter(self._workspace)
+        yield from self._workspace
+        yield from self._workspace.around or ()
 
     @property
     def names(self) -> list[str]:
         """The sorted names of the packages; these, a memory of verdicts knows for all."""
-        return sorted(self._workspace.by_name)
+        around = self._workspace.around
+        return sorted({*self._workspace.by_name, *(around.directories if around else ())})
 
     @property
     def disk(self) -> Disk:
