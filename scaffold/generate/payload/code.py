@@ -157,20 +157,26 @@ def wrapped(line: str, width: int) -> Iterator[str]:
     if code.endswith(":"):
         yield code
         return
-    bracket = min((at for at in map(code.find, "([{") if at > 0), default=-1)
-    if bracket < 0 or "'" in code[:bracket]:
+    start = _opening(code)
+    if start < 0:
         yield from _in_brackets(code, margin)
         return
-    *pieces, last = _pieces(code[bracket + 1 :])
-    end = last[len(last.rstrip(")]}")) :]
-    if len(end) != 1:
-        pieces, end = [*pieces, last], ""
-    elif last[:-1]:
-        pieces.append(f"{last[:-1]},")
-    yield code[: bracket + 1]
+    pieces = _pieces(code[start + 1 : -1])
+    if len(pieces) > 1:
+        pieces[-1] += ","
+    yield code[: start + 1]
     yield from _filled(pieces, margin + INDENT, width)
-    if end:
-        yield margin + end
+    yield margin + code[-1]
+
+
+def _opening(code: str) -> int:
+    """Return where the bracket opens that closes at the end of a line; -1 if there is none."""
+    depth = 0
+    for at in range(len(code) - 1, -1, -1):
+        depth += (code[at] in ")]}") - (code[at] in "([{")
+        if depth == 0:
+            return at if at < len(code) - 1 else -1
+    return -1
 
 
 def _in_brackets(code: str, margin: str) -> Iterator[str]:

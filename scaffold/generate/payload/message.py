@@ -111,7 +111,8 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
     names = [words.phrase(field.name) for field in types.interface.fields if field.name != "header"]
     return Recipe(
         says=enumerated(names, "example values for ", MAX_SAYS) if names else "nothing",
-        log=joined(walk.shown) or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
+        log=joined(walk.logged)
+        or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
         checks=tuple(
             re.sub(r"\bmsg\b", "message", one) for one in walk.checks if "header.stamp" not in one
         ),

@@ -56,17 +56,19 @@ def _filled(
     for brief in range(MAX_BRIEF + 1):
         block, walk = Block(counter=counter), Walk(types, section.name, brief=brief)
         checks: list[str] = []
-        for field in section.fields:
+        shown = walk.shown_fields(section, section.name)
+        for field in shown:
             value = values.get(field.name)
             if value is None:
                 target = f"{section.name}.{field.name}"
                 walk.field(block, section, _owner(types, section), field, target)
             else:
                 block.add(f"{section.name}.{field.name} = {value}")
-                checks += _check(f"{section.name}.{field.name}", value)
+                checks += _check(field, f"{section.name}.{field.name}", value)
+        walk.say_rest(block, section, shown, section.name)
         if len(block.lines()) <= MAX_LINES:
             break
-    log = joined(walk.shown) or _first_scalar(section)
+    log = joined(walk.logged) or _first_scalar(section)
     part = _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
     return part._replace(constants=walk.constants)
 
@@ -102,11 +104,15 @@ def _sum(field: Field, given: Sequence[Section]) -> str | None:
     return " + ".join(numbers) if len(numbers) > 1 else None
 
 
-def _check(target: str, value: str) -> list[str]:
+def _check(field: Field, target: str, value: str) -> list[str]:
     """Return what is true of a field with a value that does not depend on the moment."""
     if value == "True":
         return [target]
-    return [] if value == "''" or "step" in value else [f"{target} == {value}"]
+    is_own = "step" in value or value.startswith("feedback.")  # the other side does not know it
+    if value == "''" or is_own:
+        return []
+    is_numpy = field.type.array_size and not field.type.is_upper_bound
+    return [f"list({target}) == list({value})" if is_numpy else f"{target} == {value}"]
 
 
 def _progress(field: Field) -> str | None:

@@ -53,9 +53,13 @@ class Walk:
         self._spare: list[str] = []
 
     @property
-    def shown(self) -> list[str]:
+    def logged(self) -> list[str]:
         """Replacement fields of an f-string for the root: what changes, the best first."""
         return self._shown or self._spare
+
+    def _is_root(self, target: str) -> bool:
+        """Tell whether a target is, or is a part of, what is filled, and not a local name."""
+        return target.partition(".")[0] == self._root
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -71,15 +75,23 @@ class Walk:
             owner: What the constants belong to, as code.
             target: What is filled, as code.
         """
-        wanted = [one for one in section.fields if one.default is None or self._changing]
-        shown = wanted
-        if self._limits:
-            depth = min(target.count("."), len(self._limits) - 1)
-            shown = telling(section, wanted, self._limits[depth])
+        shown = self.shown_fields(section, target)
         for field in shown:
             self.field(block, section, owner, field, f"{target}.{field.name}")
-        left = len(wanted) - len(shown)
-        if left and target == self._root:
+        self.say_rest(block, section, shown, target)
+
+    def shown_fields(self, section: Section, target: str) -> list[Field]:
+        """Return the fields of a section that are filled: the most telling ones if brief."""
+        wanted = [one for one in section.fields if one.default is None or self._changing]
+        if not self._limits:
+            return wanted
+        depth = target.count(".") + (not self._is_root(target))
+        return telling(section, wanted, self._limits[min(depth, len(self._limits) - 1)])
+
+    def say_rest(self, block: Block, section: Section, shown: Sequence[Field], target: str) -> None:
+        """Say of the whole that not all of its fields are filled."""
+        left = len(section.fields) - len(shown)
+        if self._limits and left and target == self._root:
             are = "field keeps its default" if left == 1 else f"{left} fields keep their defaults"
             block.add(f"# the other {are}")
 
@@ -105,7 +117,7 @@ class Walk:
 
     def _judge(self, found: Recipe, target: str) -> None:
         """Take the words of a recipe over for the root."""
-        if target.startswith(f"{self._root}."):
+        if self._is_root(target):
             if found.log:
                 self._spare.append(re.sub(r"\bmsg\.", f"{target}.", found.log))
             for one in found.checks[:1]:
@@ -130,7 +142,7 @@ class Walk:
         if self._stamped:
             block.add(f"{target} = {self._stamped[0]}")
             return
-        if target.startswith(f"{self._root}."):
+        if self._is_root(target):
             self._stamped.append(target)
             self.checks.append(f"{target}.stamp.sec > 0")
         for line in _STAMP:
@@ -229,12 +241,12 @@ class Walk:
         return f"'{constant}'"
 
     def _expect(self, target: str, check: str) -> None:
-        if target.startswith(f"{self._root}."):
+        if self._is_root(target):
             self.checks.append(check.format(target))
 
     def _show(self, target: str, form: str, behind: str = "", *, last: bool = False) -> None:
         """Note what the log may say; ``last``: for want of anything better."""
-        if target.removeprefix("len(").startswith(f"{self._root}."):
+        if self._is_root(target.removeprefix("len(")):
             (self._spare if last else self._shown).append(f"{{{target}{form}}}{behind}")
 
     # -- arrays
@@ -355,11 +367,17 @@ def singular(name: str) -> str:
     return name[:-1] if name.endswith("s") and not name.endswith("ss") else name
 
 
+_LONGEST = 20
+"""Characters of a local name."""
+
+
 def variable(field: Field) -> str:
     """Return a local name for an element of an array of messages."""
     from keyword import iskeyword
 
     name = singular(field.name)
+    if len(name) > _LONGEST:
+        name = name.rpartition("_")[2]
     bad = {
         "self",
         "msg",
@@ -422,6 +440,8 @@ def _by_name(section: Section, field: Field) -> list[Constant]:
         return []
     found = [one for one in section.constants if one.name.startswith(f"{stem}_")]
     found = found or [one for one in section.constants if one.name.endswith(f"_{stem}")]
+    if len(found) == 1 and words.split(field.name)[-1] not in _ENUMS:
+        return []
     longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
     return [
         one
