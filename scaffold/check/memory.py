@@ -12,7 +12,7 @@ import os
 import sys
 
 from scaffold.content import built_in
-from scaffold.model.disk import digest, holds
+from scaffold.model.disk import digest, holds, stamp
 
 TYPE_CHECKING = False  # the one of typing is slow to import
 if TYPE_CHECKING:
@@ -97,41 +97,52 @@ class Slot:
 
     def load(self) -> Run | None:
         """Return the last run, if this very tool remembered it and nothing damaged it."""
-        try:
-            with open(self._path, "rb", buffering=0) as file:
-                stored = file.read()
-        except OSError:
-            return None
-        start = len(self._head)
-        sealed, data = stored[start : start + _SEAL], stored[start + _SEAL :]
-        if not stored.startswith(self._head) or sealed != digest(data).encode():
-            return None
-        return Run(*marshal.loads(data))  # noqa: S302  own files
+        data = read_sealed(self._path, self._head)
+        return None if data is None else Run(*marshal.loads(data))  # noqa: S302  own files
 
     def save(self, run: Run) -> None:
-        """Store a run; written aside and renamed, so that no reader sees half of it."""
-        aside = f"{self._path}.{os.getpid()}"
+        """Store a run."""
         everything: Any = (run.outside, run.trees, run.results, run.code, run.output)
         data = marshal.dumps(everything)
-        if len(data) > MAX_BYTES:
-            return
-        try:
-            os.makedirs(os.path.dirname(self._path), exist_ok=True)
-            with open(aside, "wb") as file:
-                file.write(self._head + digest(data).encode() + data)
-            os.replace(aside, self._path)
-            _trim(os.path.dirname(self._path))
-        except OSError:
-            return
+        if len(data) <= MAX_BYTES and write_sealed(self._path, self._head, data):
+            trim(os.path.dirname(self._path), MAX_RUNS, KEPT_RUNS)
 
 
-def _trim(kept: str) -> None:
-    """Drop the runs that were not renewed for longest when there are too many."""
-    names = os.listdir(kept)
-    if len(names) > MAX_RUNS:
-        paths = [os.path.join(kept, name) for name in names]
-        for path in sorted(paths, key=os.path.getmtime)[:-KEPT_RUNS]:
-            os.unlink(path)
+def read_sealed(path: str, head: bytes) -> bytes | None:
+    """Return what was written under a head, ``None`` if it is not there, other or damaged."""
+    try:
+        with open(path, "rb", buffering=0) as file:
+            stored = file.read()
+    except OSError:
+        return None
+    start = len(head) + _SEAL
+    data = stored[start:]
+    return data if stored[:start] == head + digest(data).encode() else None
+
+
+def write_sealed(path: str, head: bytes, data: bytes) -> bool:
+    """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
+    aside = f"{path}.{os.getpid()}"
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(aside, "wb") as file:
+            file.write(head + digest(data).encode() + data)
+        os.replace(aside, path)
+    except OSError:
+        return False
+    return True
+
+
+def trim(kept: str, most: int, rest: int) -> None:
+    """Drop the files that were not renewed for longest when there are too many."""
+    try:
+        names = os.listdir(kept)
+        if len(names) > most:
+            paths = [os.path.join(kept, name) for name in names]
+            for path in sorted(paths, key=os.path.getmtime)[:-rest]:
+                os.unlink(path)
+    except OSError:
+        return  # another process tidies up
 
 
 def tool() -> str:
@@ -146,7 +157,7 @@ def tool() -> str:
     for entry in sys.path:
         if entry.endswith(("site-packages", "dist-packages")):
             # Installing, removing or renewing anything touches the directory.
-            parts.append(f"{entry} {_stamp(entry)}")
+            parts.append(f"{entry} {stamp(entry)}")
     return digest("\n".join(parts).encode("utf-8", "surrogateescape"))
 
 
@@ -157,12 +168,4 @@ def _stamps(top: str) -> Iterator[str]:
                 if entry.name != "__pycache__":
                     yield from _stamps(entry.path)
             else:
-                yield f"{entry.path} {_stamp(entry.path)}"
-
-
-def _stamp(path: str) -> str:
-    try:
-        status = os.stat(path)
-    except OSError:
-        return ""
-    return f"{status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
+                yield f"{entry.path} {stamp(entry.path)}"

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from hashlib import sha256
 from importlib.machinery import ModuleSpec, SourceFileLoader
-from importlib.util import module_from_spec
-from types import ModuleType
+from types import CodeType, ModuleType
 
+from scaffold.check import compiled
 from scaffold.check.rule import Rule
 from scaffold.errors import ContentError
+from scaffold.model.disk import digest
 
 
 def load(roots: Sequence[str]) -> list[type[Rule]]:
@@ -24,9 +24,11 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
     rules: dict[str, type[Rule]] = {}
     names: dict[str, str] = {}
     for root in roots:
-        digest = sha256(os.path.abspath(root).encode()).hexdigest()[:8]
-        for area, path in _rule_files(root):
-            rule = _load_file(f"scaffold_content_{digest}", area, path)
+        prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
+        files = _rule_files(root)
+        codes = compiled.codes(root, [path for _, path in files], _compile)
+        for (area, path), code in zip(files, codes, strict=True):
+            rule = _load_file(prefix, area, path, code)
             for known in (rules.get(rule.code), rules.get(names.get(rule.name, ""))):
                 if known is not None:
                     other = sys.modules[known.__module__].__file__
@@ -49,7 +51,17 @@ def _rule_files(root: str) -> list[tuple[str, str]]:
     return found
 
 
-def _load_file(prefix: str, area: str, path: str) -> type[Rule]:
+def _compile(path: str) -> CodeType:
+    stem = os.path.basename(path)[:-3]
+    try:
+        code = SourceFileLoader(stem, path).get_code(stem)
+    except Exception as error:
+        raise ContentError(f"{path}: {type(error).__name__}: {error}") from error
+    assert code is not None  # noqa: S101  there is a source
+    return code
+
+
+def _load_file(prefix: str, area: str, path: str, code: CodeType) -> type[Rule]:
     stem = os.path.basename(path)[:-3]
     parent = f"{prefix}.{area}"
     for package, directory in ((prefix, os.path.dirname(os.path.dirname(path))), (parent, "")):
@@ -58,13 +70,13 @@ def _load_file(prefix: str, area: str, path: str) -> type[Rule]:
             module.__path__ = [directory or os.path.dirname(path)]
             sys.modules[package] = module
     name = f"{parent}.{stem}"
-    loader = SourceFileLoader(name, path)
-    spec = ModuleSpec(name, loader, origin=path)
-    spec.has_location = True
-    module = module_from_spec(spec)
+    module = ModuleType(name)
+    module.__file__ = path
+    module.__package__ = parent
+    module.__spec__ = ModuleSpec(name, SourceFileLoader(name, path), origin=path)
     sys.modules[name] = module
     try:
-        loader.exec_module(module)
+        exec(code, module.__dict__)  # noqa: S102  what the loader would do
     except Exception as error:
         del sys.modules[name]
         raise ContentError(f"{path}: {type(error).__name__}: {error}") from error

@@ -165,11 +165,12 @@ def _digest_of_content(path: str) -> str | None:
         return None
 
 
-def _stamp(path: str) -> str | None:
+def stamp(path: str) -> str:
+    """Return what changes when a file is written or replaced; empty for none."""
     try:
         status = os.stat(path)
     except OSError:
-        return None
+        return ""
     return f"{status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
 
 
@@ -188,7 +189,7 @@ _ANSWERS: dict[str, Callable[[str], Answer]] = {
     "is_directory": os.path.isdir,
     "is_executable": _is_executable,
     "real": os.path.realpath,
-    "stamp": _stamp,
+    "stamp": stamp,
 }
 
 
