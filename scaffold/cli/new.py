@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scaffold.check.diagnostic import Diagnostic
+    from scaffold.cli.wizard import Asked
     from scaffold.config import Config
     from scaffold.generate.draft import Draft
     from scaffold.generate.questions import Given
@@ -57,6 +58,9 @@ def run(options: argparse.Namespace) -> int:
     roots = content.roots("templates", settings.content)
     templates = template.load(roots)
     given = _given(options, templates, settings)
+    command = None
+    if "package" not in given:
+        given, command = _ask(options, templates, given)
     made = draft.draft(roots, templates, given, User(options.destination_directory))
     place.check(options.destination_directory, made.name)
     plan = _plan(options, made)
@@ -69,7 +73,27 @@ def run(options: argparse.Namespace) -> int:
     for remark in made.remarks:
         sys.stderr.write(f"note: {remark}\n")
     print(_summary(options, made, plan))
+    if command is not None:
+        print(f"\nThe same without questions:\n    {command}")
     return CLEAN
+
+
+def _ask(
+    options: argparse.Namespace, templates: dict[str, Template], given: dict[str, Given]
+) -> Asked:
+    """Ask on a terminal what a command line would say.
+
+    Raises:
+        InputError: there is no terminal.
+    """
+    from scaffold.errors import InputError
+    from scaffold.generate.defaults import User
+
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise InputError("PACKAGE is needed: the name of the new package; see `new --help`")
+    from scaffold.cli import wizard
+
+    return wizard.ask(templates, given, User(options.destination_directory))
 
 
 def _in_order(templates: dict[str, Template]) -> list[Template]:

@@ -14,6 +14,9 @@ from scaffold.generate.questions import Given
 TABLE = "new"
 """The table of the configuration file: ``[new]`` with the names of questions as keys."""
 
+LOGIN = "login"
+"""The origin of an answer that is a guess from the account."""
+
 _GIT_KEYS = {"maintainer_name": "user.name", "maintainer_email": "user.email"}
 
 
@@ -39,7 +42,7 @@ class User:
             return Given(value, f"git config {key}")
         self.guessed.append(question)
         login = _login()
-        return Given(login.name if question == "maintainer_name" else login.address, "login")
+        return Given(login.name if question == "maintainer_name" else login.address, LOGIN)
 
     @cached_property
     def _git(self) -> dict[str, str]:

@@ -48,7 +48,7 @@ def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) ->
         elif question.type == "parts":
             options |= {"action": "append"}
         if question.is_positional:
-            parser.add_argument(question.name, **options)
+            parser.add_argument(question.name, nargs="?", **options)
             continue
         action = parser.add_argument(flag(question.name), **options)
         if question.choices:

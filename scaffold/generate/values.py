@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import shlex
 import unicodedata
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from scaffold.errors import InputError
 from scaffold.generate import names
@@ -120,21 +122,39 @@ def dependencies(given: object) -> tuple[str, ...]:
 def parts(given: object) -> tuple[dict[str, object], ...]:
     """Return what each wanted part has: its ``kind``, and answers such as its ``name``.
 
+    A part is a mapping, or a text such as ``publisher:talker`` or, with answers of its own,
+    ``publisher:talker topic=chatter rate=5``, quoted as in a shell.
+
     Raises:
-        InputError: one is neither ``KIND:NAME`` nor a mapping with ``kind``.
+        InputError: one is neither.
     """
-    entries: list[dict[str, object]] = []
-    for item in given if isinstance(given, list | tuple) else [given]:
-        if isinstance(item, Mapping) and "kind" in item:
-            entries.append({str(key): value for key, value in item.items()})
-            continue
-        if isinstance(item, Mapping):
+    items = given if isinstance(given, list | tuple) else [given]
+    return tuple(_part(item) for item in items)
+
+
+def _part(item: object) -> dict[str, object]:
+    if isinstance(item, Mapping):
+        if "kind" not in item:
             raise InputError(f"{dict(item)!r} has no key 'kind'")
-        kind, colon, name = _string(item).partition(":")
-        if colon and not name:
-            raise InputError(f"{item!r} is not KIND:NAME, such as publisher:talker")
-        entries.append({"kind": kind, "name": name} if name else {"kind": kind})
-    return tuple(entries)
+        return {str(key): value for key, value in item.items()}
+    try:
+        first, *rest = shlex.split(_string(item)) or [""]
+    except ValueError as error:
+        raise InputError(f"{item!r}: {str(error).lower()}") from None
+    kind, colon, name = first.partition(":")
+    if colon and not name:
+        raise InputError(f"{item!r} is not KIND:NAME, such as publisher:talker")
+    entry: dict[str, Any] = {"kind": kind, "name": name} if name else {"kind": kind}
+    for word in rest:
+        key, equals, value = word.partition("=")
+        if not equals:
+            raise InputError(f"{word!r} in {item!r} is not QUESTION=ANSWER, such as rate=5")
+        entry[key] = [*_listed(entry[key]), value] if key in entry else value
+    return entry
+
+
+def _listed(value: object) -> list[object]:
+    return value if isinstance(value, list) else [value]
 
 
 def nothing(given: object) -> tuple[str, ...]:
