@@ -8,6 +8,8 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.cmake_facts import programs
 
 SHEBANG = "#!/usr/bin/env python3"
+ENV_WORDS = 2
+"""``/usr/bin/env python3``."""
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 
 
@@ -62,8 +64,27 @@ class ProgramWithoutShebang(Rule):
                 what = f"installed as a program, but does not begin with {SHEBANG}"
             elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
                 what = f"{line.strip()!r} names a Python that ROS 2 does not have"
+            elif source.text.partition("\n")[0].endswith("\r"):
+                end = 0
+                what = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
+            elif not _starts_python(line.strip()):
+                what = f"{line.strip()!r} starts no Python on other machines; write {SHEBANG}"
             else:
                 continue
             text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline
             fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
-            yield self.report(package.start_of(path), what, fix)
+            is_crlf = what.startswith("CRLF")
+            yield self.report(package.start_of(path), what, None if is_crlf else fix)
+
+
+def _starts_python(line: str) -> bool:
+    """Tell whether a shebang starts Python 3 wherever ROS 2 is installed."""
+    words = line.removeprefix("#!").split()
+    if words[:1] == ["/usr/bin/env"] and len(words) > 1:
+        if words[1] == "-S":
+            return len(words) > ENV_WORDS and words[2].startswith("python3")
+        # The kernel hands over all behind the first blank as one word.
+        return words[1] in {"python3", "python3.12"} and len(words) == ENV_WORDS
+    if words[:1] == ["/bin/env"]:
+        return words[1:] == ["python3"]
+    return words[:1] in (["/usr/bin/python3"], ["/usr/bin/python3.12"], ["/bin/python3"])

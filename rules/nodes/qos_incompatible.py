@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import Endpoint, Publisher, Subscription
 from scaffold.model.topics import topics_of
-from scaffold.record import NamedTuple
 
 _NODE = (
     "from rclpy.node import Node\n"
@@ -22,11 +21,8 @@ _NODE = (
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
-class _Conflict(NamedTuple):
-    """What does not fit."""
-
-    offers: str
-    asks: str
+_Conflict = tuple[str, str]
+"""What is offered, and what is asked for instead."""
 
 
 class QosIncompatible(Rule):
@@ -81,8 +77,7 @@ class QosIncompatible(Rule):
                     continue
                 both = ((subscription, publisher), (publisher, subscription))
                 for here, there in both:
-                    said = (conflict.offers, conflict.asks)
-                    other, has = said if here is subscription else said[::-1]
+                    other, has = conflict if here is subscription else conflict[::-1]
                     message = (
                         f"{_kind(here)} of {name!r} {has}, but {_kind(there)} in "
                         f"{there.location.path}:{there.location.line} {other}: nothing arrives"
@@ -100,9 +95,9 @@ def _conflict(publisher: Publisher, subscription: Subscription) -> _Conflict | N
     if offered is None or asked is None:
         return None
     if offered.reliability == "BEST_EFFORT" and asked.reliability == "RELIABLE":
-        return _Conflict("is BEST_EFFORT", "wants RELIABLE")
+        return ("is BEST_EFFORT", "wants RELIABLE")
     if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
-        return _Conflict("is VOLATILE", "wants TRANSIENT_LOCAL")
+        return ("is VOLATILE", "wants TRANSIENT_LOCAL")
     return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
 
 
@@ -112,9 +107,9 @@ def _conflict_of_time(
     if offered is None or asked is None:
         return None
     if "deadline" in asked and "deadline" not in offered:
-        return _Conflict("has no deadline", "wants a deadline")
+        return ("has no deadline", "wants a deadline")
     if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
-        return _Conflict("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
+        return ("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
     return None
 
 

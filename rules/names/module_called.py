@@ -1,0 +1,49 @@
+"""NM045: modules are not called."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_MODULES = {
+    "copy": "copy.copy",
+    "datetime": "datetime.datetime",
+    "glob": "glob.glob",
+    "pprint": "pprint.pprint",
+    "random": "random.random",
+    "time": "time.time",
+}
+
+
+class ModuleCalled(Rule):
+    """A module is called as if it were the function of the same name in it.
+
+    **Why.** ``TypeError: 'module' object is not callable``; in setup.py the build stops.
+
+    **Fix.** ``from glob import glob``, or ``glob.glob(...)``.
+
+    **Source.** Python documentation, "The import statement".
+    """
+
+    code = "NM045"
+    name = "module-called"
+    examples = (
+        Example("its function", {"setup.py": "import glob\n\nFILES = glob.glob('launch/*')\n"}),
+        Example(
+            "the module",
+            {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
+            at=("setup.py:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            if not any(one in module.imports_by_root for one in _MODULES):
+                continue
+            for call in module.walk(ast.Call):
+                name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
+                if name in _MODULES:
+                    message = f"{name!r} is a module here: TypeError; {_MODULES[name]}() is meant"
+                    yield self.report(module.location(call.func), message)

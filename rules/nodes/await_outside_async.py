@@ -1,0 +1,45 @@
+"""ND053: only async functions await."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Caller(Node):\n"
+    "    {}def ask(self):\n"
+    "        await self.client.call_async(self.request)\n"
+)
+
+
+class AwaitOutsideAsync(Rule):
+    """``await`` stands in a function that is not ``async``.
+
+    **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``; colcon
+    does not say so, the node dies when it is started.
+
+    **Fix.** Write ``async def``; rclpy runs such callbacks.
+
+    **Source.** Python documentation, "Await expression"; rclpy, ``executors.py``.
+    """
+
+    code = "ND053"
+    name = "await-outside-async"
+    examples = (
+        Example("async", {"caller.py": _NODE.format("async ")}),
+        Example("not async", {"caller.py": _NODE.format("")}, at=("caller.py:6",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            for node in module.walk(ast.Await):
+                for parent in module.parents(node):
+                    if isinstance(parent, ast.AsyncFunctionDef):
+                        break
+                    if isinstance(parent, ast.FunctionDef | ast.Lambda | ast.Module):
+                        message = "'await' outside of an async function: SyntaxError"
+                        yield self.report(module.location(node), message)
+                        break

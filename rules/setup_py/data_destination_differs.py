@@ -1,0 +1,103 @@
+"""SP052: data_files are pairs, and go where they are looked for."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_files import DATA_DIRECTORIES
+from scaffold.model.setup_py import DataFile
+from scaffold.model.values import Glob
+
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n"
+    "        ({}, {}),\n    ],\n)\n"
+)
+_FILES = {
+    "package.xml": "<package><name>talker</name><export>"
+    "<build_type>ament_python</build_type></export></package>\n",
+    "launch/talk.launch.py": "",
+}
+_GLOB = "['launch/talk.launch.py']"
+
+
+class DataDestinationDiffers(Rule):
+    """An entry of ``data_files`` is no pair, or installs where nobody looks.
+
+    **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
+    found in the share directory of package 'talker'``. An absolute path leaves the workspace, or
+    stops colcon.
+
+    **Fix.** ``(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))``.
+
+    **Source.** ROS 2 documentation, "Launch files"; ``colcon_core/task/python``; setuptools
+    documentation, ``data_files``.
+    """
+
+    code = "SP052"
+    name = "data-destination-differs"
+    examples = (
+        Example("right", {**_FILES, "setup.py": _SETUP.format("'share/talker/launch'", _GLOB)}),
+        Example(
+            "without the package",
+            {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "absolute",
+            {**_FILES, "setup.py": _SETUP.format("'/share/talker/launch'", _GLOB)},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "no list",
+            {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "no comma",
+            {
+                **_FILES,
+                "setup.py": _SETUP.format("'share/talker'", "['package.xml']").replace(
+                    "]),", f"])\n        ('share/talker/launch', {_GLOB}),"
+                ),
+            },
+            at=("setup.py:6",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if package.build_type != "ament_python" or not package.manifest.name:
+            return
+        share = f"share/{package.name}"
+        for data in setup.data_files:
+            if data.malformed:
+                yield self.report(data, f"{data.malformed}: the build stops")
+            problem = _problem(data, share)
+            if problem:
+                yield self.report(data.destination_location, problem)
+        keyword = setup.keywords.get("data_files")
+        for call in ast.walk(keyword.node) if keyword else ():
+            if isinstance(call, ast.Call) and isinstance(call.func, ast.Tuple):
+                message = "a comma is missing behind this: 'tuple' object is not callable"
+                yield self.report(setup.module.location(call.func), message)
+
+
+def _problem(data: DataFile, share: str) -> str:
+    target = data.destination
+    if not isinstance(target, str):
+        return ""
+    if target.startswith("/"):
+        return f"installs to {target}: an absolute path leaves the workspace; write {share}/..."
+    sources = [one.pattern if isinstance(one, Glob) else str(one) for one in data.sources]
+    is_data = bool(sources) and all(
+        one == "package.xml" or one.startswith(tuple(f"{name}/" for name in _DIRECTORIES))
+        for one in sources
+    )
+    if is_data and target.rstrip("/") != share and not target.startswith(f"{share}/"):
+        return f"installs {sources[0]} to {target}; it is looked for in {share}/"
+    return ""
+
+
+_DIRECTORIES = ("launch", *DATA_DIRECTORIES)

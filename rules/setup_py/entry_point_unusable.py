@@ -1,0 +1,110 @@
+"""SP053: entry points are functions that can be called without arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.model.setup_py import EntryPoint
+
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
+    "    entry_points={{'console_scripts': ['node = {}:main']}},\n)\n"
+)
+_FILES = {"talker/__init__.py": "", "talker/node.py": "def main(args=None):\n    pass\n"}
+
+
+class EntryPointUnusable(Rule):
+    """An entry point names a module by another path, or a function that needs arguments.
+
+    **Why.** The script that setuptools makes imports the module by its full name and calls the
+    function without arguments: ``ModuleNotFoundError: No module named 'node'``, ``TypeError: main()
+    missing 1 required positional argument``.
+
+    **Fix.** ``name = package.module:function``, and ``def main(args=None):``.
+
+    **Source.** setuptools documentation, "Entry points".
+    """
+
+    code = "SP053"
+    name = "entry-point-unusable"
+    examples = (
+        Example("full name", {"setup.py": _SETUP.format("talker.node"), **_FILES}),
+        Example(
+            "without the package",
+            {"setup.py": _SETUP.format("node"), **_FILES},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "another package",
+            {"setup.py": _SETUP.format("my_package.node"), **_FILES},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "an argument",
+            {
+                "setup.py": _SETUP.format("talker.node"),
+                **_FILES,
+                "talker/node.py": "def main(args):\n    pass\n",
+            },
+            at=("talker/node.py:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if setup.keyword("package_dir") is not None or setup.keyword("py_modules") is not None:
+            return
+        for entry in setup.console_scripts:
+            if entry.malformed or not entry.function:
+                continue
+            path = _file_of(package, entry.module)
+            if path:
+                yield from self._check_function(package, entry, path)
+                continue
+            meant = _meant(package, entry.module)
+            if meant:
+                message = f"no module {entry.module!r} is installed; {meant!r} is meant"
+                yield self.report(entry, message)
+
+    def _check_function(
+        self, package: Package, entry: EntryPoint, path: str
+    ) -> Iterator[Diagnostic]:
+        try:
+            module = package.module(path)
+        except ViewError:
+            return
+        function = module.functions.get(entry.function)
+        if function is not None and not function.node.decorator_list:
+            arguments = function.node.args
+            positional = [*arguments.posonlyargs, *arguments.args]
+            count = len(positional) - len(arguments.defaults)
+            if count:
+                message = (
+                    f"the entry point {entry.name!r} of setup.py calls {entry.function}() without "
+                    f"arguments: TypeError; give {positional[0].arg} a default"
+                )
+                yield self.report(function, message)
+            return
+        facts = package.node_facts(path)
+        if any(node.name == entry.function for node in facts.classes):
+            message = f"{entry.function} is a node class: a program needs a function that spins it"
+            yield self.report(entry, message)
+
+
+def _file_of(package: Package, name: str) -> str:
+    base = name.replace(".", "/")
+    return next((one for one in (f"{base}.py", f"{base}/__init__.py") if package.has(one)), "")
+
+
+def _meant(package: Package, name: str) -> str:
+    """Return the module of the package that a name without its package means."""
+    first, _, rest = name.partition(".")
+    if package.has_directory(first):
+        return ""
+    for root in package.glob("*/__init__.py"):
+        own = root.partition("/")[0]
+        for one in (f"{own}.{name}", f"{own}.{rest}" if rest else ""):
+            if one and _file_of(package, one):
+                return one
+    return ""

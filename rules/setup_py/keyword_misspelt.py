@@ -1,0 +1,75 @@
+"""SP050: setup() gets keywords, and entry points groups, that somebody reads."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_KNOWN = frozenset(
+    """
+    author author_email classifiers cmdclass command_options data_files description distclass
+    download_url eager_resources entry_points exclude_package_data ext_modules ext_package
+    extras_require headers include_dirs include_package_data install_requires keywords license
+    license_file license_files long_description long_description_content_type maintainer
+    maintainer_email name namespace_packages obsoletes options package_data package_dir packages
+    platforms project_urls provides py_modules python_requires requires script_args script_name
+    scripts setup_requires test_loader test_suite tests_require url use_2to3 use_scm_version
+    version zip_safe
+    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+)
+_GROUP = "console_scripts"
+_WRONG_GROUPS = frozenset(
+    {"console_script", "scripts", "console", "consolescripts", "console-scripts", "executables"}
+)
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
+    "    {}={{\n        '{}': ['node = talker.node:main'],\n    }},\n)\n"
+)
+
+
+class KeywordMisspelt(Rule):
+    """``setup`` gets a keyword, or ``entry_points`` a group, that nobody reads.
+
+    **Why.** setuptools only warns ``Unknown distribution option``, or says nothing: no executable
+    is made, no file installed.
+
+    **Fix.** Spell it as setuptools does: ``entry_points``, ``data_files``, ``console_scripts``.
+
+    **Source.** setuptools documentation, "Keywords", "Entry points".
+    """
+
+    code = "SP050"
+    name = "keyword-misspelt"
+    examples = (
+        Example("known", {"setup.py": _SETUP.format("entry_points", _GROUP)}),
+        Example(
+            "the keyword",
+            {"setup.py": _SETUP.format("entry_point", _GROUP)},
+            at=("setup.py:6",),
+        ),
+        Example(
+            "the group",
+            {"setup.py": _SETUP.format("entry_points", "console_script")},
+            at=("setup.py:7",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        for word in setup.call.keywords if setup.call else ():
+            if word.arg is None or word.arg in _KNOWN:
+                continue
+            near = get_close_matches(word.arg, _KNOWN, 1, 0.8)
+            if near:
+                message = f"setup() has no {word.arg!r}: nobody reads it; {near[0]!r} is meant"
+                yield self.report(setup.module.location(word), message)
+        keyword = setup.keyword("entry_points")
+        node = keyword.node if keyword else None
+        if isinstance(node, ast.Dict):
+            for key in node.keys:
+                if isinstance(key, ast.Constant) and key.value in _WRONG_GROUPS:
+                    message = f"nobody reads the group {key.value!r}: {_GROUP!r} makes executables"
+                    yield self.report(setup.module.location(key), message)

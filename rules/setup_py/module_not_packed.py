@@ -1,0 +1,121 @@
+"""SP051: packages lists the packages that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.setup_py import FindPackages, SetupPy
+from scaffold.model.values import Unknown
+
+_SETUP = (
+    "from setuptools import find_packages, setup\n\nsetup(\n    name='talker',\n{}"
+    "    entry_points={{'console_scripts': ['node = talker.node:main']}},\n)\n"
+)
+_FILES = {"talker/__init__.py": "", "talker/node.py": "def main():\n    pass\n"}
+
+
+class ModuleNotPacked(Rule):
+    """``packages`` leaves out the package that the entry points start, or names one not there.
+
+    **Why.** The executables are made, the code is not installed: ``ModuleNotFoundError`` when they
+    are started. For a package that does not exist the build stops: ``package directory 'demo' does
+    not exist``.
+
+    **Fix.** ``packages=find_packages(exclude=['test'])``.
+
+    **Source.** setuptools documentation, "Package discovery".
+    """
+
+    code = "SP051"
+    name = "module-not-packed"
+    examples = (
+        Example(
+            "found",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(exclude=['test']),\n"),
+                **_FILES,
+            },
+        ),
+        Example("none", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:3",)),
+        Example(
+            "left out",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
+                **_FILES,
+            },
+            at=("setup.py:5",),
+        ),
+        Example(
+            "another name",
+            {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
+            at=("setup.py:5", "setup.py:5"),
+        ),
+        Example(
+            "no __init__.py",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(),\n"),
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            at=("talker/__init__.py:1",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if setup.call is None or setup.has_unknown_keywords or _is_configured(package, setup):
+            return
+        keyword = setup.keyword("packages")
+        packages = setup.packages
+        roots = {one.module.partition(".")[0] for one in setup.console_scripts} - {""}
+        if isinstance(packages, FindPackages):
+            yield from self._check_found(package, setup, packages, roots)
+            return
+        names = list(packages) if isinstance(packages, list | tuple) else None
+        if (keyword is not None and names is None) or setup.keyword("py_modules"):
+            return
+        at = keyword or setup
+        for name in names or ():
+            if not package.has_directory(name.partition(".")[0]):
+                message = (
+                    f"packages names {name!r}, but there is no such directory: the build stops"
+                )
+                yield self.report(at, message)
+        for root in sorted(roots - {one.partition(".")[0] for one in names or ()}):
+            if package.has_directory(root):
+                message = f"packages leaves out {root!r}, which the entry points start"
+                yield self.report(at, message)
+
+    def _check_found(
+        self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
+    ) -> Iterator[Diagnostic]:
+        keyword = setup.keyword("packages")
+        if keyword is None or packages.namespace:
+            return
+        if isinstance(packages.where, Unknown):
+            return
+        where = packages.where.strip("./")
+        if where and not package.has_directory(where):
+            message = f"find_packages looks in {where}/, which does not exist: nothing is installed"
+            yield self.report(keyword, message)
+            return
+        for root in sorted(roots) if not where else ():
+            if isinstance(packages.include, Unknown) or isinstance(packages.exclude, Unknown):
+                return
+            is_taken = any(fnmatchcase(root, one) for one in packages.include)
+            if any(fnmatchcase(root, one) for one in packages.exclude) or not is_taken:
+                message = f"find_packages leaves out {root!r}, which the entry points start"
+                yield self.report(keyword, message)
+            elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
+                init = f"{root}/__init__.py"
+                message = f"missing: find_packages does not install {root}/ without it"
+                yield self.report(package.start_of(init), message)
+
+
+def _is_configured(package: Package, setup: SetupPy) -> bool:
+    """Tell whether packages are named in some other way."""
+    if setup.keyword("package_dir") is not None:
+        return True
+    text = package.source("setup.cfg").text if package.has("setup.cfg") else ""
+    return "packages" in text or package.has("pyproject.toml")
