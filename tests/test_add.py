@@ -10,10 +10,14 @@ from textwrap import dedent
 
 import pytest
 
+from scaffold import content
 from scaffold.cli.main import main
+from scaffold.generate import parts, template
+from scaffold.generate.template import Role
 from scaffold.smoke import environment
 from tests.test_generated import Workspace, counts, needs_ros
 
+TEMPLATES = template.load(content.roots("templates"))
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 CMAKE = {
     "package.xml": """\
@@ -126,8 +130,8 @@ def test_new_and_add_make_what_new_makes_of_both(
     answers = tmp_path / "answers.yaml"
     answers.write_text(
         f"build_type: {build_type}\ncomments: {comments}\ndescription: Beats\n"
-        "add:\n  - {kind: publisher, name: talker}\n"
-        "  - {kind: publisher, name: beat, topic: beat, message_type: std_msgs/Float32, rate: '5'}\n"
+        "add:\n  - {kind: publisher, name: talker}\n  - kind: publisher\n    name: beat\n"
+        "    topic: beat\n    message_type: std_msgs/Float32\n    rate: '5'\n"
     )
     both, first = tmp_path / "both", tmp_path / "first"
     words = ["new", "demo", *PERSON, "--destination-directory"]
@@ -282,6 +286,20 @@ def test_what_cannot_be_edited_is_said(tmp_path: Path, capsys: pytest.CaptureFix
         f"    {demo}/CMakeLists.txt: ament_add_pytest_test(test_talker test/test_talker.py)\n"
         "        because there is no ament_package() at the top level\n"
     ) in said
+
+
+@pytest.mark.parametrize("kind", parts.kinds(TEMPLATES))
+def test_every_kind_can_be_added(kind: str, demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    role = TEMPLATES[kind].role
+    name = "Extra" if role is Role.INTERFACE else "extra"
+    if role is not Role.NODE and (demo / "setup.py").exists():
+        assert "needs the build type ament_cmake" in refused(demo, capsys, kind, name)
+        return
+    assert add(demo, kind, name) == 0
+    assert capsys.readouterr().err == ""
+    after = read(demo)
+    assert add(demo, kind, name) == 0
+    assert read(demo) == after
 
 
 # -- refusals
