@@ -15,13 +15,14 @@ FORMATS = ("text", "json")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
-    parser.add_argument(
+    types = parser.add_argument(
         "types",
         nargs="*",
         metavar="TYPE",
         help="show these: std_msgs/msg/String, std_msgs/String or String; "
         "a package lists its interfaces (default: list all)",
     )
+    types.completer = lambda **_: _definitions(".").all_names()  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
         "--workspace",
         default=".",

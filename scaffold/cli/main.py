@@ -29,6 +29,7 @@ VERBS = {
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
+    "completion": "print what a shell needs for tab completion",
 }
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
 

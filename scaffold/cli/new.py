@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
     from scaffold import config, content
-    from scaffold.generate import questions, template
+    from scaffold.generate import parts, questions, template
 
-    roots = content.roots("templates", config.load().content)
-    questions.add_flags(parser, questions.unique(_in_order(template.load(roots))))
+    templates = template.load(content.roots("templates", config.load().content))
+    questions.add_flags(parser, questions.unique(_in_order(templates)), parts.kinds(templates))
     parser.add_argument(
         "--destination-directory",
         metavar="DIR",

@@ -11,7 +11,7 @@ import questionary
 from scaffold.errors import InputError
 from scaffold.generate import parts, questions
 from scaffold.generate.defaults import LOGIN, User
-from scaffold.generate.questions import SEVERAL, Given
+from scaffold.generate.questions import INTERFACES, SEVERAL, Given
 from scaffold.generate.template import BASE, Question, Template
 
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 ORIGIN = "your answer"
 _DONE = "nothing more"
-_KINDS = {"message": "msg", "service": "srv", "action": "action"}
-"""The kinds of interfaces by the types of answers that name one."""
 _TOGETHER = {"fields": ";", "dependencies": " "}
 """What separates several values in one line, by the type of the answer."""
 
@@ -116,8 +114,8 @@ def _ask(
         return questionary.confirm(text, default=bool(known)).unsafe_ask()
     shown = _shown(question, known)
     check = _validator(question, refused)
-    if definitions is not None and question.type in _KINDS:
-        middle = f"/{_KINDS[question.type]}/"
+    if definitions is not None and question.type in INTERFACES:
+        middle = f"/{INTERFACES[question.type]}/"
         names = [name for name in definitions.all_names() if middle in name]
         return questionary.autocomplete(
             text, choices=names, default=shown, validate=check, match_middle=True

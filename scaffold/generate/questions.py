@@ -12,11 +12,14 @@ from difflib import get_close_matches
 from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
+from scaffold.generate.qos import NAMES
 from scaffold.generate.template import Question, Template, read_yaml
 from scaffold.generate.values import TYPES
 
 SEVERAL = "several"
 """The type of a question that takes several of its choices."""
+INTERFACES: Mapping[str, str] = {"message": "msg", "service": "srv", "action": "action"}
+"""The kinds of interfaces by the types of answers that name one."""
 
 
 class Given(NamedTuple):
@@ -36,10 +39,17 @@ def unique(templates: Iterable[Template]) -> list[Question]:
     return list(found.values())
 
 
-def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) -> None:
+def add_flags(
+    parser: argparse.ArgumentParser, questions: Iterable[Question], kinds: Sequence[str] = ()
+) -> None:
     """Define a flag, or a positional argument, for each question.
 
     The words are judged later, with one line for an error instead of argparse's usage text.
+
+    Args:
+        parser: Of the verb.
+        questions: Each becomes a flag.
+        kinds: The kinds of parts, for tab completion.
     """
     for question in questions:
         options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
@@ -51,8 +61,8 @@ def add_flags(parser: argparse.ArgumentParser, questions: Iterable[Question]) ->
             parser.add_argument(question.name, nargs="?", **options)
             continue
         action = parser.add_argument(flag(question.name), **options)
-        if question.choices:
-            action.completer = _completer(question.choices)  # type: ignore[attr-defined]  # argcomplete
+        offer = completer(question) if question.type != "parts" else (lambda **_: kinds)
+        action.completer = offer  # type: ignore[attr-defined]  # argcomplete
 
 
 def flag(name: str) -> str:
@@ -77,8 +87,25 @@ def _metavar(question: Question) -> str:
     return question.metavar or question.name.rpartition("_")[2].upper()
 
 
-def _completer(choices: Sequence[str]) -> Callable[..., Sequence[str]]:
-    return lambda **_: choices
+def completer(question: Question) -> Callable[..., Sequence[str]] | None:
+    """Return what offers answers when the user presses tab; ``None``: names of files."""
+    if question.choices:
+        return lambda **_: question.choices
+    if question.type in INTERFACES:
+        return lambda prefix, **_: _interfaces(INTERFACES[question.type], prefix)
+    if question.type == "qos":
+        return lambda **_: NAMES
+    return None if question.type in {"text", "person", "address"} else lambda **_: ()
+
+
+def _interfaces(kind: str, prefix: str) -> list[str]:
+    """Return the types of a kind in full, or by their names alone after a capital."""
+    from scaffold.generate import payload
+
+    names = [name for name in payload.definitions().all_names() if f"/{kind}/" in name]
+    if prefix[:1].isupper():
+        return sorted({name.rpartition("/")[2] for name in names})
+    return names
 
 
 def from_flags(options: argparse.Namespace, questions: Iterable[Question]) -> dict[str, Given]:

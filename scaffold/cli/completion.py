@@ -1,0 +1,27 @@
+"""``ros2-scaffold completion SHELL``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+SHELLS = ("bash", "zsh", "fish")
+_HOW = {
+    "bash": '# In ~/.bashrc: eval "$(ros2-scaffold completion bash)"\n',
+    "zsh": '# In ~/.zshrc, after compinit: eval "$(ros2-scaffold completion zsh)"\n',
+    "fish": "# In ~/.config/fish/config.fish: ros2-scaffold completion fish | source\n",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.add_argument("shell", choices=SHELLS, help="the shell")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the code that the shell has to read."""
+    from argcomplete.shell_integration import shellcode
+
+    code = shellcode(["ros2-scaffold"], shell=options.shell)
+    sys.stdout.write(_HOW[options.shell] + code.strip("\n") + "\n")
+    return 0
