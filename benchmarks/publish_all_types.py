@@ -39,6 +39,7 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=4, metavar="N")
     parser.add_argument("--keep", metavar="DIRECTORY", help="where the packages are written")
     options = parser.parse_args()
+    os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)  # where `new` looks for messages
     known = installed()
     with tempfile.TemporaryDirectory() as scratch:
         directory = Path(options.keep or scratch)

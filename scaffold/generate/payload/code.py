@@ -62,7 +62,7 @@ class Block:
             .replace(COUNTER, COUNT)
             .replace(_CLOCK, NOW)
         )
-        text = re.sub(r"(?<![.\w])msg\b", target, text)
+        text = re.sub(r"(?<![.\w'/])msg\b", target, text).replace(_SINE.format(COUNT), WAVE)
         for name, value in re.findall(r"(?m)^([a-z]\w*) = (.*)$", text):
             definition = self._placed(value)
             known = self.local(name)
@@ -70,7 +70,7 @@ class Block:
                 text = re.sub(rf"(?m)^{name} = .*\n", "", text, count=1)
             elif known is not None:
                 new = f"{target.rpartition('.')[2]}_{name}"
-                text = re.sub(rf"(?<![.\w]){name}\b(?!=)", new, text)
+                text = re.sub(rf"(?<![.\w'/]){name}\b(?!=)", new, text)
                 self._locals[new] = definition
             else:
                 self._locals[name] = definition

@@ -19,7 +19,7 @@ STEPS = 10
 """Of an action that does not tell how many it has."""
 _DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
 _WHY = re.compile("(.*_)?(message|msg|reason|description|info|details|text|status_message)$")
-_ERROR = re.compile("(.*_)?error(_.*)?$")
+_ERROR = re.compile("(.*_)?(error|failure)(_.*)?$")
 _NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
 
 

@@ -36,7 +36,7 @@ class Walk:
     Args:
         types: The interface.
         root: The variable that is filled.
-        changing: Whether fields that would stay the same change too.
+        changing: Whether a field that would stay the same changes too.
         brief: 0 to fill all fields; more, to fill fewer of them, the most telling ones.
     """
 
@@ -152,6 +152,13 @@ class Walk:
 
     def field(self, block: Block, section: Section, owner: str, field: Field, target: str) -> None:
         """Add statements that fill one field of a section, as `fill` does for all."""
+        self._fill_field(block, section, owner, field, target)
+        if self._changing and any(COUNT in text for text in block.texts()):
+            self._changing = False  # one that changes is enough
+
+    def _fill_field(
+        self, block: Block, section: Section, owner: str, field: Field, target: str
+    ) -> None:
         if field.type.is_array:
             self._array(block, field, target)
         elif field.type.full_name == DURATION:
@@ -161,7 +168,9 @@ class Walk:
         elif options := constants_of(section, field):
             value = self._enum(block, field, options, owner)
             block.add(f"{target} = {value}", said(field, ""))
-            if not self._changing and owner.partition(".")[0] == self._types.interface.name:
+            if COUNT in value:
+                self._show(target, "")
+            elif owner.partition(".")[0] == self._types.interface.name:
                 self._expect(target, f"{{}} == {value}")
         else:
             self._scalar(block, field, target)
@@ -282,7 +291,8 @@ class Walk:
             return f"[({COUNT} + index) % 100 for index in range({size})]", ""
         if self._changing:
             text = words.counting_text(name, element.text_bound)
-            return several(text, size), ""
+            text = text.replace(COUNT, f"({COUNT} + index)" if "%" in text else f"{COUNT} + index")
+            return f"[{text} for index in range({size})]", ""
         texts = [f"'{text}'" for text in numbered(name, size, element.text_bound)]
         return f"[{', '.join(texts)}]", ""
 

@@ -27,6 +27,15 @@ RECIPES: dict[str, Recipe] = {
         log="{msg.from_value} to {msg.to_value}",
         checks=("message.from_value < message.to_value",),
     ),
+    "ListParametersResult": Recipe(
+        says="the names of parameters, one more each time up to ten",
+        code="""
+            msg.names = [f'motor.gain_{number}' for number in range(self.count % 10 + 1)]
+            msg.prefixes = ['motor']
+        """,
+        log="{len(msg.names)} names",
+        checks=("1 <= len(message.names) <= 10", "message.prefixes == ['motor']"),
+    ),
     "Log": Recipe(
         says="a line of a log",
         code="""
