@@ -1,0 +1,42 @@
+"""How people fill messages of action_msgs."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import Recipe
+
+RECIPES: dict[str, Recipe] = {
+    "GoalInfo": Recipe(
+        says="a new goal: a random identifier and the time",
+        code="""
+            msg.goal_id.uuid = list(uuid.uuid4().bytes)
+            msg.stamp = self.get_clock().now().to_msg()
+        """,
+        log="{uuid.UUID(bytes=bytes(msg.goal_id.uuid))}",
+        checks=("any(message.goal_id.uuid)", "message.stamp.sec > 0"),
+    ),
+    "GoalStatus": Recipe(
+        says="a goal that is worked on",
+        code="""
+            msg.goal_info.goal_id.uuid = list(uuid.uuid4().bytes)
+            msg.goal_info.stamp = self.get_clock().now().to_msg()
+            msg.status = GoalStatus.STATUS_EXECUTING
+        """,
+        log="status {msg.status}",
+        checks=("message.status == GoalStatus.STATUS_EXECUTING", "message.goal_info.stamp.sec > 0"),
+    ),
+    "GoalStatusArray": Recipe(
+        says="one goal that is done and another one that is worked on",
+        code="""
+            for status in (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_EXECUTING):
+                goal = GoalStatus(status=status)
+                goal.goal_info.goal_id.uuid = list(uuid.uuid4().bytes)
+                goal.goal_info.stamp = self.get_clock().now().to_msg()
+                msg.status_list.append(goal)
+        """,
+        log="{len(msg.status_list)} goals",
+        checks=(
+            "len(message.status_list) == 2",
+            "all(goal.goal_info.stamp.sec > 0 for goal in message.status_list)",
+        ),
+    ),
+}

@@ -1,0 +1,43 @@
+"""How people fill messages of actionlib_msgs."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import Recipe
+
+RECIPES: dict[str, Recipe] = {
+    "GoalID": Recipe(
+        says="the number of a goal and the time",
+        code="""
+            msg.stamp = self.get_clock().now().to_msg()
+            msg.id = f'goal_{self.count}'
+        """,
+        log="{msg.id}",
+        checks=("message.stamp.sec > 0", "message.id.startswith('goal_')"),
+    ),
+    "GoalStatus": Recipe(
+        says="a goal that is worked on",
+        code="""
+            msg.goal_id.stamp = self.get_clock().now().to_msg()
+            msg.goal_id.id = f'goal_{self.count}'
+            msg.status = GoalStatus.ACTIVE
+            msg.text = 'on the way'
+        """,
+        log="{msg.goal_id.id}: {msg.text}",
+        checks=("message.status == GoalStatus.ACTIVE", "message.goal_id.id.startswith('goal_')"),
+    ),
+    "GoalStatusArray": Recipe(
+        says="one goal that is done and another one that is worked on",
+        code="""
+            for status in (GoalStatus.SUCCEEDED, GoalStatus.ACTIVE):
+                goal = GoalStatus(status=status)
+                goal.goal_id.stamp = msg.header.stamp
+                goal.goal_id.id = f'goal_{self.count + len(msg.status_list)}'
+                msg.status_list.append(goal)
+        """,
+        log="{len(msg.status_list)} goals",
+        checks=(
+            "len(message.status_list) == 2",
+            "all(goal.goal_id.id.startswith('goal_') for goal in message.status_list)",
+        ),
+    ),
+}

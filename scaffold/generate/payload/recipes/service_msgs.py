@@ -1,0 +1,23 @@
+"""How people fill messages of service_msgs."""
+
+from __future__ import annotations
+
+from scaffold.generate.payload.recipe import Recipe
+
+RECIPES: dict[str, Recipe] = {
+    "ServiceEventInfo": Recipe(
+        says="a request that a client with a fixed identifier sends",
+        code="""
+            msg.event_type = ServiceEventInfo.REQUEST_SENT
+            msg.stamp = self.get_clock().now().to_msg()
+            msg.client_gid = list(range(16))
+            msg.sequence_number = self.count
+        """,
+        log="request {msg.sequence_number}",
+        checks=(
+            "message.event_type == ServiceEventInfo.REQUEST_SENT",
+            "message.stamp.sec > 0",
+            "list(message.client_gid) == list(range(16))",
+        ),
+    ),
+}
