@@ -146,29 +146,46 @@ def test_new_and_add_make_what_new_makes_of_both(
 
 
 @pytest.mark.parametrize(
-    ("first", "kind", "name"),
+    ("first", "kind", "name", "more"),
     [
-        ("message:Status", "message", "Speed"),
-        ("message:Status", "service", "Reset"),
-        ("cpp_program:one", "cpp_program", "two"),
+        ("message:Status", "message", "Speed", []),
+        ("message:Status", "action", "Drive", []),
+        ("cpp_program:one", "cpp_program", "two", []),
+        ("cpp_program:one", "publisher", "talker", []),
+        ("cpp_program:one", "message", "Status", []),
+        ("publisher:talker", "cpp_program", "one", []),
+        ("publisher:talker", "parameters", "settings", ["--extras", "launch"]),
+        ("subscriber:listener", "service_server", "server", ["--extras", "launch", "ci"]),
     ],
 )
-def test_interfaces_and_programs_join_their_like(
-    first: str, kind: str, name: str, tmp_path: Path
+@pytest.mark.parametrize("is_changed", [False, True])
+def test_parts_join_those_of_other_kinds(
+    first: str, kind: str, name: str, more: list[str], tmp_path: Path, *, is_changed: bool
 ) -> None:
-    words = ["new", "demo", *PERSON, "--description", "Both", "--add", first]
+    words = ["new", "demo", *PERSON, "--description", "Both", *more, "--add", first]
     both, one = tmp_path / "both", tmp_path / "one"
     assert main([*words, "--add", f"{kind}:{name}", "--destination-directory", str(both)]) == 0
     assert main([*words, "--destination-directory", str(one)]) == 0
+    if is_changed:
+        with (one / "demo" / "package.xml").open("a") as file:
+            file.write("<!-- mine -->\n")
     assert add(one / "demo", kind, name) == 0
-    found, expected = read(one / "demo"), read(both / "demo")
-    assert found.keys() == expected.keys()
-    differing = {path for path in found if found[path] != expected[path]}
-    if kind == "cpp_program":  # `new` puts the commands of programs into one block
-        assert differing == {"README.md", ".ros2-scaffold.yaml"}
-    else:
-        assert differing == set()
-    assert add(one / "demo", kind, name, "--diff") == 0
+    after, expected = read(one / "demo"), read(both / "demo")
+    assert after.keys() == expected.keys()
+    if not is_changed:
+        assert after == expected
+    assert add(one / "demo", kind, name) == 0
+    assert read(one / "demo") == after
+    assert main(["check", str(one / "demo")]) == 0
+
+
+def test_what_does_not_fit_a_package_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["new", "demo", *PERSON, "--destination-directory", str(tmp_path)]
+    assert main([*words, "--add", "message:Status"]) == 0
+    capsys.readouterr()
+    assert "such as demo_interfaces" in refused(tmp_path / "demo", capsys, "publisher", "talker")
 
 
 # -- packages of others

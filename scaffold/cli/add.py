@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
 def _asked(templates: Mapping[str, Template], kinds: list[str]) -> list[Question]:
     """Return the questions that may be answered; the name is an argument of its own."""
     from scaffold.generate import questions
-    from scaffold.generate.add import OF_PACKAGES
+    from scaffold.generate.own import OF_PACKAGES
     from scaffold.generate.template import BASE
 
     names = {templates[kind].name_question for kind in kinds}

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.check.fixer import Overlay
 from scaffold.errors import ConflictError, InputError, ParseError, ViewError
-from scaffold.generate import facts, licenses, parts, record
+from scaffold.generate import facts, licenses, own, parts
 from scaffold.generate.context import part_scopes
 from scaffold.generate.defaults import User
 from scaffold.generate.draft import Composed, compose
@@ -30,8 +31,6 @@ _OF_A_DAY = r"\b(?:\d{4}-\d{2}-\d{2}|\d{4}(?=[ ,]))"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
 
 
-OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
-"""The questions of the base that a part asks, too; a package has answered most of them."""
 HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
 """What the checker finds in files without a header; where the licence is not known that is so."""
 
@@ -87,19 +86,39 @@ def add(
         ConflictError: it has a program of that name already.
     """
     try:
-        layout = layout_of(package)
-        composed = _compose(package, part, given, roots, templates, user)
-        rendered = _placed(composed, package, layout)
-        addition = _addition(composed, package, layout, rendered)
-        _refuse_taken(package, addition)
-        edited = edit(package, addition)
-        noted = _noted(package, composed, rendered, addition)
+        return _add(package, part, given, roots, templates, user)
     except ParseError as error:
         raise InputError(f"{told(package, error)}; nothing was changed") from error
     except ViewError as error:
         raise InputError(f"{package.directory}: {error} is missing") from error
+
+
+def _add(
+    package: Package,
+    part: tuple[str, str],
+    given: Mapping[str, Given],
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    user: User,
+) -> Added:
+    layout, old = layout_of(package), own.record_of(package)
+    answers = {**own.remembered(old), **given}
+    composed = _compose(package, part, answers, roots, templates, user)
+    rendered = _placed(composed, package, layout)
+    addition = _addition(composed, package, layout, rendered)
+    _refuse_taken(package, addition)
     new = {path: _kept(package, path, text) for path, text in rendered.files.items()}
-    files = {**new, **edited.files, **noted}
+    whole = own.as_new(package, old, composed, roots, templates, user) if old else None
+    by_hand: tuple[ByHand, ...] = ()
+    if whole is not None:
+        # The files of the part have the date of today, those of the package keep theirs.
+        files = {**{path: text.encode() for path, text in whole.items()}, **new}
+    else:
+        edited = edit(package, addition)
+        files, by_hand = {**new, **edited.files}, edited.by_hand
+        if old is not None:
+            then = _compose(package, part, answers, roots, templates, user, old.date)
+            files |= own.noted(old, composed, _placed(then, package, layout), addition)
     overlay = Overlay(package.tree)
     overlay.changed.update(files)
     overlay.executable.update(rendered.executable)
@@ -108,7 +127,7 @@ def add(
         tuple(new),
         rendered.executable,
         rendered.notes,
-        edited.by_hand,
+        by_hand,
         addition.program.name if addition.program else _built(composed),
         Package(overlay, directory=package.directory, workspace=package.known_workspace),
         composed.answers[parts.ADD][0],
@@ -158,60 +177,21 @@ def _compose(
     roots: Sequence[str],
     templates: Mapping[str, Template],
     user: User,
+    day: date | None = None,
 ) -> Composed:
     kind, name = part
     decided = facts.answers(package, licenses.names(roots))
     has_license = "license" in {**decided, **given}
     wanted = Given([{parts.KIND: kind, "name": name}], "NAME")
-    answers = {**decided, **_remembered(package), **given, parts.ADD: wanted}
+    answers = {**decided, **given, parts.ADD: wanted}
     fixed = {"package": package.name, "build_type": package.build_type}
     answers["build_type"] = Given(package.build_type, "package.xml")
     messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
-    composed = compose(roots, templates, answers, user, fixed=fixed, messages=messages)
+    composed = compose(roots, templates, answers, user, day=day, fixed=fixed, messages=messages)
     if not has_license:
         # Better the header of the author's other files, or none, than one with another licence.
         composed.context["header"] = facts.own_header(package)
     return composed
-
-
-def _remembered(package: Package) -> dict[str, Given]:
-    """Return the answers that a package of ours was made with, as far as parts ask for them."""
-    old = _record_of(package)
-    answers = old.answers if old is not None else {}
-    return {name: Given(answers[name], record.NAME) for name in OF_PACKAGES if name in answers}
-
-
-def _record_of(package: Package) -> record.Record | None:
-    if not package.has(record.NAME):
-        return None
-    text = package.source(record.NAME).text
-    return record.parse(text, f"{package.directory}/{record.NAME}")
-
-
-def _noted(
-    package: Package, composed: Composed, rendered: Rendered, addition: Addition
-) -> dict[str, bytes]:
-    """Return the record of a package of ours with the part in it, for ``update``."""
-    old = _record_of(package)
-    if old is None:
-        return {}
-    part = composed.answers[parts.ADD][0]
-    name = next(layer for layer in composed.layers if layer.role in PARTS).name_question
-    others = [
-        one
-        for one in old.answers.get(parts.ADD, [])
-        if (one.get(parts.KIND), one.get(name)) != (part[parts.KIND], part[name])
-    ]
-    edits = edit(Package.of(old.rendered), addition).files
-    files = {
-        **old.rendered,
-        **{path: old.rendered.get(path, text) for path, text in rendered.files.items()},
-        **{path: data.decode() for path, data in edits.items()},
-    }
-    answers = {**old.answers, parts.ADD: [*others, part]}
-    if len(others) < len(old.answers.get(parts.ADD, [])):
-        answers[parts.ADD] = old.answers[parts.ADD]
-    return {record.NAME: old._replace(answers=answers, rendered=files).text().encode()}
 
 
 def _placed(composed: Composed, package: Package, layout: Layout) -> Rendered:

@@ -53,7 +53,7 @@ def update(
     """
     record = read(tree, where)
     remarks: list[str] = []
-    given = _given(record, templates, where, remarks)
+    given = recorded(record, templates, where, remarks)
     made = draft.draft(roots, templates, given, user, record.date)
     files, conflicts = _merged(tree, record, made, remarks)
     if record.rendered != made.rendered.files:
@@ -79,7 +79,7 @@ def read(tree: Tree, where: str) -> Record:
         raise InputError(f"{path}: {error}") from error
 
 
-def _given(
+def recorded(
     record: Record, templates: Mapping[str, Template], where: str, remarks: list[str]
 ) -> dict[str, Given]:
     """Return the recorded answers that the templates of today still ask for."""

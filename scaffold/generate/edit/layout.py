@@ -15,6 +15,8 @@ from scaffold.model.setup_py import FindPackages, SetupPy
 
 SCRIPTS = "scripts"
 """The directory for programs of a package that has no Python yet."""
+RECORD = ".ros2-scaffold.yaml"
+"""In packages of ours, whose nodes are in their Python package."""
 _USUAL = (SCRIPTS, "script", "nodes", "bin", "src")
 _TESTS = ("test", "tests")
 BUILD_TYPES = ("ament_cmake", "ament_python")
@@ -64,8 +66,10 @@ def _of_cmake(package: Package) -> Layout:
     installed = _installed_python(package)
     if installed is not None and package.has(f"{installed}/__init__.py"):
         return Layout(installed, name, tests)
-    if package.has(f"{name}/__init__.py") and not is_interface_package(package):
-        return Layout(name, name, tests, installs_python=True)
+    init = f"{name}/__init__.py"
+    if (package.has(init) or package.has(RECORD)) and not is_interface_package(package):
+        missing = () if package.has(init) else (init,)
+        return Layout(name, name, tests, missing, installs_python=True)
     return Layout(SCRIPTS, "", tests)
 
 
