@@ -13,7 +13,6 @@ import pytest
 from scaffold.cli.main import main
 
 
-
 def offered(line: str) -> list[str]:
     """Return what is offered after a line, by the protocol of argcomplete."""
     variables = {
