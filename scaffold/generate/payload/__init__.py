@@ -8,7 +8,7 @@ from scaffold.generate.payload.action import of_action
 from scaffold.generate.payload.message import of_message
 from scaffold.generate.payload.records import ActionPayload, Part, Payload, ServicePayload
 from scaffold.generate.payload.service import of_service
-from scaffold.model.interfaces import Definitions
+from scaffold.model.interfaces import KINDS, Definitions
 
 __all__ = [
     "ActionPayload",
@@ -60,4 +60,10 @@ def definitions(directory: str = ".") -> Definitions:
         targets = list(discovery.find([os.path.join(top, place.SOURCES)]))
     except InputError:  # none yet
         return Definitions.around()
-    return Definitions.around(Workspace([target.package for target in targets]))
+    packages = [target.package for target in targets if _has_interfaces(target.package.directory)]
+    return Definitions.around(Workspace(packages))
+
+
+def _has_interfaces(directory: str) -> bool:
+    """Tell whether a package may define interfaces, without reading its manifest."""
+    return any(os.path.isdir(os.path.join(directory, kind)) for kind in KINDS)
