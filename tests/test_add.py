@@ -319,6 +319,22 @@ def test_every_kind_can_be_added(kind: str, demo: Path, capsys: pytest.CaptureFi
     assert read(demo) == after
 
 
+def test_a_node_name_that_is_taken_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", PYTHON)
+    assert add(demo, "publisher", "talker") == 0
+    text = (demo / "demo" / "talker.py").read_text()
+    (demo / "demo" / "hello.py").write_text(text.replace("'talker'", "'beat'"))
+    line = text.partition("super().__init__('talker')")[0].count("\n") + 1
+    capsys.readouterr()
+    assert add(demo, "publisher", "beat") == 0
+    assert capsys.readouterr().err == (
+        f"note: demo/hello.py:{line} makes a node with the name 'beat', too: "
+        "nodes that run together need names of their own\n"
+    )
+
+
 # -- refusals
 
 

@@ -154,7 +154,7 @@ def _plan(package: Package, added: Added, *, force: bool) -> WritePlan:
     from scaffold.errors import ConflictError
     from scaffold.plan import WritePlan
 
-    plan = WritePlan.of(package.tree.root, added.files, executable=added.executable)  # type: ignore[attr-defined]
+    plan = WritePlan.of(package.root or ".", added.files, executable=added.executable)
     differing = [
         file.path
         for file in plan.files

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -54,13 +54,15 @@ class Added(NamedTuple):
     """The part as in an answers file."""
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
+    has_header: bool
+    """Whether the new files have a licence header."""
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
-        """Tell whether a finding follows from what a remark says, or from what is left to do."""
+        """Tell whether a finding follows from what the user is told, or is left to do."""
         if any(one.path == diagnostic.location.path for one in self.by_hand):
             return True
         in_part = diagnostic.location.path in self.new
-        return in_part and bool(self.remarks) and diagnostic.name in HEADER_RULES
+        return in_part and not self.has_header and diagnostic.name in HEADER_RULES
 
 
 def add(
@@ -131,7 +133,8 @@ def _add(
         addition.program.name if addition.program else _built(composed),
         Package(overlay, directory=package.directory, workspace=package.known_workspace),
         composed.answers[parts.ADD][0],
-        _remarks(package, composed),
+        tuple(_remarks(package, composed, addition.program.path if addition.program else "")),
+        has_header=bool(composed.context["header"]),
     )
 
 
@@ -263,12 +266,22 @@ def _built(composed: Composed) -> str | None:
     return next((str(program["name"]) for program in composed.context["programs"]), None)
 
 
-def _remarks(package: Package, composed: Composed) -> tuple[str, ...]:
-    if composed.context["header"]:
-        return ()
-    declared = ", ".join(element.text for element in package.manifest.all("license")) or "none"
-    said = f"the new files have no licence header: the licence of {package.name} is {declared!r}"
-    return (f"{said}; --license gives them one",)
+def _remarks(package: Package, composed: Composed, path: str) -> Iterator[str]:
+    if not composed.context["header"]:
+        declared = ", ".join(element.text for element in package.manifest.all("license"))
+        yield (
+            f"the new files have no licence header: the licence of {package.name} is "
+            f"{declared or 'none'!r}; --license gives them one"
+        )
+    names = [str(node["name"]) for node in composed.context["nodes"]]
+    for facts_ in package.rclpy_files():
+        for node in facts_.nodes if facts_.module.path != path else ():
+            if node.node_name in names:
+                at = node.node_name_location
+                yield (
+                    f"{at.path}:{at.line} makes a node with the name {node.node_name!r}, too: "
+                    "nodes that run together need names of their own"
+                )
 
 
 def _refuse_taken(package: Package, addition: Addition) -> None:
