@@ -143,7 +143,7 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
     [
         (["chekc"], "argument VERB: invalid choice: 'chekc'"),
         (["check", "--formt", "json"], "unrecognized arguments: --formt"),
-        (["new"], "the following arguments are required: PACKAGE"),
+        (["add"], "the following arguments are required: KIND, NAME"),
     ],
 )
 def test_wrong_words_get_one_line(

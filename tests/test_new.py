@@ -271,7 +271,8 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
     assert "msg.frame_id = self.frame_id" in node
     assert "self.count" not in node
     test = files["test/test_node.py"]
-    assert "TOPIC = '/node/beat'\nQOS = qos_profile_sensor_data\n" in test
+    assert "TOPIC = '/node/beat'\n" in test
+    assert "QOS = qos_profile_sensor_data\n" in test
     assert names.class_name("header", ["Header"]) == "HeaderNode"
 
 
