@@ -412,6 +412,21 @@ def test_names_that_mean_two_things(own: Fill) -> None:
     )
 
 
+def test_a_message_with_the_name_of_the_base_class(own: Fill) -> None:
+    filled = own(
+        "uint8 STATE_ON=1\nuint8 STATE_OFF=0\nuint8 state\nNode[] nodes\n",
+        name="Graph",
+        Node="float32 load\n",
+    )
+    assert "    node = RobotMsgsNode()" in filled.statements
+    assert filled.imports[-1] == "from robot_msgs.msg import Graph, Node as RobotMsgsNode"
+    filled = own("uint8 ON=1\nuint8 OFF=0\nuint8 state\nstring text\n", name="Node")
+    assert (filled.name, filled.type) == ("RobotMsgsNode", "robot_msgs/msg/Node")
+    assert filled.import_line == "from robot_msgs.msg import Node as RobotMsgsNode"
+    assert filled.statements[0] == "msg.state = RobotMsgsNode.ON"
+    assert filled.class_names == ("Node", "RobotMsgsNode")
+
+
 def test_defaults_are_kept(own: Fill) -> None:
     assert own("float64 gain 0.5\nint32 number\n").statements == ("msg.number = self.count % 1000",)
 

@@ -14,6 +14,8 @@ WORDS = {"msg": "message", "srv": "service", "action": "action"}
 HEADER = "std_msgs/msg/Header"
 TIME = "builtin_interfaces/msg/Time"
 DURATION = "builtin_interfaces/msg/Duration"
+TAKEN = frozenset({"Node"})
+"""Names that mean something else in every node."""
 VECTOR = "geometry_msgs/msg/Vector3"
 
 
@@ -55,6 +57,8 @@ class Types:
         The interface itself goes first, then the messages that it is made of, then those of
         the same packages.
         """
+        if class_name in TAKEN:
+            return None
         own = self.interface
         if class_name == own.name:
             return own.full_name

@@ -42,7 +42,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
         package=own.package,
-        name=own.name,
+        name=(name := types.class_name(own.full_name)),
         imports=lines_of_imports,
         statements=tuple(lines),
         log=words_.log,
@@ -54,6 +54,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         frame=words_.frame,
         constants=walk.constants,
         is_changing=changes(lines),
+        message=own.name if name != own.name else "",
     )
 
 

@@ -12,6 +12,7 @@ class Payload(NamedTuple):
 
     package: str
     name: str
+    """What the message is called in code."""
     imports: tuple[str, ...]
     """Import statements of the node, the message's own included."""
     statements: tuple[str, ...]
@@ -38,11 +39,19 @@ class Payload(NamedTuple):
     """Lines of the module, such as ``WIDTH = 64  # pixels``."""
     is_changing: bool = True
     """Whether one message differs from the next; an empty one cannot."""
+    message: str = ""
+    """The name of the message, if ``name`` is another one."""
 
     @property
     def type(self) -> str:
         """The full name, as ``ros2 topic info`` shows it."""
-        return f"{self.package}/msg/{self.name}"
+        return f"{self.package}/msg/{self.message or self.name}"
+
+    @property
+    def class_names(self) -> tuple[str, ...]:
+        """What the imports call the messages: a node's class has another name."""
+        words = re.findall(r"\w+", " ".join(self.imports))
+        return tuple(dict.fromkeys(word for word in words if word[0].isupper()))
 
     @property
     def log_received(self) -> str:
@@ -55,7 +64,8 @@ class Payload(NamedTuple):
     @property
     def import_line(self) -> str:
         """The import of the message alone."""
-        return f"from {self.package}.msg import {self.name}"
+        alias = f" as {self.name}" if self.message else ""
+        return f"from {self.package}.msg import {self.message or self.name}{alias}"
 
 
 class Part(NamedTuple):

@@ -113,7 +113,7 @@ class Walk:
             block.embed(self._types.renamed(code, full_name), target)
             self._judge(found, target)
         else:
-            self.fill(block, section, full_name.rpartition("/")[2], target)
+            self.fill(block, section, self._types.class_name(full_name), target)
 
     def _judge(self, found: Recipe, target: str) -> None:
         """Take the words of a recipe over for the root."""
