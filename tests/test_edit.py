@@ -418,6 +418,22 @@ def test_an_interface_joins_the_list_that_holds_the_others() -> None:
     assert outcome.source.text == text.replace("msg/A.msg\n", "msg/A.msg\n  msg/C.msg\n")
 
 
+def test_a_keyword_without_values_gets_one() -> None:
+    text = dedent(INTERFACES).replace(" std_msgs", "")
+    addition = Addition("demo", interfaces=["msg/A.msg", "msg/C.msg"], interface_depends=["x"])
+    outcome = cmake_edit(text, addition)
+    assert outcome.source.lines[9:12] == ["  DEPENDENCIES", "  x", ")"]
+
+
+def test_interfaces_that_only_tests_would_generate_are_left_to_the_user() -> None:
+    text = "project(demo)\nif(NOT BUILD_TESTING)\n  return()\nendif()\nament_package()\n"
+    outcome = cmake_edit(text, Addition("demo", interfaces=["msg/C.msg"]))
+    assert outcome.source.text == text
+    assert [one.reason for one in outcome.by_hand] == [
+        "what stands at the end is not always reached"
+    ]
+
+
 def test_the_first_interface_brings_all_that_it_needs() -> None:
     text = "project(demo NONE)\nfind_package(ament_cmake REQUIRED)\n\nament_package()\n"
     addition = Addition("demo", interfaces=["srv/C.srv"], interface_depends=["std_msgs"])
@@ -442,7 +458,11 @@ def test_the_first_interface_brings_all_that_it_needs() -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["add_library(demo SHARED a.cpp)", "ament_python_install_package(${PROJECT_NAME})"],
+    [
+        "add_library(demo a.cpp)",
+        "ament_auto_add_library(demo a.cpp)",
+        "ament_python_install_package(${PROJECT_NAME})",
+    ],
 )
 def test_interfaces_are_refused_where_their_name_is_taken(line: str) -> None:
     text = f"project(demo)\n{line}\nament_package()\n"
@@ -481,7 +501,7 @@ def test_a_compiled_program_is_built_installed_and_run() -> None:
 
 def test_a_compiled_program_is_defined_above_the_install_that_it_joins() -> None:
     text = (
-        "project(demo)\nadd_executable(one src/one.cpp)\ntarget_link_libraries(one m)\n"
+        "project(demo)\nadd_executable(one src/one.cpp)\nament_target_dependencies(one m)\n"
         "install(TARGETS one DESTINATION lib/${PROJECT_NAME})\nament_package()\n"
     )
     outcome = cmake_edit(text, Addition("demo", compiled=Compiled("two", "src/two.cpp")))

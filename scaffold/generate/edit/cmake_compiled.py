@@ -15,6 +15,8 @@ from scaffold.model.cmake_parser import Argument, Command
 
 GENERATORS = "rosidl_default_generators"
 RUNTIME = "rosidl_default_runtime"
+_MAKERS = ("add_library", "add_executable")
+"""Commands whose first argument is a target, ``ament_auto_add_library`` among them, end so."""
 _ADD_TEST = "ament_add_test"
 _EXPORT = "ament_export_dependencies"
 _LANGUAGES = ("C", "CXX", "CUDA", "OBJC", "OBJCXX", "Fortran", "HIP", "ISPC", "Swift", "ASM")
@@ -39,6 +41,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         line = f'{GENERATE}(${{PROJECT_NAME}} "{path}")'
         if editor.refused(line):
             continue
+        before = editor.lists
         _enable(editor, "C", "CXX")
         for name in [GENERATORS, *addition.interface_depends]:
             editor.edit(cmake_edit.insert_find_package(editor.lists, name))
@@ -47,6 +50,10 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         for name in addition.interface_depends:
             _depend(editor, name)
         _export_runtime(editor)
+        found = _generation(editor.lists)
+        if found is None or path not in [listed.path for listed in found.files]:
+            editor.lists = before
+            editor.refuse(line, "what stands at the end is not always reached")
 
 
 def add_compiled(editor: Editor, program: Compiled) -> None:
@@ -113,8 +120,9 @@ def _generation(lists: CMakeLists) -> Generation | None:
 def _refuse_conflict(lists: CMakeLists) -> None:
     """Raise if a target or a Python package has the name that generated code would have."""
     name = lists.project_name
-    for command in lists.find("add_library", "add_executable", INSTALL_PYTHON):
-        if lists.expand_list(command.arguments[:1], command) == [name]:
+    for command in lists.commands:
+        makes = command.name.endswith(_MAKERS) or command.name == INSTALL_PYTHON
+        if makes and lists.expand_list(command.arguments[:1], command) == [name]:
             at = command.location
             raise InputError(
                 f"{at.path}:{at.line}:{at.column}: {command.name}() makes something with the name "
@@ -155,8 +163,9 @@ def _depend(editor: Editor, name: str) -> None:
         return
     command = found.command
     given = command.keyword("DEPENDENCIES", {"LIBRARY_NAME", "ADD_LINTER_TESTS", "SKIP_INSTALL"})
-    last = given[-1] if given else command.arguments[-1]
-    words = [name] if given else [f"DEPENDENCIES {name}"]
+    keyword = [one for one in command.arguments if one.value == "DEPENDENCIES"]
+    last = [*command.arguments, *keyword, *given][-1]
+    words = [name] if keyword else [f"DEPENDENCIES {name}"]
     editor.edit(cmake_edit.append_arguments(editor.lists, command, last, words, raw=True))
 
 
@@ -211,7 +220,7 @@ def _last_target(lists: CMakeLists, before: Command | None) -> Command | None:
     found: Sequence[Command] = [
         command
         for command in lists.commands
-        if (command.name == "add_executable" or command.name.startswith("target_"))
+        if (command.name == "add_executable" or "target_" in command.name)
         and command.depth == 0
         and before is not None
         and command.index < before.index
