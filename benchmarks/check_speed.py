@@ -1,31 +1,50 @@
 """How fast `check` is, as ratios within one run (machines are noisy, ratios less so).
 
-Usage: ``python benchmarks/check_speed.py DIRECTORY [--repeat N] [--ament BIN_DIRECTORY]``
+Usage: ``python benchmarks/check_speed.py DIRECTORY [--repeat N] [--ament BIN_DIRECTORY]...``
 
-DIRECTORY holds packages, for instance a clone of ros2/demos. Printed are, each as a ratio:
+DIRECTORY holds packages, for instance a clone of ros2/demos. Each figure is the CPU time, user and
+system, of a command with all that it starts, the least of N runs; wall time would tell more about
+what else the machine does. `check` is measured in three states:
 
-- `check` of the smallest package against the floor: a bare Python start and one call of ruff on
-  the same files;
-- `check` of all packages against ruff alone on the same files;
-- with ``--ament``: the ament linters found there together against `check`;
-- the time per kilobyte of Python for 10, 20, 40 ... packages against that for 10: up to 1.0 is
-  linear, less shows that the cost of a start is shared.
+- new: nothing is in its cache;
+- seen: the style of each file is, results are not (as after an update of the rules);
+- unchanged: it has checked the same before.
+
+Printed are, each as a ratio:
+
+- the smallest package against the floor: a bare Python start and one call of ruff on its files;
+- all packages against ruff alone on the same files, and what an edit in one of them costs;
+- with ``--ament``: ten packages against the ament linters found there;
+- growth: the time for a package among 10, 40, 160 and 600 copies of the ten under new names,
+  against that among 10, and the memory of the largest process.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from typing import NamedTuple
 
 from scaffold.model import discovery
 
 LINTERS = ("ament_flake8", "ament_pep257", "ament_copyright", "ament_lint_cmake", "ament_xmllint")
+SAMPLE = 10
+GROWTH = (10, 40, 160, 600)
+
+
+class Cost(NamedTuple):
+    """What a command takes."""
+
+    seconds: float
+    """CPU time, user and system, of the process and of all that it waited for."""
+    megabytes: float
+    """Peak memory of the largest process."""
 
 
 def main() -> None:
@@ -34,90 +53,151 @@ def main() -> None:
     parser.add_argument("directory", type=Path)
     parser.add_argument("--repeat", type=int, default=7)
     parser.add_argument("--ament", type=Path, action="append", default=[])
+    parser.add_argument("--up-to", type=int, default=GROWTH[-1], help="packages of the growth")
     options = parser.parse_args()
-    packages = [
-        Path(target.package.directory) for target in discovery.find([str(options.directory)])
-    ]
-    smallest = min(packages, key=_python_size)
-    timer = _Timer(options.repeat)
-    with TemporaryDirectory() as home:
-        os.environ["XDG_CACHE_HOME"] = home
-        _print_small(timer, smallest)
-        _print_large(timer, options.directory, packages, options.ament)
-        _print_growth(timer, packages)
+    found = discovery.find([str(options.directory.resolve())])
+    packages = [Path(target.package.directory) for target in found]
+    with TemporaryDirectory() as scratch:
+        os.environ["XDG_CACHE_HOME"] = os.path.join(scratch, "cache")
+        os.environ.pop("SCAFFOLD_NO_CACHE", None)
+        _print_small(min(packages, key=_python_size), options.repeat)
+        _print_large(options.directory, packages, Path(scratch), max(1, options.repeat // 3))
+        sample = packages[:: max(1, len(packages) // SAMPLE)][:SAMPLE]
+        _print_linters(sample, options.ament)
+        _print_growth(sample, options.up_to, Path(scratch))
 
 
-class _Timer:
-    """Shortest wall time of commands: the one that other programs disturbed least."""
-
-    def __init__(self, repeat: int) -> None:
-        self.repeat = repeat
-
-    def __call__(self, *commands: Sequence[str], before: Callable[[], None] | None = None) -> float:
-        times: list[float] = []
-        for _ in range(self.repeat):
-            if before is not None:
-                before()
-            start = perf_counter()
-            for command in commands:
-                subprocess.run(command, check=False, capture_output=True)
-            times.append(perf_counter() - start)
-        return min(times)
+def cost(
+    *commands: Sequence[str], repeat: int = 1, before: Callable[[], None] | None = None
+) -> Cost:
+    """Return what commands take together: the run that other programs disturbed least."""
+    costs: list[Cost] = []
+    for _ in range(repeat):
+        if before is not None:
+            before()
+        costs.append(_together([_run(command) for command in commands]))
+    return min(costs)
 
 
-def _print_small(timer: _Timer, package: Path) -> None:
-    files = [str(path) for path in package.rglob("*.py")]
-    floor = timer([sys.executable, "-c", "pass"], _ruff(files))
-    warm = timer(_check(package))
-    cold = timer(_check(package), before=_forget_cache)
+def _run(command: Sequence[str]) -> Cost:
+    null = subprocess.DEVNULL
+    process = subprocess.Popen(command, stdin=null, stdout=null, stderr=null)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return Cost(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+
+
+def _together(costs: Sequence[Cost]) -> Cost:
+    return Cost(sum(one.seconds for one in costs), max(one.megabytes for one in costs))
+
+
+class States(NamedTuple):
+    """The cost of `check` in its three states."""
+
+    new: Cost
+    seen: Cost
+    unchanged: Cost
+
+    @classmethod
+    def of(cls, paths: Sequence[Path], repeat: int = 1) -> States:
+        """Measure."""
+        command = _check(paths)
+        return cls(
+            cost(command, repeat=repeat, before=_forget_everything),
+            cost(command, repeat=repeat, before=_forget_results),
+            cost(command, repeat=repeat),
+        )
+
+    def lines(self, unit: float) -> list[str]:
+        """Return a line for each state, in units of ``unit`` seconds."""
+        return [
+            f"  check, {name:10} {one.seconds / unit:8.2f}  ({one.seconds * 1000:.0f} ms)"
+            for name, one in self._asdict().items()
+        ]
+
+
+def _print_small(package: Path, repeat: int) -> None:
+    files = _python_files([package])
+    floor = cost([sys.executable, "-c", "pass"], _ruff(files), repeat=3 * repeat).seconds
+    version = cost([sys.executable, "-m", "scaffold", "--version"], repeat=3 * repeat).seconds
     print(f"smallest package, {package.name}, {len(files)} Python files")
-    print(f"  floor: bare Python and one ruff            1.0  ({floor * 1000:.0f} ms)")
-    print(f"  check, files seen before                  {warm / floor:4.1f}")
-    print(f"  check, files never seen                   {cold / floor:4.1f}")
+    print(f"  floor: bare Python, one ruff    1.00  ({floor * 1000:.0f} ms)")
+    print(f"  --version         {version / floor:8.2f}  ({version * 1000:.0f} ms)")
+    print(*States.of([package], repeat).lines(floor), sep="\n", flush=True)
 
 
-def _print_large(
-    timer: _Timer, directory: Path, packages: Sequence[Path], places: Sequence[Path]
-) -> None:
-    files = [str(path) for package in packages for path in package.rglob("*.py")]
-    ruff = timer(_ruff(files))
-    cold = timer(_check(directory), before=_forget_cache)
-    warm = timer(_check(directory))
+def _print_large(directory: Path, packages: Sequence[Path], scratch: Path, repeat: int) -> None:
+    copy = scratch / "large"
+    shutil.copytree(directory, copy, symlinks=True, ignore=shutil.ignore_patterns(".git"))
+    files = _python_files([copy])
+    ruff = cost(_ruff(files), repeat=repeat).seconds
+    states = States.of([copy], repeat)
+    edited = max(files, key=lambda path: Path(path).stat().st_size)
+    cost(_check([copy]))
+
+    def edit() -> None:
+        with open(edited, "a", encoding="utf-8") as file:
+            file.write("# edited\n")
+
+    once = cost(_check([copy]), repeat=repeat, before=edit).seconds
     print(f"{len(packages)} packages, {len(files)} Python files")
-    print(f"  ruff alone                                 1.0  ({ruff * 1000:.0f} ms)")
-    print(f"  check, files never seen                   {cold / ruff:4.1f}")
-    print(f"  check, files seen before                  {warm / ruff:4.1f}")
+    print(f"  ruff alone            1.00  ({ruff * 1000:.0f} ms)")
+    print(*states.lines(ruff), sep="\n")
+    print(f"  check, one edited {once / ruff:8.2f}  ({once * 1000:.0f} ms)", flush=True)
+    shutil.rmtree(copy)
+
+
+def _print_linters(packages: Sequence[Path], places: Sequence[Path]) -> None:
     found = {
         name: place / name
         for name in LINTERS
         for place in reversed(places)
         if (place / name).exists()
     }
-    linters = list(found.values())
-    if linters:
-        once = _Timer(1)
-        together = sum(
-            once([str(linter), str(package)]) for linter in linters for package in packages
-        )
-        names = ", ".join(linter.name for linter in linters)
-        print(f"  {names} together: {together / cold:.1f} times check")
+    if not found:
+        return
+    commands = [[str(one), str(package)] for one in found.values() for package in packages]
+    together = cost(*commands).seconds
+    states = States.of(packages)
+    print(f"{len(packages)} packages, each with {', '.join(found)}")
+    print(f"  the linters           1.00  ({together * 1000:.0f} ms)")
+    for name, one in states._asdict().items():
+        print(f"  check, {name:10} {together / one.seconds:8.1f} times faster", flush=True)
 
 
-def _print_growth(timer: _Timer, packages: Sequence[Path]) -> None:
-    base = 0.0
-    count = 10
-    while count <= len(packages):
-        chosen = [str(package) for package in packages[:: max(1, len(packages) // count)][:count]]
-        size = sum(path.stat().st_size for one in chosen for path in Path(one).rglob("*.py"))
-        each = timer(_check(*chosen), before=_forget_cache) / (size / 1000)
-        base = base or each
-        print(
-            f"  {count:4} packages: {each * 1000:.2f} ms per kB of Python, {each / base:.2f} of 10"
-        )
-        count *= 2
+def _print_growth(packages: Sequence[Path], most: int, scratch: Path) -> None:
+    print("growth: ms for a package, against that among 10; memory of the largest process")
+    first: States | None = None
+    for count in (one for one in GROWTH if one <= most):
+        top = scratch / f"growth_{count}"
+        for number in range(count):
+            _copy(packages[number % len(packages)], top, number // len(packages))
+        states = States.of([top])
+        first = first or states
+        figures = [
+            f"{name} {one.seconds / count * 1000:6.2f} "
+            f"({one.seconds / count / (base.seconds / GROWTH[0]):.2f})"
+            for (name, one), base in zip(states._asdict().items(), first, strict=True)
+        ]
+        memory = max(one.megabytes for one in states)
+        print(f"  {count:4} packages: {'  '.join(figures)}  {memory:.0f} MB", flush=True)
+        shutil.rmtree(top)
 
 
-def _check(*paths: Path | str) -> list[str]:
+def _copy(package: Path, top: Path, number: int) -> None:
+    """Copy a package under a new name, in its files as well."""
+    old, new = package.name, f"{package.name}_n{number}"
+    for path in package.rglob("*"):
+        if not path.is_file():
+            continue
+        to = top / new / str(path.relative_to(package)).replace(old, new)
+        to.parent.mkdir(parents=True, exist_ok=True)
+        data = path.read_bytes()
+        to.write_bytes(data.replace(old.encode(), new.encode()))
+        to.chmod(path.stat().st_mode)
+
+
+def _check(paths: Sequence[Path]) -> list[str]:
     return [sys.executable, "-m", "scaffold", "check", *map(str, paths)]
 
 
@@ -125,14 +205,21 @@ def _ruff(files: Sequence[str]) -> list[str]:
     return ["ruff", "check", "--isolated", "--no-cache", "--quiet", *files]
 
 
+def _python_files(tops: Sequence[Path]) -> list[str]:
+    return [str(path) for top in tops for path in sorted(top.rglob("*.py")) if path.is_file()]
+
+
 def _python_size(package: Path) -> int:
-    return sum(path.stat().st_size for path in package.rglob("*.py")) or sys.maxsize
+    return sum(Path(path).stat().st_size for path in _python_files([package])) or sys.maxsize
 
 
-def _forget_cache() -> None:
-    for path in Path(os.environ["XDG_CACHE_HOME"]).rglob("*"):
-        if path.is_file():
-            path.unlink()
+def _forget_everything() -> None:
+    shutil.rmtree(os.environ["XDG_CACHE_HOME"], ignore_errors=True)
+
+
+def _forget_results() -> None:
+    place = os.path.join(os.environ["XDG_CACHE_HOME"], "ros2-scaffold", "runs")
+    shutil.rmtree(place, ignore_errors=True)
 
 
 if __name__ == "__main__":
