@@ -19,7 +19,7 @@ from scaffold.cli.main import main
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import draft, examples, filters, licenses, names, payload, template, values
 from scaffold.generate.defaults import User
-from scaffold.generate.qos import NAMES, qos
+from scaffold.generate.qos import qos
 from scaffold.generate.questions import Given
 
 ROOTS = content.roots("templates")
@@ -557,16 +557,6 @@ def test_payloads(name: str, statements: tuple[str, ...]) -> None:
 def test_unknown_message_types(name: str, message: str) -> None:
     with pytest.raises(InputError, match=f"--message_type: .*{message}"):
         make(message_type=name)
-
-
-def test_qualities_of_service() -> None:
-    assert qos("7").expression == "7"
-    assert qos("default") == qos("10")
-    for name in NAMES[1:]:
-        assert qos(name).imports == (f"from rclpy.qos import qos_profile_{name}",)
-    for wrong in ("0", "-1", "10001", "1.5", "best", "", "٣"):
-        with pytest.raises(InputError, match="neither a depth from 1 to 10000 nor one of default"):
-            qos(wrong)
 
 
 @pytest.mark.parametrize(

@@ -143,3 +143,9 @@ def test_settings_make_a_constant_on_one_line_or_several() -> None:
 def test_what_is_wrong_and_what_was_meant(text: str, message: str) -> None:
     with pytest.raises(InputError, match=f"^the quality of service '{text}'.*{message}"):
         qos(text)
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "10001", "1.5", "best", "", "٣"])
+def test_what_is_nothing(text: str) -> None:
+    with pytest.raises(InputError, match="neither a depth from 1 to 10000 nor one of default, "):
+        qos(text)

@@ -56,7 +56,7 @@ _OWN: Mapping[str, Mapping[str, str]] = {
 }
 """Profiles that rclpy has no name for."""
 
-NAMES = ("default", *_SAYS)
+NAMES = ("default", *_SAYS, *_OWN)
 
 _POLICIES: Mapping[str, tuple[str, ...]] = {
     "history": ("keep_last", "keep_all"),
@@ -89,7 +89,7 @@ def qos(text: str) -> Qos:
             f"{name}: {_SAYS[name]}",
             hint="here a profile that rclpy has a name for",
         )
-    base = _of_profile(name) if name in (*NAMES, *_OWN) else {}
+    base = _of_profile(name) if name in NAMES else {}
     settings = {**base, **_settings(others if base else words, text)}
     if settings.get("history") == "keep_all":
         settings.pop("depth", None)
