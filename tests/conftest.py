@@ -18,7 +18,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Let the session have an empty home directory."""
     empty = str(tmp_path_factory.mktemp("home"))
     with pytest.MonkeyPatch.context() as patch:
-        for name in [name for name in os.environ if name.startswith("XDG_")]:
+        for name in [name for name in os.environ if name.startswith(("XDG_", "ROS_HOME"))]:
             patch.delenv(name)
         patch.setenv("HOME", empty)
         yield empty

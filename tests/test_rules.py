@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import pickle
 import re
 from inspect import cleandoc
 from pathlib import Path
@@ -13,6 +14,7 @@ from scaffold import content
 from scaffold.check import fixer, registry, runner, suppression
 from scaffold.check.rule import Example, Rule
 from scaffold.model.package import Package
+from scaffold.model.rosdep import RosdepKeys
 from scaffold.model.tree import MemoryTree
 from scaffold.model.workspace import Workspace
 
@@ -38,6 +40,10 @@ AREAS = {
 def package_of(example: Example) -> Package:
     """Return the package of an example, in the workspace of its neighbours."""
     workspace = Workspace()
+    # Written into the instance: the cache of this machine is not asked.
+    keys = example.rosdep_keys
+    data = pickle.dumps({key: {"ubuntu": [key]} for key in keys or ()}, 2)
+    workspace.rosdep = None if keys is None else RosdepKeys([data])
     tree = MemoryTree(dict(example.files), example.executable)
     package = Package(tree, directory="", workspace=workspace)
     workspace.add(package)

@@ -28,7 +28,15 @@ MAX_RUNS = 400
 KEPT_RUNS = 300
 MAX_BYTES = 16_000_000
 """A larger run is not kept: reading it back would be no gain."""
-ENVIRONMENT = ("AMENT_PREFIX_PATH", "HOME", "NO_COLOR", "PATH", "PYTHONPATH", "XDG_CONFIG_HOME")
+ENVIRONMENT = (
+    "AMENT_PREFIX_PATH",
+    "HOME",
+    "NO_COLOR",
+    "PATH",
+    "PYTHONPATH",
+    "ROS_HOME",
+    "XDG_CONFIG_HOME",
+)
 """The variables that a verdict, or how it is shown, depends on."""
 
 _MAGIC = b"scaffold-run-1\n"

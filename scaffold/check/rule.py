@@ -30,6 +30,7 @@ class Example:
         fixed: The files that the fix changes or adds; ``None`` when there is no fix.
         executable: The files with an executable bit.
         neighbours: Other packages of the workspace: files by path, by package directory.
+        rosdep_keys: What rosdep resolves; ``None`` for a machine without its cache.
     """
 
     def __init__(
@@ -41,6 +42,7 @@ class Example:
         fixed: Mapping[str, str] | None = None,
         executable: tuple[str, ...] = (),
         neighbours: Mapping[str, Mapping[str, str]] | None = None,
+        rosdep_keys: tuple[str, ...] | None = None,
     ) -> None:
         self.title = title
         self.files = files
@@ -48,6 +50,7 @@ class Example:
         self.fixed = fixed
         self.executable = executable
         self.neighbours = neighbours or {}
+        self.rosdep_keys = rosdep_keys
 
 
 class Rule:

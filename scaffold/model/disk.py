@@ -51,6 +51,17 @@ class Disk:
             self.note({("content", path): None if data is None else digest(data)})
         return data
 
+    def read_renewed(self, path: str) -> bytes:
+        """Return what is in a file that its program never edits, but replaces.
+
+        It counts by its stamp: hashing it in each run would take longer than all the rest.
+
+        Raises:
+            OSError: it cannot be read.
+        """
+        self._ask("stamp", path)
+        return _read(path)
+
     def names(self, directory: str) -> Names:
         """Return what is in a directory; links to directories are left out.
 

@@ -11,6 +11,7 @@ from scaffold.model.disk import Disk
 if TYPE_CHECKING:
     from scaffold.model.interfaces import Definitions
     from scaffold.model.package import Package
+    from scaffold.model.rosdep import RosdepKeys
     from scaffold.model.surroundings import Surroundings
 
 
@@ -51,6 +52,13 @@ class Workspace:
 
         return Definitions.around(self)
 
+    @cached_property
+    def rosdep(self) -> RosdepKeys | None:
+        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        from scaffold.model.rosdep import cached_keys
+
+        return cached_keys(self.disk)
+
 
 class Neighbourhood:
     """The workspace as one of its packages sees it; notes whom the verdict on that one needs."""
@@ -86,6 +94,11 @@ class Neighbourhood:
     def disk(self) -> Disk:
         """What is looked at outside of the packages."""
         return self._workspace.disk
+
+    @property
+    def rosdep(self) -> RosdepKeys | None:
+        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        return self._workspace.rosdep
 
     @cached_property
     def interfaces(self) -> Definitions:

@@ -1,0 +1,107 @@
+"""PX028: rosdep resolves the dependencies."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.known import ROS1_PACKAGES, ROS_PACKAGES, module_of_key, similar_package
+
+PACKAGE = "[a-z][a-z0-9_]*"
+KINDS = frozenset(
+    {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
+    | {"build_export_depend", "buildtool_export_depend"}
+)
+"""What rosdep installs; what the documentation alone needs, it leaves out."""
+_MANIFEST = "<package>\n  <name>talker</name>\n  <depend>{}</depend>\n</package>\n"
+_KEYS = ("python3-serial", "libserial-dev")
+
+
+class DependencyUnresolvable(Rule):
+    """rosdep has no rule for a dependency, and no package at hand has the name.
+
+    Said only where ``rosdep update`` was run for Jazzy. A key counts as known if it has a rule for
+    any system: then it is spelt right, and who checks may well mean another system than this one.
+    A name that may be that of a package counts only in a sourced environment, where it is known
+    what is installed: else it may come from a repository that is not at hand.
+
+    **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. So do
+    the build farm and everybody who installs the package with its dependencies.
+
+    **Fix.** Write the key that ``rosdep search`` finds, get the missing package into the
+    workspace, or add a rule to rosdep.
+
+    **Source.** REP 111; ROS 2 documentation, "Managing dependencies with rosdep".
+    """
+
+    code = "PX028"
+    name = "dependency-unresolvable"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "a key of rosdep",
+            {"package.xml": _MANIFEST.format("python3-serial")},
+            rosdep_keys=_KEYS,
+        ),
+        Example(
+            "a package of the workspace",
+            {"package.xml": _MANIFEST.format("robot-serial")},
+            neighbours={"serial": {"package.xml": "<package><name>robot-serial</name></package>"}},
+            rosdep_keys=_KEYS,
+        ),
+        Example("rosdep is not there to say", {"package.xml": _MANIFEST.format("pyserial-3")}),
+        Example(
+            "perhaps a package from elsewhere",
+            {"package.xml": _MANIFEST.format("robot_serial")},
+            rosdep_keys=_KEYS,
+        ),
+        Example(
+            "neither",
+            {"package.xml": _MANIFEST.format("pyserial-3")},
+            at=("package.xml:3",),
+            rosdep_keys=_KEYS,
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        seen: set[str] = set()
+        for dependency in package.manifest.dependencies:
+            name = dependency.name
+            if dependency.kind not in KINDS or dependency.condition or name in seen:
+                continue
+            seen.add(name)
+            if not name or "$" in name or _is_known(package, name):
+                continue
+            if not os.environ.get("AMENT_PREFIX_PATH") and re.fullmatch(PACKAGE, name):
+                continue
+            rosdep = package.workspace.rosdep
+            if rosdep is None:
+                return
+            if rosdep.resolves(name) is False:
+                message = (
+                    f"rosdep's cache has no rule for {name!r}, and no package of the workspace or "
+                    f"of AMENT_PREFIX_PATH has the name{_hint(package, name)}"
+                )
+                yield self.report(dependency, message)
+
+
+def _is_known(package: Package, name: str) -> bool:
+    """Tell whether a name is that of a package, or has another rule that speaks of it."""
+    if name in ROS_PACKAGES or name in ROS1_PACKAGES or name == package.name:
+        return True
+    if similar_package(name) or module_of_key(name) or package.workspace.get(name) is not None:
+        return True
+    prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    marker = os.path.join("share/ament_index/resource_index/packages", name)
+    return any(package.outside.is_file(os.path.join(one, marker)) for one in prefixes if one)
+
+
+def _hint(package: Package, name: str) -> str:
+    rosdep = package.workspace.rosdep
+    plain = name.replace("_", "-").lower()
+    for guess in (f"python3-{plain.removeprefix('python-')}", plain, f"{plain}-dev"):
+        if guess != name and rosdep is not None and rosdep.resolves(guess):
+            return f"; it has {guess!r}"
+    return ""
