@@ -186,6 +186,11 @@ def rename_module(package: Path) -> None:
     (package / package.name / "talk.py").rename(package / package.name / "walk.py")
 
 
+def new_executable(package: Path) -> None:
+    setup = package / "setup.py"
+    setup.write_text(setup.read_text().replace("talk = ", "walk = "))
+
+
 def rename_package(package: Path) -> None:
     (package / "package.xml").write_text(MANIFEST.format("renamed", ""))
 
@@ -395,8 +400,7 @@ def test_only_what_depends_on_a_change_is_checked_again(runs: Runs, workspace: P
 def test_a_change_in_another_package_is_seen(runs: Runs, workspace: Path) -> None:
     write_launch(workspace)
     assert "LF003" not in runs.settle(".")
-    setup = workspace / "called" / "setup.py"
-    setup.write_text(setup.read_text().replace("talk = ", "walk = "))
+    new_executable(workspace / "called")
     told = runs(".")
     assert sorted(runs.checked) == ["called", "caller"]
     assert "caller/launch/call.launch.py" in told
@@ -425,6 +429,23 @@ def test_a_partial_run_says_what_a_whole_one_says(
             context.setenv(memory.SWITCH, "1")
             assert runs(".") == told
         assert runs(".") == told
+
+
+@pytest.mark.parametrize("count", [0, 10])
+def test_packages_around_the_given_ones_are_seen(
+    runs: Runs, workspace: Path, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Some packages of a workspace are given; the one that a launch file needs is not."""
+    write_launch(workspace)
+    more = [make_package(workspace, f"more_{number}") for number in range(count)]
+    given = ["caller", "alone", *(one.name for one in more)]
+    runs.settle(*given)
+    for change in (rename_module, new_executable, shutil.rmtree):
+        change(workspace / "called")
+        told = runs(*given)
+        with monkeypatch.context() as context:
+            context.setenv(memory.SWITCH, "1")
+            assert runs(*given) == told
 
 
 def test_interfaces_of_another_package_are_seen(runs: Runs, workspace: Path) -> None:

@@ -63,20 +63,43 @@ def take(packages: Sequence[Package]) -> Iterator[Note]:
     """Yield what is new since the last call; what is taken is forgotten here."""
     places = {id(package): at for at, package in enumerate(packages)}
     for at, package in enumerate(packages):
-        around = package.workspace
+        used, uses_all, uses_interfaces = uses(package, places)
         note = Note(
             at,
             _Seen.taken_from(disk_of(package)),
             _Seen.taken_from(package.outside),
             package.known_identity,
-            tuple(places[one] for one in around.used),
-            around.uses_all,
-            around.uses_interfaces,
+            tuple(used),
+            uses_all,
+            uses_interfaces,
             package.is_repeatable,
         )
-        around.used.clear()
+        package.workspace.used.clear()
         if note.tells_anything:
             yield note
+
+
+def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, bool]:
+    """Return the places of the packages that one looked up, and whether all or interfaces.
+
+    Packages that have no place, because they only lie around the checked ones, are looked
+    through: what was looked at in them is noted, but they may in turn have used checked ones.
+    """
+    found: set[int] = set()
+    uses_all = uses_interfaces = False
+    seen = {id(package)}
+    pending = [package]
+    while pending:
+        around = pending.pop().workspace
+        uses_all |= around.uses_all
+        uses_interfaces |= around.uses_interfaces
+        for key, used in around.used.items():
+            if key in places:
+                found.add(places[key])
+            elif key not in seen:
+                seen.add(key)
+                pending.append(used)
+    return found, uses_all, uses_interfaces
 
 
 def disk_of(package: Package) -> Disk:

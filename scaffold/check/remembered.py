@@ -10,7 +10,7 @@ from scaffold.check import diagnostic as kinds
 from scaffold.check.diagnostic import Change, Diagnostic, Fix, Safety, Severity
 from scaffold.check.internal import RuleCrashed
 from scaffold.check.memory import Run, Slot
-from scaffold.check.notes import disk_of
+from scaffold.check.notes import disk_of, uses
 from scaffold.check.session import Result, Session
 from scaffold.errors import EnvironmentMissingError
 from scaffold.model.disk import holds
@@ -140,12 +140,10 @@ class _Needs:
         needed: set[int] = set()
         pending = [package]
         while pending:
-            around = pending.pop().workspace
-            if around.uses_all:
+            used, uses_all, uses_interfaces = uses(pending.pop(), self._places)
+            if uses_all:
                 return None
-            # A loose file is a package to nobody but itself.
-            used = {self._places[one] for one in around.used if one in self._places}
-            used |= self._defining if around.uses_interfaces else set()
+            used |= self._defining if uses_interfaces else set()
             pending += [self._packages[at] for at in used - needed]
             needed |= used
         return tuple(sorted(needed))
