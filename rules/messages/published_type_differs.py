@@ -98,6 +98,9 @@ def _given(types: MessageTypes, node: ast.expr) -> str | None:
         return "a str"
     if isinstance(value, int | float):
         return "a number"
+    if isinstance(node, ast.Attribute) and (owner := types.type_of(node.value)) is not None:
+        field = owner.section.field(node.attr)
+        return f"a field, {node.attr}," if field and field.type.is_primitive else None
     if isinstance(node, ast.Name | ast.Attribute):
         class_ = types.class_of(node)
         return f"the class {class_.name}" if class_ else None

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.model.cmake_facts import programs
+from scaffold.model.known import ROS_PACKAGES
 from scaffold.model.python_module import Import, PythonModule
 
 _SETUP = (
@@ -58,7 +60,7 @@ class OwnImportMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
-        roots -= {"test", "tests", "launch"}
+        roots -= {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
         made = package.has("CMakeLists.txt") and bool(
             package.cmake.find("rosidl_generate_interfaces", "generate_parameter_module")
         )
@@ -150,6 +152,8 @@ def _meant(package: Package, module: PythonModule, name: str) -> str:
     if module.path.count("/") != 1 or not package.has(f"{own}/__init__.py") or module.in_tests:
         return ""
     root, _, rest = name.partition(".")
+    if root in ROS_PACKAGES or root in sys.stdlib_module_names:
+        return ""
     if rest.startswith(f"{own}.") and not package.has_directory(root) and _file_of(package, rest):
         return rest if root == "src" else ""
     if package.build_type == "ament_python":

@@ -7,11 +7,21 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_owners import NodeClass
+from scaffold.model.scopes import FunctionNode
 
 PROPERTIES = frozenset(
     {"clients", "context", "default_callback_group", "executor", "guards", "handle", "publishers"}
     | {"services", "subscriptions", "timers", "waitables", "callback_groups"}
 )
+_LISTS = frozenset({"clients", "guards", "services", "subscriptions", "timers", "waitables"})
+"""Properties that an executor loops over."""
+_ASKED = frozenset({"get_clock", "get_logger", "get_name", "get_namespace"})
+"""Methods that rclpy calls without arguments."""
+_PRIVATE = frozenset(
+    {"_clients", "_clock", "_context", "_descriptors", "_guards", "_logger", "_parameters"}
+    | {"_publishers", "_services", "_subscriptions", "_timers", "_waitables"}
+)
+"""Attributes that Node keeps its own things in."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -37,6 +47,14 @@ class AttributeOfNodeReplaced(Rule):
     examples = (
         Example("a name of its own", {"talker.py": _NODE.format("my_publishers")}),
         Example("a property", {"talker.py": _NODE.format("publishers")}, at=("talker.py:7",)),
+        Example(
+            "what Node keeps, and a method",
+            {
+                "talker.py": _NODE.format("_timers").replace("[]", "{}")
+                + "\n    def timers(self):\n        return []\n"
+            },
+            at=("talker.py:7", "talker.py:9"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -44,8 +62,21 @@ class AttributeOfNodeReplaced(Rule):
             for node in facts.classes:
                 for target in _targets(node):
                     at = facts.module.location(target)
-                    message = f"Node has a property {target.attr!r}, which this assignment replaces"
+                    message = f"Node has {target.attr!r} itself, which this replaces"
                     yield self.report(at, message)
+                for name, method in node.methods.items():
+                    if _breaks(name, method):
+                        at = facts.module.name_location(method)
+                        message = f"rclpy itself uses {name} of Node, which this method replaces"
+                        yield self.report(at, message)
+
+
+def _breaks(name: str, method: FunctionNode) -> bool:
+    """Tell whether rclpy cannot use a method that has the name of something in Node."""
+    if name in _LISTS:
+        return not method.decorator_list
+    arguments = [*method.args.posonlyargs, *method.args.args]
+    return name in _ASKED and len(arguments) - len(method.args.defaults) > 1
 
 
 def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
@@ -62,14 +93,19 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
                 and isinstance(inner.ctx, ast.Store)
                 and isinstance(inner.value, ast.Name)
                 and inner.value.id == "self"
-                and inner.attr in PROPERTIES - own
-                and not _is_executor(node, inner)
+                and inner.attr in (PROPERTIES | _PRIVATE) - own
+                and not _is_usable(node, inner)
             ):
                 yield inner
 
 
-def _is_executor(node: NodeClass, target: ast.Attribute) -> bool:
-    """Tell whether ``self.executor`` is given an executor of rclpy, or something unknown."""
+def _is_usable(node: NodeClass, target: ast.Attribute) -> bool:
+    """Tell whether an attribute of Node is given what Node can work with, or what is unknown."""
+    if target.attr in _PRIVATE:
+        parent = node.facts.module.parent(target)
+        value = parent.value if isinstance(parent, ast.Assign | ast.AnnAssign) else None
+        is_list = isinstance(value, ast.List) and target.attr not in {"_clock", "_parameters"}
+        return is_list or not isinstance(value, ast.Constant | ast.Dict | ast.Set | ast.List)
     if target.attr != "executor":
         return False
     parent = node.facts.module.parent(target)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_caught
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has, known_names
@@ -127,7 +128,7 @@ def _defined(node: NodeClass) -> set[str]:
 
 def _may_fail(facts: NodeFacts, node: ast.Attribute) -> bool:
     """Tell whether the code is ready for the attribute not to be there."""
-    if any(isinstance(parent, ast.Try) for parent in facts.module.parents(node)):
+    if is_caught(facts.module, node, "AttributeError"):
         return True
     return f"'{node.attr}'" in facts.module.source.text or (
         f'"{node.attr}"' in facts.module.source.text

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
 from scaffold.model.cmake_facts import programs
+from scaffold.model.python_module import PythonModule
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _MAIN = "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n"
@@ -32,6 +34,15 @@ class MainGuardMissing(Rule):
             at=("talker/node.py:5",),
             fixed={"talker/node.py": _MAIN + _GUARD},
         ),
+        Example(
+            "misspelt, and not called",
+            {
+                "CMakeLists.txt": _LISTS + _LISTS.partition("\n")[2].replace("node", "other"),
+                "talker/node.py": _MAIN + _GUARD.replace("__main__", "main"),
+                "talker/other.py": _MAIN + _GUARD.replace("main()", "main"),
+            },
+            at=("talker/node.py:9", "talker/other.py:10"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -40,12 +51,39 @@ class MainGuardMissing(Rule):
                 continue
             module = package.module(path)
             main = module.functions.get("main")
-            if main is None or module.has_main_guard or "main(" in self._rest(module.source.text):
+            if main is None:
+                continue
+            problem = self._guard_problem(module)
+            if problem is not None:
+                yield self.report(*problem)
+                continue
+            if module.has_main_guard or "main(" in self._rest(module.source.text):
                 continue
             end = len(module.source.text)
             text = _GUARD if module.source.text.endswith("\n") else f"\n{_GUARD}"
             fix = Fix("call main()", (Edit(path, end, end, text),))
             yield self.report(main, "installed as a program, but nothing calls main()", fix)
 
+    def _guard_problem(self, module: PythonModule) -> tuple[Location, str] | None:
+        """Return what is wrong about the test of the module's name, and where."""
+        for statement in module.tree.body:
+            test = statement.test if isinstance(statement, ast.If) else None
+            match test:
+                case ast.Compare(left=ast.Name(id="__name__"), comparators=[ast.Constant(value)]):
+                    if value != "__main__" and str(value).strip("_") == "main":
+                        message = f"{value!r} is nobody's name, so main() is not called: '__main__'"
+                        return module.location(test), message
+                    body = statement.body if isinstance(statement, ast.If) else []
+                    if value == "__main__" and _only_names_main(body):
+                        return module.location(body[0]), "main is named here, not called: main()"
+        return None
+
     def _rest(self, text: str) -> str:
         return text.replace("def main(", "")
+
+
+def _only_names_main(body: list[ast.stmt]) -> bool:
+    match body:
+        case [ast.Expr(value=ast.Name(id="main"))]:
+            return True
+    return False

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_caught
 from scaffold.model.python_module import Import, PythonModule
 from scaffold.model.rclpy_names import PLACES, first_unknown, known_names
 
@@ -65,16 +66,14 @@ class NameOfRclpyUnknown(Rule):
 
     def _check_uses(self, module: PythonModule) -> Iterator[Diagnostic]:
         for node in module.walk(ast.Attribute):
-            if isinstance(module.parent(node), ast.Attribute) or _may_fail(module, node):
+            if isinstance(module.parent(node), ast.Attribute) or is_caught(
+                module, node, "AttributeError"
+            ):
                 continue
             name = module.qualified_name(node) or ""
             unknown = first_unknown(name) if name.startswith("rclpy.") else None
             if unknown is not None:
                 yield self.report(module.location(node), f"{_said(*unknown)}: AttributeError")
-
-
-def _may_fail(module: PythonModule, node: ast.AST) -> bool:
-    return any(isinstance(parent, ast.Try) for parent in module.parents(node))
 
 
 def _said(owner: str, name: str) -> str:

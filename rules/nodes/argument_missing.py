@@ -1,0 +1,93 @@
+"""ND056: the functions of rclpy get all that they need."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
+
+_FUNCTIONS = {
+    "rclpy.spin": ("node",),
+    "rclpy.spin_once": ("node",),
+    "rclpy.spin_until_future_complete": ("node", "future"),
+    "rclpy.create_node": ("node_name",),
+}
+_OF_NODE = {
+    "create_subscription": ("msg_type", "topic", "callback", "qos_profile"),
+    "create_timer": ("timer_period_sec", "callback"),
+    "create_service": ("srv_type", "srv_name", "callback"),
+    "create_client": ("srv_type", "srv_name"),
+    "declare_parameter": ("name",),
+    "get_parameter": ("name",),
+}
+_OF_OBJECTS = {
+    ("rclpy.publisher.Publisher", "publish"): ("msg",),
+    ("rclpy.client.Client", "call"): ("request",),
+    ("rclpy.client.Client", "call_async"): ("request",),
+    ("rclpy.task.Future", "add_done_callback"): ("callback",),
+    ("rclpy.impl.rcutils_logger.RcutilsLogger", "info"): ("message",),
+}
+_LEFT_TO_ND010 = frozenset({"qos_profile"})
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer({})\n\n\n"
+    "def main():\n    rclpy.init()\n    rclpy.spin({})\n"
+)
+
+
+class ArgumentMissing(Rule):
+    """A function of rclpy is called without an argument that it needs.
+
+    **Why.** ``TypeError: Node.create_timer() missing 1 required positional argument: 'callback'``.
+
+    **Fix.** Give it.
+
+    **Source.** ``rclpy/__init__.py``, ``rclpy/node.py``, ``rclpy/publisher.py``,
+    ``rclpy/client.py``.
+    """
+
+    code = "ND056"
+    name = "argument-missing"
+    examples = (
+        Example("all", {"talker.py": _NODE.format("0.1, print", "Talker()")}),
+        Example(
+            "a callback, a node",
+            {"talker.py": _NODE.format("0.1", "")},
+            at=("talker.py:8", "talker.py:13"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                needed = _needed(facts, call)
+                if not needed or any(isinstance(one, ast.Starred) for one in call.args):
+                    continue
+                words = {word.arg for word in call.keywords}
+                missing = [one for one in needed[len(call.args) :] if one not in words]
+                if None in words or not missing or set(missing) <= _LEFT_TO_ND010:
+                    continue
+                name = facts.module.text(call.func).rpartition(".")[2]
+                message = f"{name}() needs {', '.join(missing)} as well: TypeError"
+                yield self.report(facts.module.location(call), message)
+
+
+def _needed(facts: NodeFacts, call: ast.Call) -> tuple[str, ...]:
+    """Return the parameters without a default of what is called."""
+    func = call.func
+    name = facts.module.qualified_name(func) or ""
+    if name in _FUNCTIONS or not isinstance(func, ast.Attribute):
+        return _FUNCTIONS.get(name, ())
+    owner = facts.owner_of(func.value) if func.attr in _OF_NODE else None
+    if owner is not None:
+        is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
+        return () if is_own or owner.is_lifecycle else _OF_NODE[func.attr]
+    if any(func.attr == method for _, method in _OF_OBJECTS):
+        return _OF_OBJECTS.get((class_of(facts, func.value) or "", func.attr), ())
+    return ()

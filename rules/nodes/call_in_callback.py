@@ -1,0 +1,92 @@
+"""ND058: callbacks do not wait for services."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_waits import has_more_threads, in_callbacks, in_constructors
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, 'reset')\n"
+    "        self.create_timer(1.0, self.ask)\n\n"
+    "    def ask(self):\n"
+    "{}"
+)
+
+
+class CallInCallback(Rule):
+    """A callback or constructor calls a service and waits for the answer.
+
+    **Why.** The answer is taken by the executor, which waits for the callback: the node stands
+    still for ever, without an error.
+
+    **Fix.** ``call_async`` with ``add_done_callback``, or an ``async`` callback that awaits.
+
+    **Source.** ROS 2 documentation, "Synchronous vs. asynchronous service clients".
+    """
+
+    code = "ND058"
+    name = "call-in-callback"
+    examples = (
+        Example(
+            "asynchronous",
+            {
+                "caller.py": _NODE.format(
+                    "        future = self.client.call_async(Trigger.Request())\n"
+                    "        future.add_done_callback(print)\n"
+                )
+            },
+        ),
+        Example(
+            "a call",
+            {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
+            at=("caller.py:12",),
+        ),
+        Example(
+            "a loop",
+            {
+                "caller.py": _NODE.format(
+                    "        future = self.client.call_async(Trigger.Request())\n"
+                    "        while not future.done():\n            pass\n"
+                )
+            },
+            at=("caller.py:13",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if has_more_threads(facts):
+                continue
+            seen: set[ast.AST] = set()
+            for executed in (*in_callbacks(facts), *in_constructors(facts)):
+                for node, what in _waits(facts, executed.function):
+                    if node not in seen:
+                        seen.add(node)
+                        message = f"{what} in {executed.origin}: the answer cannot come meanwhile"
+                        yield self.report(facts.module.location(node), message)
+
+
+def _waits(facts: NodeFacts, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
+    for node in ast.walk(function):
+        match node:
+            case ast.Call(func=ast.Attribute(attr="call", value=client)):
+                if class_of(facts, client) == "rclpy.client.Client":
+                    yield node, "waits for a service"
+            case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
+                if isinstance(func, ast.Attribute) and _loops_until_done(facts, func, node):
+                    yield node, "loops until a future is done"
+
+
+def _loops_until_done(facts: NodeFacts, func: ast.Attribute, loop: ast.AST) -> bool:
+    if func.attr != "done" or "spin" in ast.unparse(loop):
+        return False
+    return class_of(facts, func.value) == "rclpy.task.Future"

@@ -1,0 +1,101 @@
+"""ND059: loggers get options that they have, and texts with their values."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+
+_METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
+_KNOWN = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name")
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tell(self, text):\n"
+    "        self.get_logger().info({})\n"
+)
+
+
+class LogKeywordUnknown(Rule):
+    """A logger gets an option that it does not have, or a text whose braces nobody fills.
+
+    **Why.** ``TypeError: parameter "throttle" is not one of the recognized logging options``; a
+    text without ``f`` is shown with its braces; text and a number cannot be added.
+
+    **Fix.** ``throttle_duration_sec``, ``skip_first``, ``once``; ``f'...'``.
+
+    **Source.** ``rclpy/impl/rcutils_logger.py``.
+    """
+
+    code = "ND059"
+    name = "log-keyword-unknown"
+    examples = (
+        Example("known", {"talker.py": _NODE.format("f'{text}', throttle_duration_sec=1.0")}),
+        Example("unknown", {"talker.py": _NODE.format("text, throttle=1.0")}, at=("talker.py:6",)),
+        Example("no f", {"talker.py": _NODE.format("'heard {text}'")}, at=("talker.py:6",)),
+        Example("a number", {"talker.py": _NODE.format("'heard ' + 1")}, at=("talker.py:6",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for attribute in facts.module.index.attributes("get_logger"):
+                call = _log_call(facts, attribute)
+                if call is not None:
+                    yield from self._check(facts, call)
+
+    def _check(self, facts: NodeFacts, call: ast.Call) -> Iterator[Diagnostic]:
+        for word in call.keywords:
+            if word.arg is None or word.arg in (*_KNOWN, "message"):
+                continue
+            near = get_close_matches(word.arg, _KNOWN, 1, 0.5)
+            hint = f"; {near[0]!r} is meant" if near else ""
+            message = f"a logger has no option {word.arg!r}{hint}: TypeError"
+            yield self.report(facts.module.location(word), message)
+        text = call.args[0] if call.args else None
+        if isinstance(text, ast.BinOp) and _adds_number(facts, text):
+            message = "text and a number are added: TypeError; write f'...'"
+            yield self.report(facts.module.location(text), message)
+        if isinstance(text, ast.Constant) and isinstance(text.value, str):
+            for name in re.findall(r"\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}", text.value):
+                if _is_bound(facts, text, name.partition(".")[0]):
+                    message = f"{{{name}}} is not filled in: the f in front of the text is missing"
+                    yield self.report(facts.module.location(text), message)
+                    return
+
+
+def _log_call(facts: NodeFacts, attribute: ast.Attribute) -> ast.Call | None:
+    """Return the call that logs with a logger that is asked for on the spot."""
+    logger = facts.module.parent(attribute)
+    method = facts.module.parent(logger) if isinstance(logger, ast.Call) else None
+    call = facts.module.parent(method) if isinstance(method, ast.Attribute) else None
+    if isinstance(call, ast.Call) and isinstance(method, ast.Attribute) and call.func is method:
+        return call if method.attr in _METHODS else None
+    return None
+
+
+def _adds_number(facts: NodeFacts, node: ast.BinOp) -> bool:
+    if not isinstance(node.op, ast.Add):
+        return False
+    left = facts.evaluator.evaluate(node.left)
+    right = facts.evaluator.evaluate(node.right)
+    is_number = type(right) in {int, float} or (
+        isinstance(node.right, ast.Attribute) and facts.is_number(node.right)
+    )
+    return isinstance(left, str) and is_number
+
+
+def _is_bound(facts: NodeFacts, at: ast.Constant, name: str) -> bool:
+    probe = ast.Name(id=name, ctx=ast.Load())
+    for node in facts.module.index.names(name):
+        if facts.module.enclosing_function(node) is facts.module.enclosing_function(at):
+            probe = node
+            break
+    else:
+        function = facts.module.enclosing_function(at)
+        arguments = function.args.args if function else []
+        return any(argument.arg == name for argument in arguments)
+    return facts.module.index.lookup(probe.id, probe) is not None

@@ -1,0 +1,143 @@
+"""ND054: the constructor of a node makes a node with a name, before it is used."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import NODE, has
+
+_MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
+_CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker({}):\n"
+    "    def {}(self):\n"
+    "{}"
+    "        self.create_timer(1.0, print)\n"
+)
+_INIT = "        super().__init__('talker')\n"
+
+
+class NodeNotConstructed(Rule):
+    """The constructor of a node gives it no name, comes too late, or is none.
+
+    **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
+    or ``AttributeError: 'Talker' object has no attribute '_Node__...'`` when the node is used.
+
+    **Fix.** Begin ``def __init__(self):`` of a class that inherits from Node with
+    ``super().__init__('talker')``.
+
+    **Source.** ``rclpy/node.py``, ``Node.__init__``; Python documentation, ``super``.
+    """
+
+    code = "ND054"
+    name = "node-not-constructed"
+    examples = (
+        Example("first", {"talker.py": _NODE.format("Node", "__init__", _INIT)}),
+        Example(
+            "without a name",
+            {"talker.py": _NODE.format("Node", "__init__", _INIT.replace("'talker'", ""))},
+            at=("talker.py:6",),
+        ),
+        Example(
+            "without parentheses",
+            {"talker.py": _NODE.format("Node", "__init__", _INIT.replace("super()", "super"))},
+            at=("talker.py:6",),
+        ),
+        Example(
+            "too late",
+            {"talker.py": _NODE.format("Node", "__init__", "") + _INIT},
+            at=("talker.py:6",),
+        ),
+        Example(
+            "misspelt",
+            {"talker.py": _NODE.format("Node", "_init_", _INIT)},
+            at=("talker.py:5",),
+        ),
+        Example(
+            "of no node",
+            {"talker.py": _NODE.format("object", "__init__", _INIT)},
+            at=("talker.py:4",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for node in facts.classes:
+                yield from self._check(facts, node)
+            for class_ in facts.module.classes.values():
+                if _lacks_base(facts, class_.node):
+                    message = f"{class_.name} uses methods of Node, but does not inherit from it"
+                    yield self.report(class_, message)
+
+    def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
+        for name, method in node.methods.items():
+            if name in _MISSPELT and node.constructor is None and _calls_init(method):
+                message = f"{name} is no constructor: Python calls __init__ only"
+                yield self.report(facts.module.name_location(method), message)
+        call = node.super_init
+        if call is None or node.base is not None or not isinstance(call.func, ast.Attribute):
+            return
+        at, value = facts.module.location(call), call.func.value
+        is_call = isinstance(value, ast.Call)
+        if isinstance(value, ast.Name) and value.id == "super":
+            yield self.report(
+                at, "super is called without parentheses: write super().__init__(...)"
+            )
+        elif not is_call and facts.is_node_class(value) and _is_text(call.args[:1]):
+            yield self.report(at, "Node.__init__ is given no self: write super().__init__(...)")
+        elif is_call and not call.args and not call.keywords and len(node.node.bases) == 1:
+            yield self.report(at, "Node.__init__() is given no name: TypeError")
+        for used in _used_before(facts, node, call):
+            message = f"self.{used.attr} is used before Node.__init__ in line {at.line}"
+            yield self.report(facts.module.location(used), f"{message}: AttributeError")
+
+
+def _is_text(nodes: list[ast.expr]) -> bool:
+    return any(isinstance(node, ast.Constant) and isinstance(node.value, str) for node in nodes)
+
+
+def _calls_init(method: ast.AST) -> bool:
+    return any(
+        isinstance(node, ast.Attribute) and node.attr == "__init__" for node in ast.walk(method)
+    )
+
+
+def _used_before(facts: NodeFacts, node: NodeClass, call: ast.Call) -> list[ast.Attribute]:
+    """Return the first method of Node that the constructor calls before Node's constructor."""
+    own = set(facts.module.index.bindings(node.node))
+    for other in facts.calls_in(node.constructor) if node.constructor else ():
+        func = other.func
+        if other.lineno < call.lineno and isinstance(func, ast.Attribute) and func.attr not in own:
+            is_self = facts.evaluator.self_class(func.value) is node.node
+            if is_self and has(NODE, func.attr) and not facts.is_conditional(call):
+                return [func]
+    return []
+
+
+def _lacks_base(facts: NodeFacts, class_: ast.ClassDef) -> bool:
+    """Tell whether a class without bases treats itself as a node."""
+    bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
+    if [one for one in bases if one != "object"] or class_.keywords or class_.decorator_list:
+        return False
+    text = facts.module.source.text
+    if class_.name in {base for other in facts.module.walk(ast.ClassDef) for base in _bases(other)}:
+        return False
+    own = {*facts.module.index.bindings(class_)}
+    return any(
+        f"self.{name}(" in text
+        and name not in own
+        and any(
+            facts.evaluator.self_class(one.value) is class_ and not facts.evaluator.stores(name)
+            for one in facts.module.index.attributes(name)
+        )
+        for name in _CREATES
+    )
+
+
+def _bases(class_: ast.ClassDef) -> list[str]:
+    return [base.id for base in class_.bases if isinstance(base, ast.Name)]
