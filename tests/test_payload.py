@@ -427,6 +427,20 @@ def test_a_message_with_the_name_of_the_base_class(own: Fill) -> None:
     assert filled.class_names == ("Node", "RobotMsgsNode")
 
 
+def test_many_imports_are_on_several_lines(own: Fill) -> None:
+    others = {f"MessageWithALongName{number}": "float32 load\n" for number in range(5)}
+    filled = own("".join(f"{name}[] m{name[-1]}\n" for name in others), **others)
+    assert len(filled.imports) == 3
+    assert all(len(line) <= 99 for line in filled.imports)
+
+
+def test_local_names_hide_nothing(own: Fill) -> None:
+    filled = own("unique_identifier_msgs/UUID[] uuids\ngeometry_msgs/Point[] maths\n")
+    assert "    uuid_ = UUID()" not in filled.statements
+    assert "    point = Point()" in filled.statements
+    assert "    element = UUID()" in filled.statements
+
+
 def test_defaults_are_kept(own: Fill) -> None:
     assert own("float64 gain 0.5\nint32 number\n").statements == ("msg.number = self.count % 1000",)
 

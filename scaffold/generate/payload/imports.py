@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold.generate.filters import MAX_COLUMNS
 from scaffold.generate.payload.lookup import Types
@@ -42,7 +42,7 @@ def imports(
             for name in messages
             if name.startswith(f"{package}/")
         )
-        lines.append(_from(f"{package}.msg", classes))
+        lines.extend(_from(f"{package}.msg", classes))
     return tuple(packages), tuple(lines)
 
 
@@ -51,10 +51,13 @@ def _names(code: str) -> set[str]:
     return {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}
 
 
-def _from(module: str, classes: Sequence[str]) -> str:
-    """Return an import, on several lines if it would be too long for one."""
-    line = f"from {module} import {', '.join(classes)}"
-    if len(line) <= MAX_COLUMNS:
-        return line
-    names = "".join(f"    {one},\n" for one in classes)
-    return f"from {module} import (\n{names})"
+def _from(module: str, classes: Sequence[str]) -> Iterator[str]:
+    """Yield an import, and another one as soon as it would be too long."""
+    line = f"from {module} import {classes[0]}"
+    for name in classes[1:]:
+        if len(line) + len(name) + 2 > MAX_COLUMNS:
+            yield line
+            line = f"from {module} import {name}"
+        else:
+            line += f", {name}"
+    yield line

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import builtins
 import re
 from collections.abc import Iterable, Sequence
 from textwrap import dedent
 
 from scaffold.generate.payload import recipe, words
 from scaffold.generate.payload.code import COUNT, NOW, Block
+from scaffold.generate.payload.imports import MODULES
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
 from scaffold.generate.payload.recipe import Recipe
 from scaffold.model.interface_syntax import Constant, Field, Section
@@ -377,6 +379,12 @@ def singular(name: str) -> str:
     return name[:-1] if name.endswith("s") and not name.endswith("ss") else name
 
 
+ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
+"""The variables that are filled."""
+_TAKEN = frozenset({"self", "count", "step", *ROOTS, *MODULES}) | {
+    name for name in dir(builtins) if name[0].islower()
+}
+"""What a local name must not be."""
 _LONGEST = 20
 """Characters of a local name."""
 
@@ -388,19 +396,7 @@ def variable(field: Field) -> str:
     name = singular(field.name)
     if len(name) > _LONGEST:
         name = name.rpartition("_")[2]
-    bad = {
-        "self",
-        "msg",
-        "count",
-        "math",
-        "range",
-        "object",
-        "filter",
-        "map",
-        "type",
-        "input",
-        "id",
-    }
+    bad = _TAKEN
     if name == field.name or iskeyword(name) or name in bad:
         snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", field.type.name).lower()
         name = snake if snake not in bad else "element"
