@@ -23,6 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.generate import parts, questions, template
 
     templates = template.load(content.roots("templates", config.load().content))
+    parser.set_defaults(templates=templates)
     questions.add_flags(parser, questions.unique(_in_order(templates)), parts.kinds(templates))
     parser.add_argument(
         "--destination-directory",
@@ -33,6 +34,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--answers", metavar="FILE", help="a YAML file with answers; flags win")
     parser.add_argument(
         "--dry-run", action="store_true", help="say what would be written, and write nothing"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="show the changes as a diff, and write nothing"
     )
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
@@ -53,10 +57,11 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli.main import CLEAN, DEFECT
     from scaffold.generate import draft, place, template
     from scaffold.generate.defaults import User
+    from scaffold.printable import write_lines
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
-    templates = template.load(roots)
+    templates = template.load(roots) if options.content else options.templates
     given = _given(options, templates, settings)
     command = None
     if "package" not in given:
@@ -68,10 +73,13 @@ def run(options: argparse.Namespace) -> int:
     if defects:
         _report_defects(defects)
         return DEFECT
-    if not options.dry_run:
+    if not options.dry_run and not options.diff:
         plan.write(force=options.force)
     for remark in made.remarks:
         sys.stderr.write(f"note: {remark}\n")
+    if options.diff:
+        write_lines(plan.diff(), sys.stdout)
+        return CLEAN
     print(_summary(options, made, plan))
     if command is not None:
         print(f"\nThe same without questions:\n    {command}")
