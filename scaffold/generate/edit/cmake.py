@@ -109,12 +109,11 @@ class Editor:
         line = f"install(DIRECTORY {path} DESTINATION share/{_NAME})"
         if self.refused(line):
             return
-        edits = _share_keyword(self.lists, path)
-        if edits is None:
-            edits = _extension(self.lists, "DIRECTORY", path, f"share/{self.package}")
-        if edits is None:
-            edits = cmake_edit.insert_install(self.lists, "DIRECTORY", path, "share")
-        self.edit(edits)
+        for make in (_share_keyword, _share_extension, _share_block):
+            self.edit(make(self.lists, path))
+            if _installs_directory(self.lists, path):
+                return
+        self.refuse(line, "no place was safe")
 
     def add_test(self, path: str) -> None:
         """Run a pytest file when tests are built."""
@@ -270,6 +269,14 @@ def _share_keyword(lists: CMakeLists, path: str) -> Edits | None:
         if words and command.depth == 0:
             return cmake_edit.append_arguments(lists, command, words[-1], [path])
     return None
+
+
+def _share_extension(lists: CMakeLists, path: str) -> Edits | None:
+    return _extension(lists, "DIRECTORY", path, f"share/{lists.project_name}")
+
+
+def _share_block(lists: CMakeLists, path: str) -> Edits | None:
+    return cmake_edit.insert_install(lists, "DIRECTORY", path, "share")
 
 
 def _behind_last_test(lists: CMakeLists, line: str) -> Edits | None:

@@ -58,10 +58,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
 
 def add_compiled(editor: Editor, program: Compiled) -> None:
     """Build a C++ program and install it where ``ros2 run`` looks for it."""
-    if any(
-        editor.lists.expand_list(command.arguments[:1], command) == [program.name]
-        for command in editor.lists.find("add_executable")
-    ):
+    if _is_built(editor.lists, program.name):
         return
     lines = [
         f"add_executable({program.name} {program.source})",
@@ -70,6 +67,7 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
     install = f"install(TARGETS {program.name} DESTINATION lib/${{PROJECT_NAME}})"
     if editor.refused(f"{lines[0]} and {install}"):
         return
+    before = editor.lists
     _enable(editor, "CXX")
     old = _installed_targets(editor.lists, editor.package)
     behind = _last_target(editor.lists, before=old.command if old else None)
@@ -84,6 +82,16 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
         block += ["  DESTINATION lib/${PROJECT_NAME}", ")"]
         editor.edit(cmake_edit.insert_before_end(editor.lists, block))
     _run_in_tests(editor, program.name)
+    if not _is_built(editor.lists, program.name):
+        editor.lists = before
+        editor.refuse(f"{lines[0]} and {install}", "no place was safe")
+
+
+def _is_built(lists: CMakeLists, name: str) -> bool:
+    return any(
+        lists.expand_list(command.arguments[:1], command) == [name]
+        for command in lists.find("add_executable")
+    )
 
 
 def _run_in_tests(editor: Editor, name: str) -> None:
