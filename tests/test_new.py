@@ -790,7 +790,7 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert said.err == ""
     assert said.out == dedent(f"""\
         talker/
-            .ros2-scaffold.yaml            what `ros2-scaffold update` needs
+            .ros2-scaffold.json            what `ros2-scaffold update` needs
             CHANGELOG.rst                  what changed, for releases
             CMakeLists.txt                 what is installed and tested
             LICENSE                        the full text of the licence
@@ -814,7 +814,7 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
 def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "talker", "--diff"]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("--- /dev/null\n+++ b/.ros2-scaffold.yaml\n")
+    assert said.startswith("--- /dev/null\n+++ b/.ros2-scaffold.json\n")
     assert "+++ b/talker/minimal_publisher.py\n" in said
     assert os.listdir() == []
     assert main(["new", "talker"]) == 0

@@ -17,13 +17,12 @@ from scaffold import __version__
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
 
-NAME = ".ros2-scaffold.yaml"
+NAME = ".ros2-scaffold.json"
 """The record's path in a package."""
 
-_LINE = 100
-_HEAD = """\
-# How ros2-scaffold made this package: `ros2-scaffold update` needs it. Commit it, do not edit it.
-"""
+_ABOUT = (
+    "How ros2-scaffold made this package, for `ros2-scaffold update`. Commit it, do not edit it."
+)
 _MOST = 20_000_000
 """Bytes of the files in a record; more is no package of ours."""
 
@@ -47,15 +46,15 @@ class Record(NamedTuple):
 
     def text(self) -> str:
         """Return the record as a file."""
-        import yaml
-
-        data = json.dumps(dict(self.rendered), ensure_ascii=False, sort_keys=True).encode()
-        packed = base64.b64encode(zlib.compress(data, 9)).decode()
-        answers = json.loads(json.dumps(dict(self.answers)))  # lists instead of tuples
-        entries = {"version": self.version, "date": self.date, "answers": answers}
-        written = yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=_LINE)
-        lines = [packed[start : start + _LINE - 2] for start in range(0, len(packed), _LINE - 2)]
-        return _HEAD + written + "rendered: |\n" + "".join(f"  {line}\n" for line in lines)
+        data = json.dumps(dict(self.rendered), ensure_ascii=False).encode()
+        entries = {
+            "about": _ABOUT,
+            "version": self.version,
+            "date": self.date.isoformat(),
+            "answers": dict(self.answers),
+            "rendered": base64.b64encode(zlib.compress(data, 9)).decode(),
+        }
+        return json.dumps(entries, indent=2, ensure_ascii=False) + "\n"
 
 
 def parse(text: str, path: str) -> Record:
@@ -68,20 +67,18 @@ def parse(text: str, path: str) -> Record:
     Raises:
         InputError: it is damaged.
     """
-    import yaml
-
     try:
-        entries = yaml.safe_load(text)
+        entries = json.loads(text)
         packed = zlib.decompressobj()
         data = packed.decompress(base64.b64decode(entries["rendered"]), _MOST)
         rendered = json.loads(data)
-        record = Record(entries["date"], entries["answers"], rendered, str(entries["version"]))
-    except (yaml.YAMLError, ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
+        day = date.fromisoformat(entries["date"])
+        record = Record(day, entries["answers"], rendered, str(entries["version"]))
+    except (ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path}: damaged: {' '.join(str(error).split()) or 'cut off'}") from error
     texts = [*record.rendered, *record.rendered.values()] if isinstance(rendered, dict) else [None]
     if not (
-        isinstance(record.date, date)
-        and isinstance(record.answers, dict)
+        isinstance(record.answers, dict)
         and all(isinstance(part, dict) for part in record.answers.get("add", []))
         and all(isinstance(one, str) for one in [*texts, *record.answers])
     ):

@@ -15,6 +15,7 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
+from scaffold.generate.compiled import Compiled
 from scaffold.generate.template import ENDING, MANIFEST, Template
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
@@ -58,6 +59,7 @@ class Renderer:
             trim_blocks=True,
             lstrip_blocks=True,
             autoescape=False,
+            bytecode_cache=Compiled("tutorial" if self._is_tutorial else "brief"),
         )
         jinja.filters |= {
             "literal": filters.literal,
@@ -72,7 +74,8 @@ class Renderer:
     @cached_property
     def _xml(self) -> Jinja:
         """The same for XML files: whatever a template prints there is escaped."""
-        return self._plain.overlay(finalize=filters.xml)
+        kept = Compiled("tutorial_xml" if self._is_tutorial else "brief_xml")
+        return self._plain.overlay(finalize=filters.xml, bytecode_cache=kept)
 
     def has(self, name: str) -> bool:
         """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""

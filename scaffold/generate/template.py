@@ -7,13 +7,16 @@ template; a later content directory replaces a template of the same name.
 
 from __future__ import annotations
 
+import marshal
 import os
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import Any, NamedTuple
 
+from scaffold.check import memory
 from scaffold.errors import ContentError
 from scaffold.generate import licenses
+from scaffold.model.disk import digest, stamp
 
 MANIFEST = "template.yaml"
 ENDING = ".jinja"
@@ -127,7 +130,11 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
         for name in sorted(os.listdir(root)):
             if os.path.isfile(os.path.join(root, name, MANIFEST)):
                 directories[name] = os.path.join(root, name)
-    found = {name: _load_one(name, directories[name]) for name in sorted(directories)}
+    manifests = _manifests([directories[name] for name in sorted(directories)])
+    found = {
+        name: _load_one(name, directories[name], manifest)
+        for name, manifest in zip(sorted(directories), manifests, strict=True)
+    }
     if found[BASE].role is not Role.PACKAGE if BASE in found else True:
         raise ContentError(f"no template {BASE!r} with role: package in {', '.join(roots)}")
     _refuse_ambiguous_questions(found)
@@ -149,9 +156,33 @@ def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
     return tuple(name for name, template in templates.items() if template.role is role)
 
 
-def _load_one(name: str, directory: str) -> Template:
+def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
+    """Return the manifests of templates, from the user's cache while no file has changed."""
+    paths = [os.path.join(directory, MANIFEST) for directory in directories]
+    stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
+    head = b"scaffold-manifests-1\n" + digest(os.fsencode(stamps)).encode()
+    kept = memory.directory("manifests")
+    place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
+    data = memory.read_sealed(place, head) if kept else None
+    if data is not None:
+        found: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
+        return found
+    made = [_manifest(path) for path in paths]
+    try:
+        data = marshal.dumps(made)
+    except ValueError:  # a date, which YAML knows and marshal does not
+        return made
+    if kept and memory.write_sealed(place, head, data):
+        memory.trim(kept, _MOST_KEPT, _MOST_KEPT // 2)
+    return made
+
+
+_MOST_KEPT = 16
+"""Sets of content directories whose manifests are kept."""
+
+
+def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Template:
     path = os.path.join(directory, MANIFEST)
-    manifest = _manifest(path)
     try:
         role = Role(manifest["role"])
     except ValueError:

@@ -19,6 +19,8 @@ def correct(word: str) -> str | None:
     lowered = word.lower()
     if lowered in _blacklist():
         return ""
+    if lowered in _known():  # as most words are: without the stems of all words of the list
+        return None
     forms = _imperatives().get(_stem(lowered))
     if not forms or lowered in forms:
         return None
@@ -37,10 +39,30 @@ def _blacklist() -> frozenset[str]:
 
 
 @lru_cache(maxsize=1)
+def _known() -> frozenset[str]:
+    return frozenset(_words("imperatives.txt"))
+
+
+@lru_cache(maxsize=1)
 def _imperatives() -> dict[str, set[str]]:
+    """Return the words of the list by their stems, from the user's cache after the first time."""
+    import marshal
+
+    from scaffold.check import memory
+    from scaffold.model.disk import stamp
+
+    kept = memory.directory("words")
+    place = os.path.join(kept, "imperatives") if kept else ""
+    head = b"scaffold-words-1\n" + stamp(os.path.join(_data(), "imperatives.txt")).encode()
+    data = memory.read_sealed(place, head) if kept else None
+    if data is not None:
+        known: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
+        return known
     found: dict[str, set[str]] = {}
-    for word in _words("imperatives.txt"):
+    for word in _known():
         found.setdefault(_stem(word), set()).add(word)
+    if kept:
+        memory.write_sealed(place, head, marshal.dumps(found))
     return found
 
 

@@ -15,7 +15,7 @@ from scaffold.model.setup_py import FindPackages, SetupPy
 
 SCRIPTS = "scripts"
 """The directory for programs of a package that has no Python yet."""
-RECORD = ".ros2-scaffold.yaml"
+RECORD = ".ros2-scaffold.json"
 """In packages of ours, whose nodes are in their Python package."""
 _USUAL = (SCRIPTS, "script", "nodes", "bin", "src")
 _TESTS = ("test", "tests")
