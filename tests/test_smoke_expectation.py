@@ -166,6 +166,30 @@ def test_node_of_another_module() -> None:
     assert [(one.topic, one.type) for one in found.publications] == [("/words", STRING)]
 
 
+@pytest.mark.parametrize(
+    ("init", "main", "rate", "certain"),
+    [
+        ("self.tick()\nself.create_timer(0.5, self.tick)", "rclpy.spin(Talker())", 2.0, True),
+        ("", "node = Talker()\nnode.pub.publish(String())\nrclpy.spin(node)", None, True),
+        ("", "node = Talker()\nrclpy.spin(node)\nnode.pub.publish(String())", None, False),
+    ],
+    ids=["also at the start", "before spin", "after spin"],
+)  # fmt: skip
+def test_start_and_end(init: str, main: str, rate: float | None, certain: bool) -> None:  # noqa: FBT001
+    one = expectations(node(init, TICK, main))["run"].publications[0]
+    assert (one.rate_hz, one.certain, one.never) == (rate, certain, False)
+
+
+def test_attribute_that_is_none_at_first() -> None:
+    init = """\
+        self.late = None
+        self.late = self.create_publisher(String, 'late', 10)
+        self.create_timer(0.5, lambda: self.late.publish(String()))
+    """
+    _, late = expectations(node(dedent(init)))["run"].publications
+    assert (late.topic, late.rate_hz) == ("/late", 2.0)
+
+
 def test_relay_and_latched_message() -> None:
     assert expectations(python(LISTENER))["run"].publications == (
         Publication("/deep/relayed", STRING, None, certain=False),

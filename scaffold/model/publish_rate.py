@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from scaffold.model.node_entities import Callback, Entity, Publisher, Timer
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.scopes import FunctionNode
+from scaffold.model.self_values import Store
 from scaffold.model.values import UNKNOWN, Unknown
 
 _HARMLESS = frozenset(
@@ -42,38 +43,71 @@ def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] 
 
 
 def publish_rate(facts: NodeFacts, publisher: Publisher) -> float | Unknown:
-    """Return the rate in Hz at which a timer makes a publisher publish.
+    """Return the rate in Hz at which one timer makes a publisher publish once.
 
-    Known if exactly one timer's callback publishes exactly once, directly or through other
-    functions of the file, under no condition, and nothing stops or changes the timer.
+    Known if ``publish_rates`` has a single one.
+    """
+    rates = publish_rates(facts, publisher)
+    return rates[0] if rates and len(rates) == 1 else UNKNOWN
+
+
+def publish_rates(facts: NodeFacts, publisher: Publisher) -> Sequence[float] | None:
+    """Return the rates in Hz that add up to how often a publisher publishes, one per message.
+
+    Known if all that publishes are callbacks of timers, directly or through other functions of the
+    file, under no condition, and nothing stops or changes the timers. Else ``None``; without any
+    rate, it publishes at the start or never.
     """
     if publisher.is_conditional or publisher.is_lifecycle:
-        return UNKNOWN
+        return None
     try:
-        timers = [
-            timer
+        return [
+            _rate(facts, timer)
             for call in _uses(facts, publisher, "publish")
             for timer in _timers_behind(facts, call, 0)
         ]
-        if len(timers) != 1:
-            return UNKNOWN
-        return _rate(facts, timers[0])
     except _Doubt:
-        return UNKNOWN
+        return None
 
 
-def _rate(facts: NodeFacts, timer: Timer) -> float | Unknown:
-    autostart = timer.argument("autostart")
-    if timer.is_conditional or timer.period is UNKNOWN or timer.period <= 0:
-        return UNKNOWN
-    if timer.has_unknown_arguments or (autostart and autostart.value is not True):
-        return UNKNOWN
-    if not _runs_once(facts, timer.function):
-        return UNKNOWN
-    if timer.attribute or timer.variable:
-        for _ in _uses(facts, timer, ""):
-            return UNKNOWN
+def ticks_always(facts: NodeFacts, timer: Timer) -> bool:
+    """Tell whether a timer certainly ticks, from the start of its node to the end."""
+    try:
+        _expect_ticking(facts, timer)
+    except _Doubt:
+        return False
+    return True
+
+
+def _rate(facts: NodeFacts, timer: Timer) -> float:
+    if isinstance(timer.period, Unknown) or timer.period <= 0:
+        raise _Doubt
+    _expect_ticking(facts, timer)
     return 1 / timer.period
+
+
+def _expect_ticking(facts: NodeFacts, timer: Timer) -> None:
+    autostart = timer.argument("autostart")
+    if timer.is_conditional or timer.has_unknown_arguments:
+        raise _Doubt
+    if autostart and autostart.value is not True:
+        raise _Doubt
+    if timer.argument("clock") or _may_be_held_up(facts, timer):
+        raise _Doubt
+    if not _runs_once(facts, timer.function):
+        raise _Doubt
+    if timer.attribute or timer.variable:
+        list(_uses(facts, timer, ""))
+
+
+def _may_be_held_up(facts: NodeFacts, timer: Timer) -> bool:
+    """Tell whether a timer is in a callback group that may do anything."""
+    group = timer.argument("callback_group")
+    if group is None:
+        return False
+    made = facts.evaluator.single_value(group.node)
+    names = facts.module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
+    return not any(name.startswith("rclpy.callback_groups.") for name in names)
 
 
 def _runs_once(facts: NodeFacts, function: FunctionNode | None) -> bool:
@@ -138,7 +172,7 @@ def _attribute_references(
     family = facts.related_classes(class_)
     for store in facts.evaluator.stores(attribute):
         other = store.class_ is None or store.class_ in family
-        if other and store.value is not entity.call:
+        if other and store.value is not entity.call and not _is_placeholder(store, entity):
             raise _Doubt
     for node in facts.module.index.attributes(attribute):
         if isinstance(node.ctx, ast.Load):
@@ -147,18 +181,22 @@ def _attribute_references(
                 yield node
 
 
+def _is_placeholder(store: Store, entity: Entity) -> bool:
+    """Tell whether an attribute gets None until what belongs there is made further down."""
+    is_none = isinstance(store.value, ast.Constant) and store.value.value is None
+    return is_none and store.node.lineno < entity.call.lineno
+
+
 def _timers_behind(facts: NodeFacts, call: ast.AST, depth: int) -> Iterator[Timer]:
     """Yield a timer for every way to come to a call; doubt for any other way."""
     module = facts.module
     function = facts.function_of(call)
     if depth > _MAX_CALLS or function is None or not _is_certain(facts, call, function):
         raise _Doubt
+    if not isinstance(function, ast.Lambda) and function.name == "__init__":
+        return  # once, at the start
     references = list(_references(facts, function))
-    if len(references) > _MAX_CALLS:
-        raise _Doubt
-    if not references:
-        if not isinstance(function, ast.Lambda) and function.name == "__init__":
-            return
+    if not references or len(references) > _MAX_CALLS:
         raise _Doubt
     for reference in references:
         timer = _timer_with(facts, reference)

@@ -9,10 +9,11 @@ from scaffold.model.node_entities import Publisher
 from scaffold.model.nodes import NodeClass, NodeFacts, NodeOwner
 from scaffold.model.package import Package
 from scaffold.model.program_starts import Start, run_of, starts_of
+from scaffold.model.publish_rate import publish_rates
+from scaffold.model.publish_reach import PublishReach, Reach
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.values import Unknown
 from scaffold.smoke.expectation import Expectation, Publication
-from scaffold.smoke.publishing import Publishing, Reach
 
 _MAX_BASES = 8
 
@@ -63,19 +64,20 @@ def _publications(
         if owner.is_lifecycle:
             continue  # it publishes once it is activated, which nobody does here
         alone = owner.facts is facts and not (isinstance(owner, NodeClass) and owner.base)
-        publishing = Publishing(owner.facts, starts, alone=alone)
+        reaches = PublishReach(owner.facts, starts, alone=alone)
         for publisher in _publishers(owner, starts):
             topic = _resolved(publisher.topic, owner)
             if topic is not None:
-                rate = publishing.rate(publisher) if alone else None
-                reach = publishing.reach(publisher)
+                rates = publish_rates(owner.facts, publisher) if alone else None
+                rate = sum(rates) if rates else None
+                reach = reaches.of(publisher)
                 yield Publication(
                     topic,
                     publisher.message_type,
                     rate,
                     certain=rate is not None or reach is Reach.ALWAYS,
                     never=reach is Reach.NEVER,
-                    sources=publishing.sources(publisher) if rate else 1,
+                    sources=len(rates) if rates else 1,
                 )
 
 
