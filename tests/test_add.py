@@ -300,7 +300,8 @@ def test_what_cannot_be_edited_is_said(tmp_path: Path, capsys: pytest.CaptureFix
     assert (demo / "CMakeLists.txt").read_bytes() == before
     said = capsys.readouterr().err
     assert (
-        f"    {demo}/CMakeLists.txt: ament_add_pytest_test(test_talker test/test_talker.py)\n"
+        f"    {demo}/CMakeLists.txt: find_package(ament_cmake_pytest REQUIRED) and "
+        "ament_add_pytest_test(test_talker test/test_talker.py) inside if(BUILD_TESTING)\n"
         "        because there is no ament_package() at the top level\n"
     ) in said
 

@@ -369,7 +369,10 @@ def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> Non
     assert outcome.source.text == text
     assert [one.line for one in outcome.by_hand] == [
         "install(PROGRAMS scripts/talker.py DESTINATION lib/${PROJECT_NAME})",
-        "ament_add_pytest_test(test_talker test/test_talker.py)",
+        (
+            "find_package(ament_cmake_pytest REQUIRED) and "
+            "ament_add_pytest_test(test_talker test/test_talker.py) inside if(BUILD_TESTING)"
+        ),
     ]
     assert all(reason in one.reason and one.is_needed for one in outcome.by_hand)
 

@@ -121,7 +121,8 @@ class Editor:
             return
         name = path.rpartition("/")[2].removesuffix(".py")
         line = f"{ADD_PYTEST}({name} {path})"
-        if self.refused(line):
+        by_hand = f"find_package({PYTEST} REQUIRED) and {line} inside if(BUILD_TESTING)"
+        if self.refused(by_hand):
             return
         if not self.lists.finds_tests_automatically:
             self.edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
@@ -129,7 +130,7 @@ class Editor:
         if not runs_test(self.lists, path):
             self.edit(cmake_edit.insert_in_testing(self.lists, [line]))
         if not runs_test(self.lists, path):
-            self.refuse(line, "if(BUILD_TESTING) and endif() are not on lines of their own")
+            self.refuse(by_hand, "if(BUILD_TESTING) and endif() are not on lines of their own")
 
     def edit(self, edits: Edits | None) -> None:
         """Apply edits; those that CMake could not parse afterwards are not applied."""
