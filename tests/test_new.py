@@ -274,6 +274,7 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
     assert "TOPIC = '/node/beat'\n" in test
     assert "QOS = qos_profile_sensor_data\n" in test
     assert names.class_name("header", ["Header"]) == "HeaderNode"
+    assert names.class_name("action_client") == "ActionClientNode"
 
 
 @pytest.mark.parametrize("given", EXAMPLES)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Sequence
 from keyword import iskeyword
 
 from scaffold.errors import InputError
@@ -29,6 +29,13 @@ _PYTHON_PACKAGES = frozenset(
     | {"pkg_resources", "pydocstyle", "pytest", "requests", "scipy", "setuptools", "wheel", "yaml"}
 )
 _TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
+_IMPORTED_CLASSES = frozenset(
+    {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
+    | {"Future", "GoalResponse", "GoalStatus", "LifecycleNode", "MultiThreadedExecutor", "Node"}
+    | {"ParameterDescriptor", "SetParametersResult", "SignalHandlerOptions"}
+    | {"TransitionCallbackReturn"}
+)
+"""What the modules of nodes import by name."""
 _RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
 
 
@@ -172,10 +179,10 @@ def resolve(name: str, node: str) -> str:
     return name if name.startswith("/") else f"/{name}"
 
 
-def class_name(node: str, taken: Iterable[str] = ()) -> str:
+def class_name(node: str, taken: Sequence[str] = ()) -> str:
     """Return the name of a node's class, different from the classes it uses."""
     name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
-    return f"{name}Node" if name in {"Node", *taken} else name
+    return f"{name}Node" if name in _IMPORTED_CLASSES or name in taken else name
 
 
 def dependency(text: str) -> str:
