@@ -82,14 +82,14 @@ def test_both_changes_come_together(
 ) -> None:
     node = package / NODE
     node.write_text(node.read_text().replace("Log the next message", "Log and count the message"))
-    change(team, node_of(team), "Run the node until Ctrl+C", "Run the node until it is stopped")
+    change(team, node_of(team), "Declare the parameters, then", "Declare what can change, and")
     (team / "templates" / "package" / "NOTES.md.jinja").write_text("# {{ package }}\n")
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1800000000")
     assert main(["update", "talker", "--content", str(team)]) == 0
     assert capsys.readouterr().out == f"NOTES.md: new\n{NODE}: merged\n"
     merged = node.read_text()
     assert "Log and count the message" in merged
-    assert "Run the node until it is stopped" in merged
+    assert "Declare what can change, and" in merged
     assert "Date: 2023-11-14" in merged
     assert os.access(node, os.X_OK)
     assert (package / "NOTES.md").read_text() == "# talker\n"
