@@ -582,6 +582,13 @@ def test_fibonacci() -> None:
     assert filled.result.statements == ("result.sequence = feedback.sequence",)
 
 
+def test_outcomes_are_good() -> None:
+    response = payload.service("nav_msgs/srv/LoadMap", BUNDLED).response
+    assert response.statements[-1] == "response.result = LoadMap.Response.RESULT_SUCCESS"
+    response = payload.service("action_msgs/srv/CancelGoal", BUNDLED).response
+    assert "response.return_code = CancelGoal.Response.ERROR_NONE" in response.statements
+
+
 def test_recipes_are_for_messages_that_exist() -> None:
     from scaffold.generate.payload import recipes
 

@@ -11,14 +11,14 @@ from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
 from scaffold.generate.payload.records import Part
-from scaffold.generate.payload.walk import MAX_BRIEF, Walk
+from scaffold.generate.payload.walk import MAX_BRIEF, Walk, constants_of, is_good
 from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
 
 STEPS = 10
 """Of an action that does not tell how many it has."""
 _DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
-_WHY = re.compile("(.*_)?(message|msg|reason|description|info|details|text|status_message)$")
+_WHY = re.compile("(.*_)?(answer|message|msg|reason|description|info|details|text|status_message)$")
 _ERROR = re.compile("(.*_)?(error|failure)(_.*)?$")
 _NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
 
@@ -39,8 +39,16 @@ def asked(types: Types, section: Section) -> Part:
 
 def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
     """Return what a server answers: a response or a result, taken from what it was given."""
-    values = {field.name: _answer(field, given) for field in section.fields}
-    return _filled(types, section, values)
+    fields = tuple(one for one in section.fields if not _is_failure(section, one))
+    values = {field.name: _answer(field, given) for field in fields}
+    return _filled(types, section._replace(fields=fields), values)
+
+
+def _is_failure(section: Section, field: Field) -> bool:
+    """Tell whether a field is a code of errors without one for success: 0 is the default."""
+    if field.type.name not in INTEGER_RANGES or not _ERROR.match(field.name):
+        return False
+    return not any(is_good(one) for one in constants_of(section, field))
 
 
 def reported(types: Types, section: Section) -> Part:

@@ -25,6 +25,9 @@ _DULL = re.compile(
     "|OFF$|IDLE"
 )
 _TIMESTAMP = "self.get_clock().now().nanoseconds"
+_OUTCOMES = frozenset({"error", "result", "return"})
+"""Words in the names of fields that tell how something went."""
+_GOOD = re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
 _ENUMS = frozenset(
     {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
     | {"reason", "result", "severity", "stage", "state", "status", "type"}
@@ -202,6 +205,9 @@ class Walk:
             names = [f"{owner}.{one.name}" for one in options[:ELEMENTS]]
             every = block.define(f"every_{field.name}", f"[{', '.join(names)}]")
             return f"{every}[{COUNT} % {len(names)}]"
+        if _OUTCOMES & set(words.split(field.name)):
+            good = [one for one in options if is_good(one)]
+            options = good or options
         telling = [one for one in options if not _DULL.search(one.name)]
         return f"{owner}.{(telling or options)[0].name}"
 
@@ -218,7 +224,7 @@ class Walk:
             value = f"{COUNT} % 2 == 0"
             value = "True" if words.is_true(name) and not self._changing else value
         elif type_.name == "byte":
-            value = f"bytes([{COUNT} % 256])"
+            value = "b'\\x01'" if words.is_true(name) else f"bytes([{COUNT} % 256])"
         elif type_.name in INTEGER_RANGES:
             value = self._integer(name, type_)
             if value == _TIMESTAMP and re.search("us$|micro", f"{name} {field.comment.lower()}"):
@@ -376,7 +382,7 @@ def singular(name: str) -> str:
         return name[:-3] + "y"
     if name.endswith(("sses", "xes", "ches", "shes")):
         return name[:-2]
-    return name[:-1] if name.endswith("s") and not name.endswith("ss") else name
+    return name[:-1] if name.endswith("s") and not name.endswith(("ss", "us", "is")) else name
 
 
 ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
@@ -411,6 +417,11 @@ def numbered(name: str, size: int, bound: int | None) -> Iterable[str]:
 
 
 # -- constants
+
+
+def is_good(constant: Constant) -> bool:
+    """Tell whether a constant means that something went well."""
+    return _GOOD.search(constant.name) is not None
 
 
 def constants_of(section: Section, field: Field) -> list[Constant]:

@@ -222,7 +222,7 @@ def whole(name: str) -> int | None:
 # -- flags
 
 _TRUE = re.compile(
-    "(is|has|can|was|use|enable)_|.*(success|successful|succeeded|valid|enabled|available|present"
+    "(is|has|can|was|use|enable)_|.*(success|successful|succeeded|valid|enabled|available|passed|present"
     "|ok|ready|connected|online|accepted|done|finished|healthy)$"
 )
 
