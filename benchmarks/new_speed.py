@@ -1,0 +1,81 @@
+"""How fast `new` is beside `ros2 pkg create`, both started as a user would, in turn.
+
+Usage: ``python benchmarks/new_speed.py [--ros2 PROGRAM] [--repeat N]``
+
+``ros2`` is looked for on the PATH. Each figure is the least of N runs, of the wall time and of the
+CPU time, user and system, of the process with all that it starts. `ros2 pkg create` writes a
+package with one node that prints a line; `new` writes one with a publisher, its tests and its
+README, and checks all of it with every rule before it is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+
+class Cost(NamedTuple):
+    """What a command takes, in seconds."""
+
+    wall: float
+    cpu: float
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--ros2", default=shutil.which("ros2"), metavar="PROGRAM")
+    parser.add_argument("--repeat", type=int, default=15)
+    options = parser.parse_args()
+    with TemporaryDirectory() as scratch:
+        commands = _commands(options.ros2)
+        costs: dict[str, list[Cost]] = {name: [] for name in commands}
+        for number in range(options.repeat + 1):
+            for name, command in commands.items():
+                cost = _run([*command, f"package_{number}"], Path(scratch), name)
+                if number:  # the first one fills caches, of the system and of ours
+                    costs[name].append(cost)
+    base = min(cost.cpu for cost in next(iter(costs.values())))
+    print(f"{'command':18} {'wall s':>7} {'CPU s':>7} {'ratio of CPU':>13}")
+    for name, measured in costs.items():
+        wall, cpu = min(one.wall for one in measured), min(one.cpu for one in measured)
+        print(f"{name:18} {wall:7.3f} {cpu:7.3f} {cpu / base:13.2f}")
+
+
+def _commands(ros2: str | None) -> dict[str, list[str]]:
+    """Return the commands by name; each wants the name of a package behind it."""
+    scaffold = [sys.executable, "-m", "scaffold", "new"]
+    maintainer = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    commands = {"ros2-scaffold new": [*scaffold, *maintainer]}
+    if ros2 is None:
+        sys.stderr.write("there is no ros2 on the PATH: nothing to compare with\n")
+        return commands
+    mail = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    flags = ["--build-type", "ament_python", "--node-name", "talker", "--license", "Apache-2.0"]
+    commands["ros2 pkg create"] = [ros2, "pkg", "create", *flags, *mail]
+    return commands
+
+
+def _run(command: Sequence[str], scratch: Path, name: str) -> Cost:
+    place = scratch / name.replace(" ", "_")
+    place.mkdir(exist_ok=True)
+    variables = {**os.environ, "XDG_CACHE_HOME": str(scratch / "cache")}
+    variables.pop("PYTHONDONTWRITEBYTECODE", None)
+    before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(command, cwd=place, env=variables, check=True, capture_output=True)
+    wall, after = time.perf_counter() - begun, resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Cost(wall, cpu)
+
+
+if __name__ == "__main__":
+    main()
