@@ -378,6 +378,8 @@ def singular(name: str) -> str:
     """Return the name of an element of an array."""
     for ending in ("_list", "_array"):
         name = name.removesuffix(ending)
+    if name.endswith(("vertices", "indices")):
+        return f"{name[:-4]}ex"
     if name.endswith("ies"):
         return name[:-3] + "y"
     if name.endswith(("sses", "xes", "ches", "shes")):
@@ -444,7 +446,8 @@ def constants_of(section: Section, field: Field) -> list[Constant]:
     free = [one for one in section.constants if one.type == field.type and one not in taken]
     if len(rivals) > 1:
         free = [one for one in free if _is_next_to(one, field, section)]
-    if words.split(field.name)[-1] in _ENUMS:
+    is_only = sum(one.type.name in INTEGER_RANGES for one in section.fields) == 1
+    if words.split(field.name)[-1] in _ENUMS or (is_only and len(free) > 1):
         return free
     own = set(words.split(field.name))
     alike = [one for one in free if own & set(one.name.lower().split("_"))]

@@ -46,19 +46,23 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "angular acceleration": Quantity(0.0, 0.5, "radians per second squared"),
     "turn rate": _TURN,
     "yaw rate": _TURN,
-    "update rate": _HERTZ,
-    "frame rate": _HERTZ,
+    **{f"{word} rate": _HERTZ for word in ("update", "frame", "publish", "sample", "refresh")},
     "speed limit": Quantity(1.0, 0.5, "metres per second"),
     "magnetic field": Quantity(2e-05, 1e-06, "tesla"),
     "battery level": RATIO,
     "wind speed": Quantity(5.0, 1.0, "metres per second"),
     "state of charge": RATIO,
     "soc": RATIO,
-    **dict.fromkeys(("acceleration", "accel"), Quantity(0.0, 0.5, "metres per second squared")),
-    **dict.fromkeys(("velocity", "speed"), _SPEED),
+    **dict.fromkeys(
+        ("acceleration", "deceleration", "accel", "acc"),
+        Quantity(0.0, 0.5, "metres per second squared"),
+    ),
+    **dict.fromkeys(("velocity", "speed", "vel"), _SPEED),
     **dict.fromkeys(("angle", "yaw", "pitch", "roll", "heading", "theta", "bearing"), _RADIANS),
     **dict.fromkeys(("orientation", "azimuth", "elevation", "steering"), _RADIANS),
-    **dict.fromkeys(("distance", "length", "width", "height", "depth", "radius"), _METRES),
+    **dict.fromkeys(
+        ("distance", "dist", "diameter", "length", "width", "height", "depth", "radius"), _METRES
+    ),
     **dict.fromkeys(("range", "tolerance", "clearance", "thickness", "wheelbase"), _METRES),
     **dict.fromkeys(("position", "offset", "displacement", "resolution", "x", "y", "z"), _METRES),
     "altitude": Quantity(500.0, 10.0, "metres"),
@@ -74,10 +78,10 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "capacity": Quantity(5.0, 0.5, "ampere hours"),
     "power": Quantity(20.0, 5.0, "watts"),
     "energy": Quantity(100.0, 10.0, "joules"),
-    **dict.fromkeys(("force", "thrust", "load"), _NEWTONS),
+    **dict.fromkeys(("force", "thrust"), _NEWTONS),
     **dict.fromkeys(("torque", "effort", "moment"), _TORQUE),
-    **dict.fromkeys(("mass", "weight", "payload"), Quantity(2.0, 0.5, "kilograms")),
-    **dict.fromkeys(("frequency", "rate", "hz"), _HERTZ),
+    **dict.fromkeys(("mass", "payload"), Quantity(2.0, 0.5, "kilograms")),
+    **dict.fromkeys(("frequency", "hz"), _HERTZ),
     **dict.fromkeys(("duration", "time", "timeout", "period", "interval", "delay"), _SECONDS),
     **dict.fromkeys(("seconds", "latency", "age", "eta"), _SECONDS),
     **dict.fromkeys(("percentage", "ratio", "fraction", "progress", "confidence"), RATIO),
@@ -112,6 +116,8 @@ def phrase(name: str) -> str:
 
 def quantity(name: str) -> Quantity:
     """Return what a number of this name probably is."""
+    if name == "rate":
+        return _HERTZ
     found = next((_QUANTITIES[key] for key in _keys(name) if key in _QUANTITIES), NUMBER)
     unit = _SUFFIXES.get(split(name)[-1]) if "_" in name else None
     return found._replace(unit=unit) if unit else found
