@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import socket
 from functools import cached_property
 from typing import NamedTuple
 
@@ -90,7 +89,7 @@ def _login() -> _Login:
     except KeyError:
         login, name = f"user{os.getuid()}", ""
     local = re.sub(r"[^A-Za-z0-9_-]+", "-", login).strip("-") or "user"
-    host = socket.gethostname()
+    host = os.uname().nodename
     if not re.fullmatch(r"([a-zA-Z0-9-]+\.)+[a-zA-Z]{2,}", host) or len(host) > 40:  # noqa: PLR2004
         host = "localhost.localdomain"
     return _Login(name or login, f"{local}@{host}")
