@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from fnmatch import fnmatchcase
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from scaffold.errors import MissingFileError, ParseError, TooLargeError, ViewError
@@ -113,10 +113,7 @@ class Package:
 
     def glob(self, pattern: str) -> list[str]:
         """Return the files that match, where ``*`` stands for anything but ``/``."""
-        depth = pattern.count("/")
-        return [
-            path for path in self.files if path.count("/") == depth and fnmatchcase(path, pattern)
-        ]
+        return filter_names(self._by_depth.get(pattern.count("/"), ()), pattern)
 
     def is_executable(self, path: str) -> bool:
         """Tell whether a file has an executable bit."""
@@ -318,6 +315,18 @@ class Package:
             self.tree.forget()
 
     # -- inside
+
+    @property
+    def _by_depth(self) -> Mapping[int, Sequence[str]]:
+        """The files by the number of directories that they lie in."""
+
+        def build() -> dict[int, list[str]]:
+            found: dict[int, list[str]] = {}
+            for path in self.tree.files:
+                found.setdefault(path.count("/"), []).append(path)
+            return found
+
+        return self._view("by_depth", build)
 
     @property
     def _file_set(self) -> frozenset[str]:
