@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from scaffold.generate.payload import words
+from scaffold.generate.payload import enums, words
 from scaffold.generate.payload.code import COUNTER, Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
 from scaffold.generate.payload.records import Part
-from scaffold.generate.payload.walk import MAX_BRIEF, Walk, constants_of, is_good
+from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
 
@@ -48,7 +48,7 @@ def _is_failure(section: Section, field: Field) -> bool:
     """Tell whether a field is a code of errors without one for success: 0 is the default."""
     if field.type.name not in INTEGER_RANGES or not _ERROR.match(field.name):
         return False
-    return not any(is_good(one) for one in constants_of(section, field))
+    return not any(enums.is_good(one) for one in enums.constants_of(section, field))
 
 
 def reported(types: Types, section: Section) -> Part:

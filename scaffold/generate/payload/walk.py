@@ -2,37 +2,21 @@
 
 from __future__ import annotations
 
-import builtins
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from textwrap import dedent
 
-from scaffold.generate.payload import recipe, words
+from scaffold.generate.payload import elements, enums, recipe, words
 from scaffold.generate.payload.code import COUNT, NOW, Block
-from scaffold.generate.payload.imports import MODULES
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
 from scaffold.generate.payload.recipe import Recipe
 from scaffold.model.interface_syntax import Constant, Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 
-ELEMENTS = 3
-"""Of an array of any length."""
 WRAPPERS = ("std_msgs", "example_interfaces")
 """Packages with messages that hold nothing but a primitive value."""
 _STAMP = (f"{{}}.stamp = {NOW}", "{}.frame_id = self.frame_id")
-_DULL = re.compile(
-    "UNKNOWN|NONE|NOT_SET|UNSET|UNSPECIFIED|UNDEFINED|INVALID|NOTHING|ERROR|FAIL|DEFAULT|DISABLED"
-    "|OFF$|IDLE"
-)
 _TIMESTAMP = "self.get_clock().now().nanoseconds"
-_OUTCOMES = frozenset({"error", "result", "return"})
-"""Words in the names of fields that tell how something went."""
-_GOOD = re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
-_ENUMS = frozenset(
-    {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
-    | {"reason", "result", "severity", "stage", "state", "status", "type"}
-)
-"""The last words of the names of fields that have a few values, each with a constant."""
 
 
 class Walk:
@@ -170,7 +154,7 @@ class Walk:
             block.add(f"{target}.sec = {COUNT} % 10 + 1" if self._changing else f"{target}.sec = 1")
         elif not field.type.is_primitive:
             self._nested(block, field, target)
-        elif options := constants_of(section, field):
+        elif options := enums.constants_of(section, field):
             value = self._enum(block, field, options, owner)
             block.add(f"{target} = {value}", said(field, ""))
             if COUNT in value:
@@ -202,14 +186,10 @@ class Walk:
 
     def _enum(self, block: Block, field: Field, options: Sequence[Constant], owner: str) -> str:
         if self._changing and len(options) > 1:
-            names = [f"{owner}.{one.name}" for one in options[:ELEMENTS]]
+            names = [f"{owner}.{one.name}" for one in options[: elements.ELEMENTS]]
             every = block.define(f"every_{field.name}", f"[{', '.join(names)}]")
             return f"{every}[{COUNT} % {len(names)}]"
-        if _OUTCOMES & set(words.split(field.name)):
-            good = [one for one in options if is_good(one)]
-            options = good or options
-        telling = [one for one in options if not _DULL.search(one.name)]
-        return f"{owner}.{(telling or options)[0].name}"
+        return f"{owner}.{enums.telling(options, field).name}"
 
     def _scalar(self, block: Block, field: Field, target: str) -> None:
         """Fill a field of a primitive type that has no constants."""
@@ -270,9 +250,9 @@ class Walk:
 
     def _array(self, block: Block, field: Field, target: str) -> None:
         type_ = field.type
-        size = type_.array_size or ELEMENTS
+        size = type_.array_size or elements.ELEMENTS
         if type_.is_upper_bound:
-            size = min(size, ELEMENTS)
+            size = min(size, elements.ELEMENTS)
         if not type_.is_primitive:
             self._messages(block, field, target, size)
         elif "covariance" in field.name and size in _DIAGONALS and type_.name in FLOATS:
@@ -287,12 +267,12 @@ class Walk:
     def _elements(self, field: Field, size: int) -> tuple[str, str]:
         """Return the elements of an array of a primitive type as code, and their unit."""
         element = field.type.element
-        name = singular(field.name)
+        name = elements.singular(field.name)
         if element.name in FLOATS:
             quantity = words.quantity(name)
-            return several(quantity.expression, size), quantity.unit
+            return elements.several(quantity.expression, size), quantity.unit
         if element.name == "bool":
-            return several(f"{COUNT} % 2 == 0", size), ""
+            return elements.several(f"{COUNT} % 2 == 0", size), ""
         if element.name == "byte":
             return f"[bytes([({COUNT} + index) % 256]) for index in range({size})]", ""
         if element.name in INTEGER_RANGES:
@@ -301,16 +281,16 @@ class Walk:
             text = words.counting_text(name, element.text_bound)
             text = text.replace(COUNT, f"({COUNT} + index)" if "%" in text else f"{COUNT} + index")
             return f"[{text} for index in range({size})]", ""
-        texts = [f"'{text}'" for text in numbered(name, size, element.text_bound)]
+        texts = [f"'{text}'" for text in elements.numbered(name, size, element.text_bound)]
         return f"[{', '.join(texts)}]", ""
 
     def _messages(self, block: Block, field: Field, target: str, size: int) -> None:
         """Fill an array of messages, the elements of which differ."""
         full_name = field.type.full_name
-        name = variable(field)
+        name = elements.variable(field)
         if full_name in {TIME, DURATION}:
             value = NOW if full_name == TIME else f"{field.type.name}(sec=1)"
-            block.add(f"{target} = {several(value, size)}")
+            block.add(f"{target} = {elements.several(value, size)}")
             return
         if field.type.array_size and not field.type.is_upper_bound:
             if block.is_loop:
@@ -350,7 +330,7 @@ def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field
         if field.type.is_array:
             return 1
         known = words.quantity(field.name) is not words.NUMBER
-        return 0 if known or constants_of(section, field) else 1
+        return 0 if known or enums.constants_of(section, field) else 1
 
     chosen = sorted(fields, key=rank)[:count]
     return [field for field in fields if field in chosen]
@@ -365,113 +345,3 @@ def said(field: Field, unit: str) -> str:
 
 
 _SHORT = 40
-
-
-def several(expression: str, size: int) -> str:
-    """Return a list of a value."""
-    if size <= ELEMENTS:
-        return f"[{', '.join([expression] * size)}]"
-    return f"[{expression}] * {size}"
-
-
-def singular(name: str) -> str:
-    """Return the name of an element of an array."""
-    for ending in ("_list", "_array"):
-        name = name.removesuffix(ending)
-    if name.endswith(("vertices", "indices")):
-        return f"{name[:-4]}ex"
-    if name.endswith("ies"):
-        return name[:-3] + "y"
-    if name.endswith(("sses", "xes", "ches", "shes")):
-        return name[:-2]
-    return name[:-1] if name.endswith("s") and not name.endswith(("ss", "us", "is")) else name
-
-
-ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
-"""The variables that are filled."""
-_TAKEN = frozenset({"self", "count", "step", *ROOTS, *MODULES}) | {
-    name for name in dir(builtins) if name[0].islower()
-}
-"""What a local name must not be."""
-_LONGEST = 20
-"""Characters of a local name."""
-
-
-def variable(field: Field) -> str:
-    """Return a local name for an element of an array of messages."""
-    from keyword import iskeyword
-
-    name = singular(field.name)
-    if len(name) > _LONGEST:
-        name = name.rpartition("_")[2]
-    bad = _TAKEN
-    if name == field.name or iskeyword(name) or name in bad:
-        snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", field.type.name).lower()
-        name = snake if snake not in bad else "element"
-    return name
-
-
-def numbered(name: str, size: int, bound: int | None) -> Iterable[str]:
-    """Return texts for the elements of an array."""
-    for number in range(1, size + 1):
-        text = f"{name}_{number}"
-        yield text if bound is None or len(text) <= bound else str(number)[-bound:]
-
-
-# -- constants
-
-
-def is_good(constant: Constant) -> bool:
-    """Tell whether a constant means that something went well."""
-    return _GOOD.search(constant.name) is not None
-
-
-def constants_of(section: Section, field: Field) -> list[Constant]:
-    """Return the constants that are the values of a field.
-
-    By their names, as in ``STATUS_OK`` for ``status``; else by their place and type, if no other
-    field can be meant.
-    """
-    if field.type.name not in INTEGER_RANGES:
-        return []
-    named = _by_name(section, field)
-    if named:
-        return named
-    rivals = [
-        other
-        for other in section.fields
-        if other.type == field.type and not _by_name(section, other)
-    ]
-    taken = {one for other in section.fields for one in _by_name(section, other)}
-    free = [one for one in section.constants if one.type == field.type and one not in taken]
-    if len(rivals) > 1:
-        free = [one for one in free if _is_next_to(one, field, section)]
-    is_only = sum(one.type.name in INTEGER_RANGES for one in section.fields) == 1
-    if words.split(field.name)[-1] in _ENUMS or (is_only and len(free) > 1):
-        return free
-    own = set(words.split(field.name))
-    alike = [one for one in free if own & set(one.name.lower().split("_"))]
-    return alike if len(alike) > 1 else []
-
-
-def _by_name(section: Section, field: Field) -> list[Constant]:
-    stem = field.name.upper()
-    if field.type.is_array or field.type.name not in INTEGER_RANGES:
-        return []
-    found = [one for one in section.constants if one.name.startswith(f"{stem}_")]
-    found = found or [one for one in section.constants if one.name.endswith(f"_{stem}")]
-    if len(found) == 1 and words.split(field.name)[-1] not in _ENUMS:
-        return []
-    longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
-    return [
-        one
-        for one in found
-        if not any(one.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
-        and one.type.name in INTEGER_RANGES
-    ]
-
-
-def _is_next_to(constant: Constant, field: Field, section: Section) -> bool:
-    """Tell whether no other field stands between a constant and the field below it."""
-    at, line = constant.location.line, field.location.line
-    return at < line and not any(at < other.location.line < line for other in section.fields)

@@ -1,0 +1,66 @@
+"""Elements of arrays: their names, their values."""
+
+from __future__ import annotations
+
+import builtins
+import re
+from collections.abc import Iterable
+from keyword import iskeyword
+
+from scaffold.generate.payload.imports import MODULES
+from scaffold.model.interface_syntax import Field
+
+ELEMENTS = 3
+"""Of an array of any length."""
+
+
+def several(expression: str, size: int) -> str:
+    """Return a list of a value."""
+    if size <= ELEMENTS:
+        return f"[{', '.join([expression] * size)}]"
+    return f"[{expression}] * {size}"
+
+
+def singular(name: str) -> str:
+    """Return the name of an element of an array."""
+    for ending in ("_list", "_array"):
+        name = name.removesuffix(ending)
+    if name.endswith(("vertices", "indices")):
+        return f"{name[:-4]}ex"
+    if name.endswith("ies"):
+        return name[:-3] + "y"
+    if name.endswith(("sses", "xes", "ches", "shes")):
+        return name[:-2]
+    return name[:-1] if name.endswith("s") and not name.endswith(("ss", "us", "is")) else name
+
+
+ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
+"""The variables that are filled."""
+_TAKEN = frozenset({"self", "count", "step", *ROOTS, *MODULES}) | {
+    name for name in dir(builtins) if name[0].islower()
+}
+"""What a local name must not be."""
+_LONGEST = 20
+"""Characters of a local name."""
+
+
+def variable(field: Field) -> str:
+    """Return a local name for an element of an array of messages."""
+    name = singular(field.name)
+    if len(name) > _LONGEST:
+        name = name.rpartition("_")[2]
+    bad = _TAKEN
+    if name == field.name or iskeyword(name) or name in bad:
+        snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", field.type.name).lower()
+        name = snake if snake not in bad else "element"
+    return name
+
+
+def numbered(name: str, size: int, bound: int | None) -> Iterable[str]:
+    """Return texts for the elements of an array."""
+    for number in range(1, size + 1):
+        text = f"{name}_{number}"
+        yield text if bound is None or len(text) <= bound else str(number)[-bound:]
+
+
+# -- constants

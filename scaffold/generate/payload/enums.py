@@ -1,0 +1,86 @@
+"""Constants that are the values of a field."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from scaffold.generate.payload import words
+from scaffold.model.interface_syntax import Constant, Field, Section
+from scaffold.model.interface_values import INTEGER_RANGES
+
+_DULL = re.compile(
+    "UNKNOWN|NONE|NOT_SET|UNSET|UNSPECIFIED|UNDEFINED|INVALID|NOTHING|ERROR|FAIL|DEFAULT|DISABLED"
+    "|OFF$|IDLE"
+)
+_OUTCOMES = frozenset({"error", "result", "return"})
+"""Words in the names of fields that tell how something went."""
+_GOOD = re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
+_ENUMS = frozenset(
+    {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
+    | {"reason", "result", "severity", "stage", "state", "status", "type"}
+)
+"""The last words of the names of fields that have a few values, each with a constant."""
+
+
+def telling(options: Sequence[Constant], field: Field) -> Constant:
+    """Return the constant that a field probably has: of outcomes, a good one."""
+    if _OUTCOMES & set(words.split(field.name)):
+        options = [one for one in options if is_good(one)] or options
+    return next((one for one in options if not _DULL.search(one.name)), options[0])
+
+
+def is_good(constant: Constant) -> bool:
+    """Tell whether a constant means that something went well."""
+    return _GOOD.search(constant.name) is not None
+
+
+def constants_of(section: Section, field: Field) -> list[Constant]:
+    """Return the constants that are the values of a field.
+
+    By their names, as in ``STATUS_OK`` for ``status``; else by their place and type, if no other
+    field can be meant.
+    """
+    if field.type.name not in INTEGER_RANGES:
+        return []
+    named = _by_name(section, field)
+    if named:
+        return named
+    rivals = [
+        other
+        for other in section.fields
+        if other.type == field.type and not _by_name(section, other)
+    ]
+    taken = {one for other in section.fields for one in _by_name(section, other)}
+    free = [one for one in section.constants if one.type == field.type and one not in taken]
+    if len(rivals) > 1:
+        free = [one for one in free if _is_next_to(one, field, section)]
+    is_only = sum(one.type.name in INTEGER_RANGES for one in section.fields) == 1
+    if words.split(field.name)[-1] in _ENUMS or (is_only and len(free) > 1):
+        return free
+    own = set(words.split(field.name))
+    alike = [one for one in free if own & set(one.name.lower().split("_"))]
+    return alike if len(alike) > 1 else []
+
+
+def _by_name(section: Section, field: Field) -> list[Constant]:
+    stem = field.name.upper()
+    if field.type.is_array or field.type.name not in INTEGER_RANGES:
+        return []
+    found = [one for one in section.constants if one.name.startswith(f"{stem}_")]
+    found = found or [one for one in section.constants if one.name.endswith(f"_{stem}")]
+    if len(found) == 1 and words.split(field.name)[-1] not in _ENUMS:
+        return []
+    longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
+    return [
+        one
+        for one in found
+        if not any(one.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
+        and one.type.name in INTEGER_RANGES
+    ]
+
+
+def _is_next_to(constant: Constant, field: Field, section: Section) -> bool:
+    """Tell whether no other field stands between a constant and the field below it."""
+    at, line = constant.location.line, field.location.line
+    return at < line and not any(at < other.location.line < line for other in section.fields)
