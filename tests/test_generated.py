@@ -26,6 +26,7 @@ from scaffold.check.session import Session
 from scaffold.generate import draft, licenses, names, qos, template, values
 from scaffold.generate.defaults import User
 from scaffold.generate.questions import Given
+from scaffold.generate.template import Role
 from scaffold.model import discovery
 from scaffold.plan import WritePlan
 from scaffold.smoke import environment
@@ -41,6 +42,10 @@ TYPES = (
     *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)),
 )
 """Of std_msgs."""
+KINDS = template.of_role(TEMPLATES, Role.NODE)
+QUALITIES = (*qos.NAMES, "best_effort,depth=5,deadline=0.5,lifespan=2")
+AVAILABLE = {"service": "std_srvs/srv/SetBool", "action": "test_msgs/action/Fibonacci"}
+"""By the type of a question an interface that is installed where the tests run."""
 HOSTILE = 'It\'s "a" & <b> {{ package }} {% x %} ${HOME} \\ `id` ' + "long " * 40
 
 needs_ros = pytest.mark.skipif(
@@ -64,37 +69,55 @@ def write(destination: Path, **answers: object) -> Path:
     return directory
 
 
+def available(kind: str) -> dict[str, object]:
+    """Return answers for a kind of node whose default interfaces may not be installed."""
+    questions = TEMPLATES[kind].questions
+    return {one.name: AVAILABLE[one.type] for one in questions if one.type in AVAILABLE}
+
+
 @pytest.fixture(scope="module")
 def combinations(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write every combination, with the licences and qualities of service in turn."""
     root = tmp_path_factory.mktemp("combinations")
     known = licenses.names(ROOTS)
-    more = zip(cycle(known), cycle(qos.NAMES), cycle(("", HOSTILE)), strict=False)
-    for build_type, comments, name in product(BUILD_TYPES, COMMENTS, TYPES):
-        license_, quality, description = next(more)
+    more = zip(cycle(known), cycle(QUALITIES), cycle(("", HOSTILE)), strict=False)
+    published = product(BUILD_TYPES, COMMENTS, ["publisher"], TYPES)
+    others = product(BUILD_TYPES, COMMENTS, [kind for kind in KINDS if kind != "publisher"])
+    for (build_type, comments, kind, name), (license_, quality, description) in zip(
+        [*published, *((*one, name) for one, name in zip(others, cycle(TYPES), strict=False))],
+        more,
+        strict=False,
+    ):
         write(
             root,
-            package=f"{build_type[6:]}_{comments}_{name.lower()}",
+            package=f"{build_type[6:]}_{comments}_{name if kind == 'publisher' else kind}".lower(),
             build_type=build_type,
             comments=comments,
+            node_kind=kind,
             message_type=f"std_msgs/msg/{name}",
             license=license_,
             qos=quality,
             **({"description": description} if description else {}),
         )
-    for build_type in BUILD_TYPES:
-        write(root, **longest(build_type))
+    for build_type, kind in product(BUILD_TYPES, KINDS):
+        write(root, **longest(build_type, kind))
     return root
 
 
-def longest(build_type: str) -> dict[str, object]:
+def longest(build_type: str, kind: str) -> dict[str, object]:
     """Return answers as long as they may be."""
+    graph_names = {
+        question.name: question.name[0] * (names.MAX_TOPIC - 1)
+        for question in TEMPLATES[kind].questions
+        if question.type in {"topic", "service_name", "action_name"}
+    }
     return {
-        "package": build_type[6] * names.MAX_LENGTH,
+        "package": f"{build_type[6]}_{kind}_{'x' * names.MAX_LENGTH}"[: names.MAX_LENGTH],
+        "node_kind": kind,
         "node_name": "n" * names.MAX_LENGTH,
         "build_type": build_type,
         "comments": "tutorial",
-        "topic": "t" * (names.MAX_TOPIC - 1),
+        **graph_names,
         "message_type": "std_msgs/msg/Float64",
         "qos": "action_status_default",
         "license": "BSL-1.0",
@@ -141,7 +164,7 @@ def test_ament_xmllint(combinations: Path) -> None:
 def test_check(combinations: Path) -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     results = list(session.run(discovery.find([str(combinations)])))
-    assert len(results) == len(BUILD_TYPES) * (len(COMMENTS) * len(TYPES) + 1)
+    assert len(results) == len(os.listdir(combinations)) > len(BUILD_TYPES) * len(KINDS)
     assert [said for result in results for said in result.diagnostics] == []
 
 
@@ -183,6 +206,10 @@ class Workspace(NamedTuple):
         return (self.root / "log" / f"latest_{verb}" / package / name).read_text()
 
 
+ALL_KINDS = [
+    *({"kind": kind, **available(kind)} for kind in KINDS),
+    {"kind": "subscriber", "name": "second", "topic": "~/input", "qos": "latched,deadline=0.5"},
+]
 BUILT: Mapping[str, Mapping[str, object]] = {
     "cmake_string": {"license": "Apache-2.0"},
     "cmake_float": {
@@ -209,17 +236,21 @@ BUILT: Mapping[str, Mapping[str, object]] = {
         "description": HOSTILE,
     },
     "python_int": {"message_type": "std_msgs/UInt8", "license": "BSL-1.0", "rate": 0.5},
+    "cmake_kinds": {"add": ALL_KINDS, "comments": "tutorial", "license": "BSD-2-Clause"},
+    "python_kinds": {"add": ALL_KINDS, "license": "LGPL-3.0-only"},
 }
-TESTED = ("cmake_float", "python_bool")
+TESTED = ("cmake_float", "cmake_kinds", "python_bool", "python_kinds")
 
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     """Build packages that cover build types, comments, licences and qualities of service."""
     made = Workspace(tmp_path_factory.mktemp("ws"), environment.select(os.environ))
-    for name, answers in BUILT.items():
-        build_type = "ament_" + name.partition("_")[0]
-        write(made.root / "src", package=name, build_type=build_type, **answers)
+    with pytest.MonkeyPatch.context() as sourced:
+        sourced.setenv("AMENT_PREFIX_PATH", made.ros.variables["AMENT_PREFIX_PATH"])
+        for name, answers in BUILT.items():
+            build_type = "ament_" + name.partition("_")[0]
+            write(made.root / "src", package=name, build_type=build_type, **answers)
     done = made.colcon("build")
     assert done.returncode == 0, done.stdout + done.stderr
     return made
@@ -231,7 +262,8 @@ def test_colcon_builds_without_a_word_on_stderr(workspace: Workspace) -> None:
     for name in BUILT:
         assert workspace.log("build", name, "stderr.log") == ""
         assert "warning" not in workspace.log("build", name, "stdout_stderr.log").lower()
-        assert len(os.listdir(workspace.root / "install" / name / "lib" / name)) == 1
+        installed = os.listdir(workspace.root / "install" / name / "lib" / name)
+        assert len(installed) == (len(ALL_KINDS) if "add" in BUILT[name] else 1)
 
 
 @pytest.mark.build
@@ -250,17 +282,17 @@ def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_pa
     )
     assert done.returncode == 0, done.stdout + done.stderr
     build = workspace.root / "build"
-    cmake = {file.name.partition(".")[0]: counts(file) for file in build.rglob("*.xunit.xml")}
-    assert cmake.pop("test_sine") == (2, 0)
-    assert {name for name, (ran, _) in cmake.items() if ran} == {
-        "copyright",
-        "flake8",
-        "lint_cmake",
-        "pep257",
-        "xmllint",
-    }
-    assert sum(skipped for _, skipped in cmake.values()) == 0
+    sine = results_of(build / "cmake_float")
+    assert sine.pop("test_sine") == (2, 0)
+    linters = {"copyright", "flake8", "lint_cmake", "pep257", "xmllint"}
+    assert {name for name, (ran, _) in sine.items() if ran} == linters
+    kinds = results_of(build / "cmake_kinds")
+    of_nodes = {name for name, (ran, _) in kinds.items() if ran >= 2}
+    assert len(of_nodes - linters) == len(ALL_KINDS)
+    assert [skipped for _, skipped in (*sine.values(), *kinds.values()) if skipped] == []
     assert counts(build / "python_bool" / "pytest.xml") == (5, 0)
+    ran = sum(kinds[name][0] for name in of_nodes - linters)
+    assert counts(build / "python_kinds" / "pytest.xml") == (ran + 3, 0)
 
 
 @pytest.mark.build
@@ -299,6 +331,11 @@ def reachable(module: Path, directory: Path) -> None:
     """Make one module of the system importable, and nothing else that is beside it."""
     for path in module.parent.glob(f"{module.name}*"):
         (directory / path.name).symlink_to(path)
+
+
+def results_of(build: Path) -> dict[str, tuple[int, int]]:
+    """Return the counts of all reports of an ament_cmake package by the names of the tests."""
+    return {file.name.partition(".")[0]: counts(file) for file in build.rglob("*.xunit.xml")}
 
 
 def counts(report: Path) -> tuple[int, int]:
@@ -404,7 +441,7 @@ def test_executables_stop_with_0_and_in_silence(
     workspace: Workspace, variables: dict[str, str], stop: signal.Signals
 ) -> None:
     sourced = environment.source(workspace.root / "install" / "setup.bash", variables)
-    for name in BUILT:
+    for name in (one for one in BUILT if "add" not in BUILT[one]):
         (executable,) = (workspace.root / "install" / name / "lib" / name).iterdir()
         command = [str(executable), "--ros-args", "-p", "rate:=2.0"]
         with running(command, sourced) as node:
