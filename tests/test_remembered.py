@@ -12,8 +12,10 @@ from pathlib import Path
 import pytest
 
 from scaffold.check import memory, registry
+from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.session import Session
 from scaffold.cli.main import main
+from scaffold.model.discovery import Target
 from scaffold.model.package import Package
 
 MANIFEST = """<?xml version="1.0"?>
@@ -562,6 +564,23 @@ def test_what_cannot_be_noted_is_not_remembered(runs: Runs, package: Path) -> No
     assert runs(".") == first
     other.write_text(element.format("b") + "</xs:schema>\n")
     assert runs(".") != first
+
+
+def test_what_changes_during_the_run_is_not_remembered(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = Session._report  # noqa: SLF001  the last that is done for a package
+
+    def edit_and_report(session: Session, target: Target, found: list[Diagnostic]) -> object:
+        edit(package)
+        return report(session, target, found)
+
+    with monkeypatch.context() as context:
+        context.setattr(Session, "_report", edit_and_report)
+        assert "F401" not in runs(".")
+    (package / "talker" / "talk.py").write_text(TALK)
+    runs(".")
+    assert runs.checked == ["talker"]
 
 
 @pytest.mark.usefixtures("package")

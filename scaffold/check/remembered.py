@@ -93,7 +93,7 @@ class Memory:
         with suppress(EnvironmentMissingError):  # nobody may have asked for style
             disk.stamp(ruff.executable())
         disk.note(self._outside)
-        if not disk.is_settled:
+        if not (disk.is_settled and holds(disk.seen)):
             return
         identities = [one.package.identity for one in self._targets]
         needs = _Needs([one.package for one in self._targets], identities)
@@ -124,7 +124,8 @@ def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
     crashed = any(one.code == RuleCrashed.code for one in result.diagnostics)
     if crashed or not (disk.is_settled and package.is_repeatable):
         return None
-    return disk.seen
+    # Ruff reads the files by itself, a little later.
+    return disk.seen if holds(disk.seen) else None
 
 
 class _Needs:
