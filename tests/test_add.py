@@ -280,6 +280,23 @@ def test_without_any_licence_there_is_no_header(
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
 
 
+def test_answers_come_from_flags_a_file_and_the_configuration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    demo = write(tmp_path / "demo", CMAKE)
+    config = tmp_path / "config" / "ros2-scaffold" / "config.toml"
+    write(config.parent, {config.name: "[new]\nrate = 7.0\nqos = 'sensor_data'\nlicense = 'MIT'\n"})
+    write(tmp_path, {"answers.yaml": "rate: 8.0\ntopic: a\n"})
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    answers = ["--answers", str(tmp_path / "answers.yaml"), "--topic", "b"]
+    assert add(demo, "publisher", "talker", *answers) == 0
+    text = (demo / "scripts" / "talker.py").read_text()
+    assert "declare_parameter('rate', 8.0)" in text
+    assert "declare_parameter('topic', 'b')" in text
+    assert "qos_profile_sensor_data" in text
+    assert "MIT-style" not in text
+
+
 def test_the_package_is_the_one_around_the_current_directory(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

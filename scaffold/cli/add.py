@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from scaffold.check.diagnostic import Diagnostic
+    from scaffold.config import Config
     from scaffold.generate.add import Added
     from scaffold.generate.questions import Given
     from scaffold.generate.template import Question, Template
@@ -64,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.defaults import User
     from scaffold.generate.questions import choose
     from scaffold.model.package import Package
-    from scaffold.printable import write_lines
+    from scaffold.printable import printable, write_lines
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
@@ -75,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     session = Session(registry.load(content.roots("rules")), Selection())
     before = session.check(package)
     _refuse_broken(package, before, force=options.force)
-    given = _given(options, templates)
+    given = _given(options, templates, settings)
     part = (options.kind, options.name)
     added = add.add(package, part, given, roots, templates, User(directory))
     plan = _plan(package, added, force=options.force)
@@ -89,11 +90,11 @@ def run(options: argparse.Namespace) -> int:
     elif not options.dry_run:
         plan.write(force=True)
     for note in [*added.remarks, *(_line(package, diagnostic) for diagnostic in said)]:
-        sys.stderr.write(f"note: {note}\n")
+        sys.stderr.write(f"note: {printable(note)}\n")
     if not options.diff:
-        print(_summary(options, package, added, plan))
+        write_lines(f"{_summary(options, package, added, plan)}\n", sys.stdout)
     for line in _by_hand(package, added):
-        sys.stderr.write(f"{line}\n")
+        sys.stderr.write(f"{printable(line)}\n")
     return FOUND if any(one.is_needed for one in added.by_hand) else CLEAN
 
 
@@ -109,12 +110,21 @@ def _asked(templates: Mapping[str, Template], kinds: list[str]) -> list[Question
     return [*own, *general]
 
 
-def _given(options: argparse.Namespace, templates: Mapping[str, Template]) -> dict[str, Given]:
-    from scaffold.generate import parts, questions
+def _given(
+    options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
+) -> dict[str, Given]:
+    """Return the user's answers; what the configuration says of packages, these know better."""
+    from scaffold.generate import defaults, parts, questions
+    from scaffold.generate.own import OF_PACKAGES
 
     asked = _asked(templates, parts.kinds(templates))
+    table = questions.from_table(
+        defaults.configured(settings), questions.unique(templates.values())
+    )
+    names = {question.name for question in asked} - {*OF_PACKAGES}
+    configured = {name: value for name, value in table.items() if name in names}
     answered = questions.from_file(options.answers, asked) if options.answers else {}
-    return {**answered, **questions.from_flags(options, asked)}
+    return {**configured, **answered, **questions.from_flags(options, asked)}
 
 
 def _directory(given: str | None) -> str:
@@ -178,8 +188,10 @@ def _is_defect(said: list[Diagnostic], added: Added) -> bool:
 
 
 def _report(package: Package, said: list[Diagnostic]) -> None:
+    from scaffold.printable import printable
+
     for diagnostic in said:
-        sys.stderr.write(f"{_line(package, diagnostic)}\n")
+        sys.stderr.write(f"{printable(_line(package, diagnostic))}\n")
     sys.stderr.write(
         "ros2-scaffold: defect: what was to be added has faults that the checker finds; "
         "nothing was changed; please report it\n"
