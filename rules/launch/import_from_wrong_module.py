@@ -1,0 +1,104 @@
+"""LF043: classes of launch are imported from where they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import Import
+
+_NAMES: Mapping[str, str] = {
+    "launch": "LaunchContext LaunchDescription LaunchDescriptionSource LaunchService actions "
+    "conditions descriptions events frontend logging substitutions Action Condition Event "
+    "EventHandler InvalidLaunchFileError LaunchDescriptionEntity LaunchIntrospector "
+    "SomeEntitiesType SomeSubstitutionsType Substitution event_handlers utilities",
+    "launch.actions": "AppendEnvironmentVariable DeclareLaunchArgument EmitEvent ExecuteLocal "
+    "ExecuteProcess GroupAction IncludeLaunchDescription LogInfo OpaqueCoroutine OpaqueFunction "
+    "PopEnvironment PopLaunchConfigurations PushEnvironment PushLaunchConfigurations "
+    "ResetEnvironment ResetLaunchConfigurations RegisterEventHandler SetEnvironmentVariable "
+    "SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler "
+    "UnsetEnvironmentVariable UnsetLaunchConfiguration",
+    "launch.substitutions": "AndSubstitution AnySubstitution AllSubstitution AnonName Command "
+    "EnvironmentVariable EqualsSubstitution FileContent FindExecutable IfElseSubstitution "
+    "LaunchConfiguration LaunchLogDir LocalSubstitution NotEqualsSubstitution NotSubstitution "
+    "OrSubstitution PathJoinSubstitution PythonExpression SubstitutionFailure TextSubstitution "
+    "ThisLaunchFile ThisLaunchFileDir "
+    "PathSubstitution StringJoinSubstitution ForLoopIndex",
+    "launch.conditions": "IfCondition LaunchConfigurationEquals LaunchConfigurationNotEquals "
+    "UnlessCondition",
+    "launch.event_handlers": "OnExecutionComplete OnIncludeLaunchDescription OnProcessExit "
+    "OnProcessIO OnProcessStart OnShutdown",
+    "launch.launch_description_sources": "AnyLaunchDescriptionSource "
+    "FrontendLaunchDescriptionSource PythonLaunchDescriptionSource",
+    "launch_xml.launch_description_sources": "XMLLaunchDescriptionSource",
+    "launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource",
+    "launch_ros.actions": "ComposableNodeContainer LifecycleNode LifecycleTransition "
+    "LoadComposableNodes Node PushROSNamespace PushRosNamespace ROSTimer RosTimer SetParameter "
+    "SetParametersFromFile SetRemap SetROSLogDir SetUseSimTime",
+    "launch_ros.substitutions": "ExecutableInPackage FindPackage FindPackagePrefix "
+    "FindPackageShare Parameter",
+    "launch_ros.descriptions": "ComposableNode Parameter ParameterFile ParameterValue",
+    "launch_ros.parameter_descriptions": "Parameter ParameterFile ParameterValue",
+    "launch_ros": "actions descriptions substitutions",
+    "ament_index_python.packages": "get_package_prefix get_package_share_directory "
+    "get_package_share_path get_packages_with_prefixes PackageNotFoundError",
+}
+_LAUNCH = "from {} import Node\nfrom launch.actions import {}\n"
+
+
+class ImportFromWrongModule(Rule):
+    """A name of launch is imported from a module that does not have it.
+
+    **Why.** ``ros2 launch`` stops: ``ImportError: cannot import name 'Node' from
+    'launch.actions'``.
+
+    **Fix.** Import it from the module that is named.
+
+    **Source.** The packages launch, launch_ros and ament_index_python of Jazzy.
+    """
+
+    code = "LF043"
+    name = "import-from-wrong-module"
+    examples = (
+        Example(
+            "right",
+            {"launch/a.launch.py": _LAUNCH.format("launch_ros.actions", "TimerAction")},
+        ),
+        Example(
+            "wrong, and misspelt",
+            {"launch/a.launch.py": _LAUNCH.format("launch.actions", "TimerActions")},
+            at=("launch/a.launch.py:1", "launch/a.launch.py:2"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        known = {module: frozenset(names.split()) for module, names in _NAMES.items()}
+        places = {name: module for module, names in known.items() for name in names}
+        roots = {module.partition(".")[0] for module in known}
+        if package.name in roots:
+            return
+        for module in package.modules():
+            for root in roots:
+                for one in module.imports_by_root.get(root, ()):
+                    if not one.guarded and not one.conditional:
+                        yield from self._check(one, known, places)
+
+    def _check(
+        self, one: Import, known: Mapping[str, frozenset[str]], places: Mapping[str, str]
+    ) -> Iterator[Diagnostic]:
+        near = f"{one.module}s"
+        if one.module not in known and near in known and one.root != "launch":
+            yield self.report(one, f"there is no {one.module}; {near!r} is meant")
+        for name in one.names if one.module in known else ():
+            if name.name in known[one.module] or name.name == "*":
+                continue
+            place = places.get(name.name)
+            alike = get_close_matches(name.name, known[one.module], 1, 0.85)
+            if place is None and alike and alike[0].lower() != name.name.lower():
+                hint = f"{alike[0]!r} is meant"
+            elif place is not None and place.count(".") >= one.module.count("."):
+                hint = f"{place} has"
+            else:
+                continue
+            yield self.report(name, f"{one.module} has no {name.name!r}; {hint}")

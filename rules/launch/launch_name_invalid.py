@@ -1,0 +1,63 @@
+"""LF045: launch files name nodes and namespaces as ROS 2 allows, and ask for truth values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_py import NODES, LaunchFile
+
+_TRUTHS = frozenset({"true", "false", "1", "0"})
+_NAMESPACE = r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)"
+_CONDITIONS = ("IfCondition", "UnlessCondition")
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='node', name='{}', namespace='{}'),\n    ])\n"
+)
+
+
+class LaunchNameInvalid(Rule):
+    """A launch file gives a node a name or namespace that ROS 2 refuses, or a condition no truth.
+
+    **Why.** The node dies at start: ``InvalidNodeNameException``, or ``Couldn't parse remap
+    rule``. A condition on another text ends the launch: ``invalid condition expression``.
+
+    **Fix.** Letters, digits and ``_``, no digit first; ``/`` in namespaces only. Defaults of
+    conditions are ``true`` and ``false``.
+
+    **Source.** ``rmw/validate_node_name.c``; ``launch/conditions``.
+    """
+
+    code = "LF045"
+    name = "launch-name-invalid"
+    examples = (
+        Example("valid", {"launch/a.launch.py": _LAUNCH.format("talker", "/robot_1")}),
+        Example(
+            "a dash and a slash",
+            {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
+            at=("launch/a.launch.py:7", "launch/a.launch.py:7"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*NODES, "ComposableNode"):
+                name, space = launch.text(call, "name"), launch.text(call, "namespace")
+                if isinstance(name, str) and not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
+                    message = f"ROS 2 refuses the node name {name!r}: letters, digits and _ only"
+                    yield self.report(launch.location(call.given["name"]), message)
+                is_space = re.fullmatch(
+                    r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)", str(space), re.ASCII
+                )
+                if isinstance(space, str) and not is_space:
+                    message = f"ROS 2 refuses the namespace {space!r}"
+                    yield self.report(launch.location(call.given["namespace"]), message)
+            for call in launch.find(*_CONDITIONS):
+                node = next(iter([*call.given.values(), *call.call.args]), None)
+                value = launch.default_of(node)
+                if isinstance(value, str) and value.lower() not in _TRUTHS:
+                    message = f"the default is {value!r}, which is neither true nor false"
+                    yield self.report(call, message)

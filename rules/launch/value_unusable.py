@@ -1,0 +1,128 @@
+"""LF040: actions of launch get values that they can use."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
+
+_OUTPUTS = frozenset({"screen", "log", "both", "own_log", "full"})
+_LAUNCH = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('rate', default_value={}),\n"
+    "        Node(package='talker', executable='node', remappings={}, arguments={}),\n"
+    "    ])\n"
+)
+_RIGHT = _LAUNCH.format("'2.0'", "[('a', 'b')]", "['--rate', '3']")
+
+
+class ValueUnusable(Rule):
+    """An action of launch gets a value of a kind that it cannot use.
+
+    **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``; a dictionary of remappings
+    is read letter by letter.
+
+    **Fix.** Texts for defaults and arguments, ``[('from', 'to')]`` for remappings,
+    ``IfCondition(...)`` for conditions.
+
+    **Source.** ``launch/actions``, ``launch_ros/actions/node.py``,
+    ``launch/utilities/normalize_to_list_of_substitutions_impl.py``.
+    """
+
+    code = "LF040"
+    name = "value-unusable"
+    examples = (
+        Example("usable", {"launch/a.launch.py": _RIGHT}),
+        Example(
+            "a number, a dictionary, a number in a list",
+            {"launch/a.launch.py": _LAUNCH.format("2.0", "{'a': 'b'}", "['--rate', 3]")},
+            at=("launch/a.launch.py:8", "launch/a.launch.py:9", "launch/a.launch.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.calls:
+                for name, node in call.given.items():
+                    problem = _problem(launch, call, name, node)
+                    if problem:
+                        yield self.report(launch.location(node), problem)
+
+
+def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:
+    value = launch.evaluator.evaluate(node)
+    kind = _kind(value)
+    problem = ""
+    if call.kind == "DeclareLaunchArgument" and name == "default_value":
+        is_wrong = type(value) in {int, float, bool}
+        problem = f"a default is text, and this is {kind}: write {str(value)!r}" if is_wrong else ""
+    elif name == "condition":
+        problem = _condition_problem(launch, node, value)
+    elif call.kind not in NODES:
+        return ""
+    elif name == "remappings":
+        problem = _remapping_problem(node)
+    elif name in {"arguments", "ros_arguments"} and isinstance(node, ast.List | ast.Tuple):
+        numbers = [one for one in node.elts if _is_number(one)]
+        problem = f"an argument is text: write {_text(numbers[0])!r}" if numbers else ""
+    elif name == "output" and isinstance(value, str) and value not in _OUTPUTS:
+        problem = f"there is no output {value!r}, but {', '.join(sorted(_OUTPUTS))}"
+    elif name == "respawn_delay" and isinstance(value, str):
+        problem = f"a delay is a number, and this is {kind}"
+    elif name in {"env", "additional_env"} and isinstance(value, list):
+        problem = "the environment is a dictionary, and this is a list"
+    elif name == "parameters" and isinstance(node, ast.List):
+        problem = _parameter_problem(node)
+    return problem
+
+
+def _kind(value: object) -> str:
+    return f"a {type(value).__name__}"
+
+
+def _is_number(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) in {int, float, bool}
+
+
+def _text(node: ast.expr) -> str:
+    return str(node.value) if isinstance(node, ast.Constant) else ""
+
+
+def _condition_problem(launch: LaunchFile, node: ast.expr, value: object) -> str:
+    call = launch.call_of(node)
+    is_text = isinstance(value, str | bool) or (
+        call is not None and call.kind == "LaunchConfiguration"
+    )
+    if value is None or not is_text:
+        return ""
+    return "a condition is an object such as IfCondition(...), not a value"
+
+
+def _remapping_problem(node: ast.expr) -> str:
+    if isinstance(node, ast.Dict):
+        return "remappings are a list of pairs, [('from', 'to')], not a dictionary"
+    if isinstance(node, ast.Tuple) and node.elts and not isinstance(node.elts[0], ast.Tuple):
+        is_pair = not isinstance(node.elts[0], ast.List | ast.Name | ast.Starred)
+        return (
+            "this is one pair: remappings are a list of pairs, [('from', 'to')]" if is_pair else ""
+        )
+    if isinstance(node, ast.List):
+        for one in node.elts:
+            if isinstance(one, ast.Constant) and isinstance(one.value, str):
+                return f"{one.value!r} is no pair ('from', 'to')"
+            if isinstance(one, ast.Tuple) and len(one.elts) != 2:  # noqa: PLR2004  from and to
+                return f"a remapping is a pair, and this has {len(one.elts)} parts"
+    return ""
+
+
+def _parameter_problem(node: ast.List) -> str:
+    for one in node.elts:
+        if isinstance(one, ast.Tuple | ast.List):
+            return "a parameter entry is a file or a dictionary {'name': value}, not a list or pair"
+    return ""
