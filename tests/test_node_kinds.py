@@ -9,7 +9,7 @@ import pytest
 from scaffold import content
 from scaffold.check import registry
 from scaffold.errors import InputError
-from scaffold.generate import draft, filters, template
+from scaffold.generate import draft, filters, questions, template
 from scaffold.generate.defaults import User
 from scaffold.generate.questions import Given
 
@@ -99,3 +99,12 @@ def test_imports_of_one_module_stand_on_one_line() -> None:
     assert filters.import_block(long) == "\n".join(sorted(long))
     commented = ["from a.b import C  # why", "from a.b import D"]
     assert filters.import_block(commented) == "\n".join(commented)
+
+
+def test_a_flag_says_what_it_means_for_each_kind() -> None:
+    kinds = [TEMPLATES[kind] for kind in ("publisher", "subscriber", "timer")]
+    found = {one.name: one for one in questions.shared(kinds)}
+    assert found["topic"].help == "topic to publish on; topic to subscribe to"
+    assert found["topic"].default == "example_topic"
+    assert found["node_name"].help == "name of the node, its module and its executable"
+    assert found["node_name"].default is None

@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
     templates = template.load(content.roots("templates", config.load().content))
     parser.set_defaults(templates=templates)
-    questions.add_flags(parser, questions.unique(_in_order(templates)), parts.kinds(templates))
+    questions.add_flags(parser, questions.shared(_in_order(templates)), parts.kinds(templates))
     parser.add_argument(
         "--destination-directory",
         metavar="DIR",

@@ -39,6 +39,21 @@ def unique(templates: Iterable[Template]) -> list[Question]:
     return list(found.values())
 
 
+def shared(templates: Iterable[Template]) -> list[Question]:
+    """Return the questions with what all their templates say: the help of a flag.
+
+    A default in which the templates differ is left out.
+    """
+    found: dict[str, Question] = {}
+    for template in templates:
+        for question in template.questions:
+            first = found.setdefault(question.name, question)
+            helps = dict.fromkeys([*first.help.split("; "), question.help])
+            default = first.default if first.default == question.default else None
+            found[question.name] = first._replace(help="; ".join(helps), default=default)
+    return list(found.values())
+
+
 def add_flags(
     parser: argparse.ArgumentParser, questions: Iterable[Question], kinds: Sequence[str] = ()
 ) -> None:
