@@ -453,6 +453,7 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
         }
         directory = write(tmp_path / "src" / name, renamed)
         assert add(directory, "publisher", "talker", "--topic", f"{name}/talk") == 0
+    assert add(tmp_path / "src" / "cmake_demo", "cpp_program", "two") == 0
     done = made.colcon("build")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "stderr" not in done.stderr
@@ -460,6 +461,7 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
     assert set(os.listdir(installed / "cmake_demo" / "lib" / "cmake_demo")) == {
         "hello.py",
         "talker.py",
+        "two",
     }
     assert set(os.listdir(installed / "python_demo" / "lib" / "python_demo")) == {
         "hello",
@@ -469,5 +471,8 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     build = tmp_path / "build"
     assert counts(build / "python_demo" / "pytest.xml") == (2, 0)
-    (report,) = build.glob("cmake_demo/test_results/cmake_demo/test_talker.xunit.xml")
-    assert counts(report) == (2, 0)
+    results = build / "cmake_demo" / "test_results" / "cmake_demo"
+    assert {file.name.partition(".")[0]: counts(file) for file in results.iterdir()} == {
+        "test_talker": (2, 0),
+        "two_runs": (1, 0),
+    }
