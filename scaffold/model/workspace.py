@@ -66,18 +66,17 @@ class Neighbourhood:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self.used: dict[int, Package] = {}
-        """The given packages that were looked up, by identity."""
+        """The packages that were looked up, by identity; also such as were not given."""
         self.uses_all = False
         self.uses_interfaces = False
         """Whether definitions were looked up: those of any package that has some."""
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        given = self._workspace.by_name.get(name)
-        if given is not None:
-            self.used[id(given)] = given
-            return given
-        return self._workspace.get(name)
+        found = self._workspace.get(name)
+        if found is not None:
+            self.used[id(found)] = found
+        return found
 
     def __iter__(self) -> Iterator[Package]:
         self.uses_all = True

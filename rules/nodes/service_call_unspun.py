@@ -1,0 +1,68 @@
+"""ND043: somebody takes the answer of a service that is waited for."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_waits import in_callbacks, in_constructors
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.single_thread import waits_alone
+
+_CODE = (
+    "import rclpy\nfrom std_srvs.srv import Trigger\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    node = rclpy.create_node('caller')\n"
+    "    client = node.create_client(Trigger, 'reset')\n"
+    "    client.wait_for_service(timeout_sec=5.0)\n"
+    "    {}\n"
+)
+_FUTURE = (
+    "future = client.call_async(Trigger.Request())\n"
+    "    rclpy.spin_until_future_complete(node, future)"
+)
+_FILES = {
+    "package.xml": "<package><name>demo</name>"
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
+    "      entry_points={'console_scripts': ['caller = demo.caller:main']})\n",
+}
+
+
+class ServiceCallUnspun(Rule):
+    """``client.call()`` waits in the only thread, while nothing spins the node.
+
+    **Why.** The answer is taken while the node is spun: without a second thread that does it, the
+    program stands still at the call, for ever. In callbacks and constructors, ND058 says so.
+
+    **Fix.** Use ``call_async`` and ``rclpy.spin_until_future_complete``.
+
+    **Source.** ROS 2 documentation, "Synchronous vs. asynchronous service clients".
+    """
+
+    code = "ND043"
+    name = "service-call-unspun"
+    examples = (
+        Example("asynchronous", {**_FILES, "demo/caller.py": _CODE.format(_FUTURE)}),
+        Example(
+            "nobody spins",
+            {**_FILES, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
+            at=("demo/caller.py:10",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts, call, where in waits_alone(package, "call", _is_call):
+            inside = (*in_callbacks(facts), *in_constructors(facts))
+            if facts.function_of(call) not in {executed.function for executed in inside}:
+                message = f"this call never ends: the thread that would take the answer {where}"
+                yield self.report(facts.module.location(call), message)
+
+
+def _is_call(facts: NodeFacts, call: ast.Call) -> bool:
+    if len(call.args) != 1 or call.keywords or not isinstance(call.func, ast.Attribute):
+        return False
+    client = facts.evaluator.single_value(call.func.value)
+    return any(one.call is client and one.owner is not None for one in facts.clients)
