@@ -289,7 +289,8 @@ def module_of_key(key: str) -> str | None:
     if key in _SYSTEM_KEYS:
         return None
     for module, keys in _OTHER_MODULES.items():
-        if key in (module, _INDEX_NAMES.get(module)) and key not in keys.split():
+        is_named = key == module or key.lower() == _INDEX_NAMES.get(module, "").lower() != ""
+        if is_named and key not in keys.split():
             return module
     return None
 

@@ -1,0 +1,83 @@
+"""PX081: a dependency is one key, and nothing else."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_DEBIAN = r"ros-(foxy|galactic|humble|iron|jazzy|kilted|rolling|noetic|melodic)-(.+)"
+_MODULES = (".msg", ".srv", ".action")
+_OF_PYTHON_2 = frozenset(
+    {"lxml", "matplotlib", "numpy", "opencv", "pandas", "pil", "psutil", "pyqt5", "requests"}
+    | {"scipy", "serial", "setuptools", "tk", "yaml", "zmq"}
+)
+_NO_KEYS = frozenset({"ament_python"})
+_MANIFEST = (
+    '<package format="3">\n  <name>talker</name>\n  <exec_depend>{}</exec_depend>\n</package>\n'
+)
+
+
+class DependencyMalformed(Rule):
+    """The text of a dependency is no key of rosdep, nor the name of a package.
+
+    **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [std_msgs.msg]``, and
+    colcon does not build packages in the right order.
+
+    **Fix.** Write the name of the package, one in each element; versions are attributes such as
+    ``version_gte``. ``ament_python`` is a build type and no package.
+
+    **Source.** REP 149, dependencies; REP 111.
+    """
+
+    code = "PX081"
+    name = "dependency-malformed"
+    examples = (
+        Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
+        Example(
+            "a module",
+            {"package.xml": _MANIFEST.format("std_msgs.msg")},
+            at=("package.xml:3",),
+        ),
+        Example(
+            "a version", {"package.xml": _MANIFEST.format("numpy&gt;=1.2")}, at=("package.xml:3",)
+        ),
+        Example(
+            "a package of Debian",
+            {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
+            at=("package.xml:3",),
+        ),
+        Example(
+            "a build type",
+            {"package.xml": _MANIFEST.format("ament_python")},
+            at=("package.xml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for dependency in package.manifest.dependencies:
+            problem = _problem(dependency.name)
+            if problem and package.workspace.get(dependency.name) is None:
+                yield self.report(dependency, problem)
+
+
+def _problem(name: str) -> str:
+    debian = re.fullmatch(_DEBIAN, name)
+    problem = ""
+    if debian:
+        meant = debian[2].replace("-", "_")
+        problem = f"{name!r} is a package of Debian; rosdep knows it as {meant!r}"
+    elif re.search(r"[<>=~!]", name):
+        problem = f"{name!r} holds a version: rosdep takes all for the name; use version_gte='...'"
+    elif len(name.split()) > 1:
+        problem = f"{name!r} is more than one name: write an element for each"
+    elif name.endswith(_MODULES):
+        problem = f"{name!r} is a module; the package is {name.rpartition('.')[0]!r}"
+    elif name.startswith("python3_"):
+        problem = f"keys of rosdep have dashes: {name.replace('_', '-')!r}"
+    elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
+        problem = f"{name!r} is of Python 2, which is gone; {'python3-' + name[7:]!r} is meant"
+    elif name in _NO_KEYS:
+        problem = f"{name!r} is a build type, no package: rosdep cannot resolve it; remove it"
+    return problem

@@ -1,0 +1,64 @@
+"""PX080: what is imported is declared, even if another package brings it along."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.model.known import provided_by
+from scaffold.model.needs import declared, needs
+
+_INTERFACES = ("_msgs", "_srvs")
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+_FILES = {
+    "talker/__init__.py": "",
+    "talker/node.py": "import rclpy\n",
+}
+_LAUNCH = "  <exec_depend>launch_ros</exec_depend>\n"
+_RCLPY = "  <exec_depend>rclpy</exec_depend>\n"
+
+
+class ImportDeclaredByOthers(Rule):
+    """rclpy or messages are imported that only the dependency of a dependency brings along.
+
+    **Why.** It works until that package needs it no more; bloom and reviewers see no dependency.
+    REP 149 asks for every package that the code uses directly.
+
+    **Fix.** Declare it with ``<exec_depend>``.
+
+    **Source.** REP 149, ``exec_depend``; ROS 2 documentation, "Managing dependencies with rosdep".
+    """
+
+    code = "PX080"
+    name = "import-declared-by-others"
+    severity = Severity.INFO
+    examples = (
+        Example("declared", {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)}),
+        Example(
+            "brought along by launch_ros",
+            {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
+            at=("package.xml:3",),
+            fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        for need in needs(package):
+            there = declared(package, for_tests=need.for_tests)
+            if need.for_tests or any(key in there.direct for key in need.keys):
+                continue
+            if not (need.module == "rclpy" or need.module.endswith(_INTERFACES)):
+                continue
+            along = [key for key in need.keys if key in there.along]
+            if not along or not manifest.dependencies:
+                continue
+            tag = "run_depend" if manifest.format == 1 else "exec_depend"
+            by = next((one for one in sorted(there.direct) if along[0] in provided_by({one})), "")
+            message = (
+                f"{need.location.path}:{need.location.line} imports {need.module!r}, which only "
+                f"{by or 'another package'} brings along; add <{tag}>{along[0]}</{tag}>"
+            )
+            last = manifest.dependencies[-1].element
+            fix = Fix(f"declare {along[0]}", (manifest.insert(tag, along[0]),))
+            yield self.report(last.name_location, message, fix)
