@@ -8,7 +8,7 @@ import pytest
 
 from scaffold.model.package import Package
 from scaffold.smoke.declared import expectations
-from scaffold.smoke.expectation import Expectation, Publication, compare
+from scaffold.smoke.expectation import Expectation, Offer, Publication, compare
 from scaffold.smoke.result import Observation, Topic
 from tests.smoke_packages import LISTENER, MANIFEST, ONCE, SETUP, talker
 
@@ -320,6 +320,42 @@ def test_missing_topic_and_wrong_type() -> None:
     assert list(map(str, problems)) == [
         f"/words has the type {STRING}: talker.py publishes std_msgs/msg/Bool at 10 Hz"
     ]
+
+
+OFFERS = """\
+self.create_service(SetBool, '~/switch', self.answer)
+self.server = ActionServer(self, Fibonacci, 'numbers', self.execute)
+self.client = self.create_client(SetBool, 'other')
+if self.pub:
+    self.create_service(SetBool, 'perhaps', self.answer)
+"""
+
+
+def test_services_and_actions_that_are_offered() -> None:
+    package = node(OFFERS, TICK + "def late(self):\n    self.create_service(SetBool, 'late', None)")
+    text = package.source("demo/run.py").text.replace(
+        "import String\n",
+        "import String\nfrom std_srvs.srv import SetBool\nfrom rclpy.action import ActionServer\n"
+        "from example_interfaces.action import Fibonacci\n",
+    )
+    expectation = expectations(python(text))["run"]
+    assert expectation.offers == (
+        Offer("service", "/talker/switch", "std_srvs/srv/SetBool"),
+        Offer("action", "/numbers", "example_interfaces/action/Fibonacci"),
+    )
+    seen = Observation(nodes=("/talker",), services=(("/talker/switch", "std_srvs/srv/Trigger"),))
+    problems, _ = compare(Expectation(offers=expectation.offers, source="run.py"), seen, 5.0)
+    assert list(map(str, problems)) == [
+        "/talker/switch has the type std_srvs/srv/Trigger: run.py offers std_srvs/srv/SetBool",
+        "nothing offers the action /numbers: run.py offers example_interfaces/action/Fibonacci",
+    ]
+    seen = Observation(
+        services=(("/talker/switch", "std_srvs/srv/SetBool"),),
+        actions=(("/numbers", "example_interfaces/action/Fibonacci"),),
+    )
+    expected = Expectation(offers=expectation.offers)
+    assert compare(expected, seen, 5.0) == ([], [])
+    assert compare(expected, Observation(), 0.5, finished=True) == ([], [])
 
 
 def test_several_types_and_unreadable_messages() -> None:

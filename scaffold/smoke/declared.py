@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeVar
 
 from scaffold.errors import ViewError
-from scaffold.model.node_entities import Publisher
+from scaffold.model.node_entities import Endpoint
 from scaffold.model.nodes import NodeClass, NodeFacts, NodeOwner
 from scaffold.model.package import Package
 from scaffold.model.program_starts import Start, run_of, starts_of
@@ -13,9 +14,10 @@ from scaffold.model.publish_rate import publish_rates
 from scaffold.model.publish_reach import PublishReach, Reach
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.values import Unknown
-from scaffold.smoke.expectation import Expectation, Publication
+from scaffold.smoke.expectation import Expectation, Offer, Publication
 
 _MAX_BASES = 8
+_Entity = TypeVar("_Entity", bound=Endpoint)
 
 
 def expectations(package: Package) -> dict[str, Expectation]:
@@ -39,6 +41,7 @@ def _expectation(package: Package, start: Start) -> Expectation | None:
     owners = [owner for _, owner in run.nodes()]
     return Expectation(
         publications=_merged(_publications(run.facts, owners, run.functions)),
+        offers=tuple(dict.fromkeys(_offers(owners, run.functions))),
         is_node=_is_node(package, run.facts),
         runs_nothing=start.function is None and not run.calls and bool(run.facts.nodes),
         source=start.path,
@@ -65,7 +68,7 @@ def _publications(
             continue  # it publishes once it is activated, which nobody does here
         alone = owner.facts is facts and not (isinstance(owner, NodeClass) and owner.base)
         reaches = PublishReach(owner.facts, starts, alone=alone)
-        for publisher in _publishers(owner, starts):
+        for publisher in _made(owner, starts, lambda one: one.publishers):
             topic = _resolved(publisher.topic, owner)
             if topic is not None:
                 rates = publish_rates(owner.facts, publisher) if alone else None
@@ -81,12 +84,29 @@ def _publications(
                 )
 
 
-def _publishers(owner: NodeOwner, starts: Sequence[FunctionNode]) -> Iterator[Publisher]:
-    """Yield the publishers that exist once the node is made."""
+def _offers(owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]) -> Iterator[Offer]:
+    """Yield the services and actions that are there once the nodes are made."""
+    for owner in owners:
+        for service in _made(owner, starts, lambda one: one.services):
+            name = _resolved(service.name, owner)
+            if name is not None:
+                yield Offer("service", name, service.interface)
+        for server in _made(owner, starts, lambda one: one.action_servers):
+            name = _resolved(server.name, owner)
+            if name is not None:
+                yield Offer("action", name, server.interface)
+
+
+def _made(
+    owner: NodeOwner,
+    starts: Sequence[FunctionNode],
+    own: Callable[[NodeOwner], Sequence[_Entity]],
+) -> Iterator[_Entity]:
+    """Yield what exists of a kind once the node is made."""
     if not isinstance(owner, NodeClass):
-        for publisher in owner.publishers:
-            if not publisher.is_conditional and publisher.function in {*starts, None}:
-                yield publisher
+        for entity in own(owner):
+            if not entity.is_conditional and entity.function in {*starts, None}:
+                yield entity
         return
     one: NodeClass | None = owner
     for _ in range(_MAX_BASES):
@@ -94,9 +114,9 @@ def _publishers(owner: NodeOwner, starts: Sequence[FunctionNode]) -> Iterator[Pu
             return
         constructor = one.constructor
         made_in = one.facts.reached(constructor) if constructor else ()
-        for publisher in one.publishers:
-            if not publisher.is_conditional and publisher.function in made_in:
-                yield publisher
+        for entity in own(one):
+            if not entity.is_conditional and entity.function in made_in:
+                yield entity
         if not one.calls_super_init:
             return
         one = one.base

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from scaffold.smoke.result import Observation, Problem, Topic
@@ -40,10 +41,23 @@ class Publication:
 
 
 @dataclass(frozen=True)
+class Offer:
+    """A service or an action that the source offers."""
+
+    kind: str
+    """``service`` or ``action``."""
+    name: str
+    """Resolved: with its leading slash."""
+    type: str | None = None
+    """Such as ``std_srvs/srv/SetBool``."""
+
+
+@dataclass(frozen=True)
 class Expectation:
     """What the source of an executable says."""
 
     publications: tuple[Publication, ...] = ()
+    offers: tuple[Offer, ...] = ()
     is_node: bool | None = None
     """Whether it uses rclpy; ``None``: the source is not known."""
     runs_nothing: bool = False
@@ -87,7 +101,18 @@ def compare(
             notes += note
         elif publication.rate_hz:
             problems += _wrong_rate(publication, topic, said)
-    return problems, notes
+    return [*problems, *_not_offered(expectation, observation)], notes
+
+
+def _not_offered(expectation: Expectation, observation: Observation) -> Iterator[Problem]:
+    """Yield the services and actions that are missing, or of another type."""
+    for offer in expectation.offers:
+        seen = dict(observation.services if offer.kind == "service" else observation.actions)
+        said = f"{expectation.source or 'the source'} offers {offer.type or 'it'}"
+        if offer.name not in seen:
+            yield Problem(f"nothing offers the {offer.kind} {offer.name}: {said}")
+        elif offer.type and offer.type != seen[offer.name]:
+            yield Problem(f"{offer.name} has the type {seen[offer.name]}: {said}")
 
 
 def _finished_early(

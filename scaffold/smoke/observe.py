@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from scaffold.smoke import output, process
+from scaffold.smoke.expectation import Offer
 from scaffold.smoke.result import Observation, Topic
 
 PROBE = Path(__file__).with_name("probe.py")
@@ -119,6 +120,11 @@ class Observer:
     def count(self, topic: str) -> int:
         """Return how many messages of a topic have come, counting the first few only."""
         return self._counts.get(topic, 0)
+
+    def offers(self, offer: Offer) -> bool:
+        """Tell whether a service or an action has appeared."""
+        ending = _ACTION_SERVICE if offer.kind == "action" else ""
+        return offer.name + ending in self._services
 
     async def wait_for(
         self, condition: Callable[[], bool], timeout: float, running: process.Running

@@ -178,13 +178,17 @@ class _Run:
         if not self._brief:
             await observer.pause(plan.duration, running)
         left = running.started + plan.timeout - time.monotonic()
-        await observer.wait_for(self._heard_all(), left, running)
+        await observer.wait_for(self._has_seen_all(), left, running)
         # A signal in the middle of a constructor would tell about nothing but that.
         await observer.settle(SETTLING, plan.timeout, running)
 
-    def _heard_all(self) -> Callable[[], bool]:
+    def _has_seen_all(self) -> Callable[[], bool]:
         topics = [one.topic for one in self._expectation.publications if one.certain]
-        return lambda: all(self._observer.count(topic) for topic in topics)
+        offers = self._expectation.offers
+        return lambda: (
+            all(self._observer.count(topic) for topic in topics)
+            and all(map(self._observer.offers, offers))
+        )
 
     def _never_joined(self) -> None:
         if self._expectation.is_node is False:
