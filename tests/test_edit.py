@@ -7,7 +7,7 @@ from textwrap import dedent
 
 import pytest
 
-from scaffold.errors import InputError, ParseError
+from scaffold.errors import ConflictError, InputError, ParseError
 from scaffold.generate.edit import changelog, cmake, launch, manifest, readme, setup_cfg, setup_py
 from scaffold.generate.edit.addition import Addition, ByHand, Compiled, Outcome, Program
 from scaffold.generate.edit.edit import edit
@@ -500,6 +500,13 @@ def test_a_compiled_program_is_built_installed_and_run() -> None:
         ament_package()
         """
     )
+
+
+@pytest.mark.parametrize("line", ["add_executable(two a.cpp)", "ament_auto_add_library(two b.cpp)"])
+def test_a_target_is_not_made_twice(line: str) -> None:
+    text = f"project(demo)\n{line}\nament_package()\n"
+    with pytest.raises(ConflictError, match=r"CMakeLists.txt:2:1: .* a target 'two' already"):
+        cmake_edit(text, Addition("demo", compiled=Compiled("two", "src/two.cpp")))
 
 
 def test_a_compiled_program_is_defined_above_the_install_that_it_joins() -> None:

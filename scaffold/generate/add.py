@@ -9,7 +9,7 @@ from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.check.fixer import Overlay
-from scaffold.errors import ConflictError, InputError, ParseError, ViewError
+from scaffold.errors import ConflictError, InputError, MissingFileError, ParseError, ViewError
 from scaffold.generate import facts, licenses, own, parts
 from scaffold.generate.context import part_scopes
 from scaffold.generate.defaults import User
@@ -26,11 +26,9 @@ from scaffold.model.package_programs import programs_of
 if TYPE_CHECKING:
     from scaffold.check.diagnostic import Diagnostic
 
-_TESTS = "test/"
-_OF_A_DAY = r"\b(?:\d{4}-\d{2}-\d{2}|\d{4}(?=[ ,]))"
+_TESTS = "test"
+_OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
-
-
 HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
 """What the checker finds in files without a header; where the licence is not known that is so."""
 
@@ -91,8 +89,10 @@ def add(
         return _add(package, part, given, roots, templates, user)
     except ParseError as error:
         raise InputError(f"{told(package, error)}; nothing was changed") from error
+    except MissingFileError as error:
+        raise InputError(f"{package.directory}/{error} is missing") from error
     except ViewError as error:
-        raise InputError(f"{package.directory}: {error} is missing") from error
+        raise InputError(f"{package.directory}: {error}; nothing was changed") from error
 
 
 def _add(
@@ -207,7 +207,7 @@ def _placed(composed: Composed, package: Package, layout: Layout) -> Rendered:
     rendered = composed.renderer.package(scopes)
 
     def place(path: str) -> str:
-        for old, new in ((package.name, layout.programs), (_TESTS[:-1], layout.tests)):
+        for old, new in ((package.name, layout.programs), (_TESTS, layout.tests)):
             if path.startswith(f"{old}/"):
                 return f"{new}/{path.removeprefix(f'{old}/')}"
         return path
@@ -274,8 +274,8 @@ def _remarks(package: Package, composed: Composed, path: str) -> Iterator[str]:
             f"{declared or 'none'!r}; --license gives them one"
         )
     names = [str(node["name"]) for node in composed.context["nodes"]]
-    for facts_ in package.rclpy_files():
-        for node in facts_.nodes if facts_.module.path != path else ():
+    for module in package.rclpy_files():
+        for node in module.nodes if module.module.path != path else ():
             if node.node_name in names:
                 at = node.node_name_location
                 yield (

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from scaffold.errors import InputError
+from scaffold.errors import ConflictError, InputError
 from scaffold.generate.edit.addition import Addition, Compiled
 from scaffold.generate.edit.cmake import INSTALL_PYTHON, Editor
 from scaffold.model import cmake_edit
@@ -57,9 +57,19 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
 
 
 def add_compiled(editor: Editor, program: Compiled) -> None:
-    """Build a C++ program and install it where ``ros2 run`` looks for it."""
-    if _is_built(editor.lists, program.name):
-        return
+    """Build a C++ program and install it where ``ros2 run`` looks for it.
+
+    Raises:
+        ConflictError: a target has its name already.
+    """
+    for command in _makers(editor.lists, program.name):
+        if program.source in (editor.lists.expand_list(command.arguments[1:], command) or ()):
+            return
+        at = command.location
+        raise ConflictError(
+            f"{at.path}:{at.line}:{at.column}: {command.name}() makes a target "
+            f"{program.name!r} already: choose another name"
+        )
     lines = [
         f"add_executable({program.name} {program.source})",
         f"target_compile_features({program.name} PRIVATE {_STANDARD})",
@@ -82,16 +92,17 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
         block += ["  DESTINATION lib/${PROJECT_NAME}", ")"]
         editor.edit(cmake_edit.insert_before_end(editor.lists, block))
     _run_in_tests(editor, program.name)
-    if not _is_built(editor.lists, program.name):
+    if not any(_makers(editor.lists, program.name)):
         editor.lists = before
         editor.refuse(f"{lines[0]} and {install}", "no place was safe")
 
 
-def _is_built(lists: CMakeLists, name: str) -> bool:
-    return any(
-        lists.expand_list(command.arguments[:1], command) == [name]
-        for command in lists.find("add_executable")
-    )
+def _makers(lists: CMakeLists, name: str | None) -> Iterator[Command]:
+    """Yield the commands that make a target of a name."""
+    for command in lists.commands:
+        makes = command.name.endswith(_MAKERS)
+        if makes and lists.expand_list(command.arguments[:1], command) == [name]:
+            yield command
 
 
 def _run_in_tests(editor: Editor, name: str) -> None:
@@ -128,15 +139,18 @@ def _generation(lists: CMakeLists) -> Generation | None:
 def _refuse_conflict(lists: CMakeLists) -> None:
     """Raise if a target or a Python package has the name that generated code would have."""
     name = lists.project_name
-    for command in lists.commands:
-        makes = command.name.endswith(_MAKERS) or command.name == INSTALL_PYTHON
-        if makes and lists.expand_list(command.arguments[:1], command) == [name]:
-            at = command.location
-            raise InputError(
-                f"{at.path}:{at.line}:{at.column}: {command.name}() makes something with the name "
-                f"{name!r}, and so would the generated code of interfaces: put them into a package "
-                f"of their own, such as {name}_interfaces"
-            )
+    python = [
+        command
+        for command in lists.find(INSTALL_PYTHON)
+        if lists.expand_list(command.arguments[:1], command) == [name]
+    ]
+    for command in [*_makers(lists, name), *python]:
+        at = command.location
+        raise InputError(
+            f"{at.path}:{at.line}:{at.column}: {command.name}() makes something with the name "
+            f"{name!r}, and so would the generated code of interfaces: put them into a package "
+            f"of their own, such as {name}_interfaces"
+        )
 
 
 def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | None:
