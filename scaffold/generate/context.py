@@ -120,7 +120,7 @@ def _node(
         raise InputError(
             f"--node-name: {name!r} is the name of the package, its script would hide it"
         )
-    taken = [value.name for value in part.answers.values() if hasattr(value, "import_line")]
+    taken = [one for value in part.answers.values() for one in getattr(value, "class_names", ())]
     node |= {"module": name, "class_name": names.class_name(name, taken)}
     flags: dict[tuple[str, str], str] = {}
     for question in part.template.questions:

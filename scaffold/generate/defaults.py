@@ -27,7 +27,7 @@ class User:
     """
 
     def __init__(self, directory: str) -> None:
-        self._directory = directory
+        self.directory = directory
         self.guessed: list[str] = []
         """The questions that were answered from the login; the user should know."""
 
@@ -48,7 +48,7 @@ class User:
         """``user.name`` and ``user.email``, as far as git has them."""
         import subprocess
 
-        directory = os.path.abspath(self._directory)
+        directory = os.path.abspath(self.directory)
         while not os.path.isdir(directory):
             directory = os.path.dirname(directory)
         command = ["git", "-C", directory, "config", "-z", "--get-regexp", r"^user\.(name|email)$"]

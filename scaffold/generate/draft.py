@@ -134,9 +134,10 @@ def compose(
         known=known,
         render=renderer.text,
         fallback=user.answer,
+        where=user.directory,
     )
     values = {**(fixed or {}), **answers.values}
-    made, written = _parts(order.requests, given, values, renderer)
+    made, written = _parts(order.requests, given, values, renderer, user.directory)
     parts.refuse_impossible(made, values["package"], values["build_type"], messages)
     context = package_context(values, order.layers, made, renderer, day or today())
     return Composed(
@@ -193,6 +194,7 @@ def _parts(
     given: Mapping[str, Given],
     answers: Mapping[str, Any],
     renderer: Renderer,
+    where: str,
 ) -> tuple[list[Part], list[dict[str, Any]]]:
     """Return the parts with their answers, and those answers as in an answers file."""
     made: list[Part] = []
@@ -204,6 +206,7 @@ def _parts(
             known=answers,
             render=renderer.text,
             fallback=lambda _: None,
+            where=where,
         )
         made.append(Part(request.template, own.values))
         written.append({parts.KIND: request.template.name, **own.written})

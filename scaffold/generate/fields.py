@@ -23,12 +23,13 @@ class Fields(NamedTuple):
     """The types that the package itself must define."""
 
 
-def fields(given: object) -> Fields:
+def fields(given: object, where: str = ".") -> Fields:
     """Return the fields and constants in some lines.
 
     Args:
         given: A line, or several: a type, a name, perhaps a default or ``=`` and a constant,
             perhaps ``#`` and a comment.
+        where: A directory of the workspace with the messages that they use.
 
     Raises:
         InputError: ROS would refuse a line, or does not know a type.
@@ -42,7 +43,7 @@ def fields(given: object) -> Fields:
     types = [one.type.element for section in definition.sections for one in section.fields]
     used = {one.full_name for one in types if not one.is_primitive}
     own = {name for name in used if name.startswith(f"{_OWN}/")}
-    _refuse_unknown(used - own)
+    _refuse_unknown(used - own, where)
     return Fields(
         lines=lines,
         packages=tuple(sorted({name.partition("/")[0] for name in used - own})),
@@ -79,13 +80,13 @@ def _texts(given: object) -> list[str]:
     return texts
 
 
-def _refuse_unknown(used: Iterable[str]) -> None:
+def _refuse_unknown(used: Iterable[str], where: str) -> None:
     """Raise if a package is known but has no such message; others may come from anywhere."""
     from scaffold.generate import payload
 
     if not used:
         return
-    definitions = payload.definitions()
+    definitions = payload.definitions(where)
     for full_name in sorted(used):
         names = definitions.names(full_name.partition("/")[0], "msg")
         if names is not None and full_name.rpartition("/")[2] not in names:

@@ -188,6 +188,7 @@ def resolve(
     known: Mapping[str, Any],
     render: Callable[[str, Mapping[str, Any]], str],
     fallback: Callable[[str], Given | None],
+    where: str = ".",
 ) -> Answers:
     """Return an answer for every question.
 
@@ -199,6 +200,7 @@ def resolve(
         known: What defaults may use besides the answers.
         render: Renders a Jinja text over answers.
         fallback: Finds an answer for a question without a default, by its name.
+        where: The directory that the package is in.
 
     Raises:
         InputError: an answer is missing or not acceptable; the message says whose it is.
@@ -206,7 +208,7 @@ def resolve(
     answers = Answers({}, {})
 
     def add(question: Question, found: Given) -> None:
-        answers.values[question.name] = parse(question, found)
+        answers.values[question.name] = parse(question, found, where)
         answers.written[question.name] = found.value
 
     later: list[Question] = []
@@ -228,8 +230,8 @@ def resolve(
     return answers
 
 
-def parse(question: Question, given: Given) -> Any:  # noqa: ANN401  as its type says
-    """Return the value of an answer.
+def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: ANN401  as its type says
+    """Return the value of an answer, for a package in a directory.
 
     Raises:
         InputError: it is not acceptable.
@@ -240,7 +242,7 @@ def parse(question: Question, given: Given) -> Any:  # noqa: ANN401  as its type
     if question.choices:
         return choose(given.value, question.choices, given.origin)
     try:
-        return TYPES[question.type](given.value)
+        return TYPES[question.type](given.value, where)
     except InputError as error:
         raise InputError(f"{given.origin}: {error}") from error
 

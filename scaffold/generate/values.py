@@ -16,6 +16,7 @@ from scaffold.generate.payload import (
     Payload,
     ServicePayload,
     action,
+    definitions,
     payload,
     service,
 )
@@ -168,19 +169,19 @@ def nothing(given: object) -> tuple[str, ...]:
     return ()
 
 
-def message(given: object) -> Payload:
-    """Return how to fill messages of a type."""
-    return payload(_string(given))
+def message(given: object, where: str) -> Payload:
+    """Return how to fill messages of a type, as the workspace around a directory defines it."""
+    return payload(_string(given), definitions(where))
 
 
-def service_type(given: object) -> ServicePayload:
+def service_type(given: object, where: str) -> ServicePayload:
     """Return how to ask and answer services of a type."""
-    return service(_string(given))
+    return service(_string(given), definitions(where))
 
 
-def action_type(given: object) -> ActionPayload:
+def action_type(given: object, where: str) -> ActionPayload:
     """Return how to ask for actions of a type and how to work on them."""
-    return action(_string(given))
+    return action(_string(given), definitions(where))
 
 
 def quality(given: object) -> Qos:
@@ -188,30 +189,35 @@ def quality(given: object) -> Qos:
     return qos(_string(given))
 
 
-TYPES: Mapping[str, Callable[[object], object]] = {
-    "text": text,
-    "person": person,
-    "address": address,
-    "license": text,
-    "package": lambda given: names.package_name(_string(given)),
-    "node": lambda given: names.node_name(_string(given)),
-    "topic": lambda given: names.topic(_string(given)),
-    "service_name": lambda given: names.topic(_string(given), "service"),
-    "action_name": lambda given: names.topic(_string(given), "action"),
-    "interface": lambda given: names.interface_name(_string(given)),
-    "program": lambda given: names.program_name(_string(given)),
+def _anywhere(parse: Callable[[Any], object]) -> Callable[[object, str], object]:
+    """Make a parser whose answers do not depend on a directory one like the others."""
+    return lambda given, _: parse(given)
+
+
+TYPES: Mapping[str, Callable[[object, str], object]] = {
+    "text": _anywhere(text),
+    "person": _anywhere(person),
+    "address": _anywhere(address),
+    "license": _anywhere(text),
+    "package": _anywhere(lambda given: names.package_name(_string(given))),
+    "node": _anywhere(lambda given: names.node_name(_string(given))),
+    "topic": _anywhere(lambda given: names.topic(_string(given))),
+    "service_name": _anywhere(lambda given: names.topic(_string(given), "service")),
+    "action_name": _anywhere(lambda given: names.topic(_string(given), "action")),
+    "interface": _anywhere(lambda given: names.interface_name(_string(given))),
+    "program": _anywhere(lambda given: names.program_name(_string(given))),
     "message": message,
     "service": service_type,
     "action": action_type,
-    "qos": quality,
-    "rate": rate,
-    "flag": flag,
-    "dependencies": dependencies,
+    "qos": _anywhere(quality),
+    "rate": _anywhere(rate),
+    "flag": _anywhere(flag),
+    "dependencies": _anywhere(dependencies),
     "fields": fields,
-    "parts": parts,
-    "several": nothing,
+    "parts": _anywhere(parts),
+    "several": _anywhere(nothing),
 }
-"""The types that a question of a template may have."""
+"""The types that a question may have: parsers of what is given, for packages in a directory."""
 
 
 def _string(given: object) -> str:

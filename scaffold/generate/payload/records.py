@@ -50,8 +50,7 @@ class Payload(NamedTuple):
     @property
     def class_names(self) -> tuple[str, ...]:
         """What the imports call the messages: a node's class has another name."""
-        words = re.findall(r"\w+", " ".join(self.imports))
-        return tuple(dict.fromkeys(word for word in words if word[0].isupper()))
+        return _class_names(self.imports)
 
     @property
     def log_received(self) -> str:
@@ -118,6 +117,11 @@ class ServicePayload(NamedTuple):
         return f"from {self.package}.srv import {self.name}"
 
     @property
+    def class_names(self) -> tuple[str, ...]:
+        """What the imports call the interfaces: a node's class has another name."""
+        return _class_names((self.import_line, *self.request.imports, *self.response.imports))
+
+    @property
     def packages(self) -> tuple[str, ...]:
         """All interface packages that server and client need, in alphabetical order."""
         return _union([(self.package,), self.request.packages, self.response.packages])
@@ -168,10 +172,21 @@ class ActionPayload(NamedTuple):
         return f"from {self.package}.action import {self.name}"
 
     @property
+    def class_names(self) -> tuple[str, ...]:
+        """What the imports call the interfaces: a node's class has another name."""
+        parts = (self.goal, self.feedback, self.result)
+        return _class_names((self.import_line, *(line for part in parts for line in part.imports)))
+
+    @property
     def packages(self) -> tuple[str, ...]:
         """All interface packages that server and client need, in alphabetical order."""
         parts = (self.goal, self.feedback, self.result)
         return _union([(self.package,), *(part.packages for part in parts)])
+
+
+def _class_names(imports: Iterable[str]) -> tuple[str, ...]:
+    words = re.findall(r"\w+", " ".join(imports))
+    return tuple(dict.fromkeys(word for word in words if word[0].isupper()))
 
 
 def _union(groups: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
