@@ -534,14 +534,16 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
         assert runs.checked == ["talker"]
 
 
+@pytest.mark.parametrize(("limit", "value"), [("MAX_RUNS", 4), ("MOST_BYTES", 10_000)])
 @pytest.mark.usefixtures("package")
-def test_old_runs_are_dropped(runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(memory, "MAX_RUNS", 4)
-    monkeypatch.setattr(memory, "KEPT_RUNS", 2)
+def test_old_runs_are_dropped(
+    runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int
+) -> None:
+    monkeypatch.setattr(memory, limit, value)
     for code in ("PX", "SP", "LY", "NM", "ND"):
         runs(".", "--select", code)
     kept = tmp_path / "cache" / "ros2-scaffold" / "runs"
-    assert len(list(kept.iterdir())) == 2
+    assert 1 <= len(list(kept.iterdir())) <= 4
     runs(".", "--select", "ND")
     assert runs.checked == []
 

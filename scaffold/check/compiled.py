@@ -41,5 +41,5 @@ def codes(
         return found
     made = [compile_one(path) for path in paths]
     if memory.write_sealed(place, head, marshal.dumps(made)):
-        memory.trim(kept, MAX_ROOTS, MAX_ROOTS // 2)
+        memory.trim(kept, MAX_ROOTS)
     return made

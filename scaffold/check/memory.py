@@ -25,9 +25,10 @@ if TYPE_CHECKING:
 
 SWITCH = "SCAFFOLD_NO_CACHE"
 MAX_RUNS = 400
-KEPT_RUNS = 300
-MAX_BYTES = 16_000_000
-"""A larger run is not kept: reading it back would be no gain."""
+MAX_BYTES = 50_000_000
+"""Of one run; 800 packages with 30,000 findings take 18 MB."""
+MOST_BYTES = 200_000_000
+"""Of all runs."""
 ENVIRONMENT = (
     "AMENT_PREFIX_PATH",
     "HOME",
@@ -113,7 +114,7 @@ class Slot:
         everything: Any = (run.outside, run.trees, run.results, run.code, run.output)
         data = marshal.dumps(everything)
         if len(data) <= MAX_BYTES and write_sealed(self._path, self._head, data):
-            trim(os.path.dirname(self._path), MAX_RUNS, KEPT_RUNS)
+            trim(os.path.dirname(self._path), MAX_RUNS)
 
 
 def read_sealed(path: str, head: bytes) -> bytes | None:
@@ -141,13 +142,20 @@ def write_sealed(path: str, head: bytes, data: bytes) -> bool:
     return True
 
 
-def trim(kept: str, most: int, rest: int) -> None:
-    """Drop the files that were not renewed for longest when there are too many."""
+def trim(kept: str, most: int) -> None:
+    """Drop the files that were not renewed for longest when they are too many or too large."""
+    files: list[tuple[float, int, str]] = []
     try:
-        names = os.listdir(kept)
-        if len(names) > most:
-            paths = [os.path.join(kept, name) for name in names]
-            for path in sorted(paths, key=os.path.getmtime)[:-rest]:
+        with os.scandir(kept) as entries:
+            for entry in entries:
+                status = entry.stat()
+                files.append((status.st_mtime, status.st_size, entry.path))
+        if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
+            return
+        count = total = 0
+        for _, size, path in sorted(files, reverse=True):
+            count, total = count + 1, total + size
+            if count > most // 4 * 3 or total > MOST_BYTES // 4 * 3:
                 os.unlink(path)
     except OSError:
         return  # another process tidies up
