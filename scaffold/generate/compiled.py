@@ -40,4 +40,4 @@ class Compiled(BytecodeCache):
             return
         place = os.path.join(self._kept, bucket.key)
         if memory.write_sealed(place, _HEAD, bucket.bytecode_to_string()):
-            memory.trim(self._kept, _MOST, _MOST // 2)
+            memory.trim(self._kept, _MOST)

@@ -173,7 +173,7 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
     except ValueError:  # a date, which YAML knows and marshal does not
         return made
     if kept and memory.write_sealed(place, head, data):
-        memory.trim(kept, _MOST_KEPT, _MOST_KEPT // 2)
+        memory.trim(kept, _MOST_KEPT)
     return made
 
 
