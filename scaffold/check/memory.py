@@ -155,7 +155,7 @@ def trim(kept: str, most: int) -> None:
         count = total = 0
         for _, size, path in sorted(files, reverse=True):
             count, total = count + 1, total + size
-            if count > most // 4 * 3 or total > MOST_BYTES // 4 * 3:
+            if count > 1 and (count > most // 4 * 3 or total > MOST_BYTES // 4 * 3):
                 os.unlink(path)
     except OSError:
         return  # another process tidies up
