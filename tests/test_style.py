@@ -227,7 +227,6 @@ def test_fixes(before: str) -> None:
     "kept",
     [
         "import sys  # first\nimport abc\nprint(sys, abc)\n",
-        "import sys; import abc\nprint(sys, abc)\n",
         "import sys\n# second\nimport abc\nprint(sys, abc)\n",
     ],
 )

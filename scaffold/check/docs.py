@@ -38,6 +38,7 @@ def page(rule: type[Rule]) -> str:
 def style_page(style: StyleCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
     from scaffold.style.finding import FLAKE8, PEP257
+    from scaffold.style.fixable import SAFE, UNSAFE
 
     names = [
         name
@@ -46,6 +47,10 @@ def style_page(style: StyleCode) -> str:
     ]
     text = style.summary[0].upper() + style.summary[1:]
     facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
+    if style.code in SAFE:
+        facts += " · can be mended with `--fix`"
+    elif style.code in UNSAFE:
+        facts += " · can be mended with `--fix --unsafe-fixes`"
     return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n"
 
 

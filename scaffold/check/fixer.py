@@ -133,8 +133,24 @@ def _apply_round(
             result.removed.add(change.path)
     for path, ones in edits.items():
         source = current.editable(path)
-        result.changed[path] = splice(source.text, ones).encode(source.encoding)
+        text = splice(source.text, ones)
+        if path.endswith(".py") and _is_python(source.text) and not _is_python(text):
+            continue  # the fixes work against each other: better none than a broken file
+        result.changed[path] = text.encode(source.encoding)
     return result, len(chosen)
+
+
+def _is_python(text: str) -> bool:
+    import ast
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            ast.parse(text.removeprefix("\ufeff"))
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            return False
+    return True
 
 
 def splice(text: str, edits: Iterable[Edit]) -> str:

@@ -175,7 +175,8 @@ def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
         return None
     shift = 1 if source.text.startswith("\ufeff") else 0
     changes = tuple(_edits(source, path, finding, shift))
-    return Fix(finding.fix_title or "apply ruff's fix", changes, Safety.SAFE)
+    safety = Safety.UNSAFE if finding.fix_is_unsafe else Safety.SAFE
+    return Fix(finding.fix_title or "apply ruff's fix", changes, safety)
 
 
 def _edits(source: Source, path: str, finding: Finding, shift: int) -> Iterator[Edit]:

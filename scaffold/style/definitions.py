@@ -45,7 +45,8 @@ class Definition:
         self.node = node
         self.literal = literal
         self.docstring = literal.text
-        self._text = text
+        self.text = text
+        """The file that it stands in."""
 
     @property
     def is_function(self) -> bool:
@@ -78,7 +79,7 @@ class Definition:
     def source(self) -> str:
         """The lines of the definition without the comments and blank lines at its end."""
         node = self.node
-        lines = self._text.lines
+        lines = self.text.lines
         if isinstance(node, ast.Module):
             start, end = 1, len(lines)
         else:
@@ -98,6 +99,22 @@ class Definition:
         """What stands on the line before the docstring's quotes."""
         return self.around[0].rpartition("\n")[2]
 
+    @property
+    def is_docstring(self) -> bool:
+        """Whether the literal, first on its line, is all of a statement: then Python keeps it."""
+        body = self.node.body[0]
+        line = self.text.lines[self.literal.line - 1]
+        return (
+            isinstance(body, ast.Expr)
+            and isinstance(body.value, ast.Constant)
+            and isinstance(body.value.value, str)
+            and body.end_lineno == self.literal.end_line
+            and self.text.column(body.end_lineno, body.end_col_offset or 0)
+            == self.literal.end_column
+            and line[: self.literal.column - 1] == self.indent
+            and not self.indent.strip()
+        )
+
     @cached_property
     def decorators(self) -> Sequence[str]:
         """Names of the decorators up to their arguments."""
@@ -106,15 +123,15 @@ class Definition:
         return tuple(self._decorator(one) for one in self.node.decorator_list)
 
     def _decorator(self, node: ast.expr) -> str:
-        line = self._text.lines[node.lineno - 1]
-        start = self._text.column(node.lineno, node.col_offset) - 1
+        line = self.text.lines[node.lineno - 1]
+        start = self.text.column(node.lineno, node.col_offset) - 1
         name = "".join(line[start:].partition("(")[0].split())
         return name.replace("\\", "")
 
     @cached_property
     def skipped(self) -> str:
         """What pydocstyle's ``noqa`` names: codes, or ``all``."""
-        if "noqa" not in self._text.text:
+        if "noqa" not in self.text.text:
             return ""
         for comment in self._header_comments():
             codes = "".join(comment.split("noqa: ")[1:])
@@ -126,10 +143,10 @@ class Definition:
 
     def _header_comments(self) -> Iterator[str]:
         """Yield the comments from the end of the header, or the file's start, to the body."""
-        tokens = self._text.tokens
+        tokens = self.text.tokens
         at = 0
         if not isinstance(self.node, ast.Module):
-            at = bisect_left(self._text.token_rows, self.node.lineno)
+            at = bisect_left(self.text.token_rows, self.node.lineno)
             while at < len(tokens) and tokens[at].type != NEWLINE:
                 at += 1
             if at == len(tokens) or tokens[at].start[0] >= self.literal.line:
@@ -214,3 +231,8 @@ def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
 def _is_empty_or_comment(line: str) -> bool:
     stripped = line.strip()
     return not stripped or stripped.startswith("#")
+
+
+def leading_space(line: str) -> str:
+    """Return the whitespace that a line starts with."""
+    return line[: len(line) - len(line.lstrip())]

@@ -13,7 +13,7 @@ from itertools import pairwise
 from textwrap import dedent
 
 from scaffold.record import NamedTuple
-from scaffold.style.definitions import METHOD, Definition
+from scaffold.style.definitions import METHOD, Definition, leading_space
 
 Said = Iterator[tuple[str, str]]
 
@@ -79,6 +79,9 @@ class Section(NamedTuple):
     line: str
     after: Sequence[str]
     is_last: bool
+    row: int
+    """Of its name, within the docstring."""
+    is_numpy: bool
 
     @property
     def title(self) -> str:
@@ -88,13 +91,14 @@ class Section(NamedTuple):
 
 def check(definition: Definition) -> Said:
     """Yield what is wrong with the sections of a docstring."""
+    for section in sections(definition):
+        yield from (_numpy if section.is_numpy else _google)(section, definition)
+
+
+def sections(definition: Definition) -> list[Section]:
+    """Return the sections of a docstring: of the one style, or else of the other."""
     lines = definition.docstring.split("\n")
-    numpy = _sections(lines, NUMPY)
-    for section in numpy:
-        yield from _numpy(section, definition)
-    if not numpy:
-        for section in _sections(lines, GOOGLE):
-            yield from _google(section, definition)
+    return _sections(lines, NUMPY) or _sections(lines, GOOGLE)
 
 
 def _sections(lines: Sequence[str], names: Names) -> list[Section]:
@@ -112,6 +116,8 @@ def _sections(lines: Sequence[str], names: Names) -> list[Section]:
             lines[row],
             lines[row + 1 : end],
             is_last=row == rows[-1],
+            row=row,
+            is_numpy=names is NUMPY,
         )
         for row, end in zip(rows, ends, strict=False)
     ]
@@ -153,7 +159,7 @@ def _common(section: Section, definition: Definition, names: Names) -> Said:
     title = section.title
     if section.name not in names and title in names:
         yield "D405", f"the section name is {section.name!r}, not {title!r}"
-    if _leading_space(section.line) > definition.indent:
+    if leading_space(section.line) > definition.indent:
         yield "D214", f"the section {title!r} is indented more than the docstring"
     if not section.after or section.after[-1].strip():
         if section.is_last:
@@ -183,7 +189,7 @@ def _underline(section: Section, definition: Definition) -> Said:
         yield "D408", f"blank lines between the section name {title!r} and its dashes"
     if len(dashes) != len(title):
         yield "D409", f"{len(dashes)} dashes below the section name {title!r}, not {len(title)}"
-    if _leading_space(line) > definition.indent:
+    if leading_space(line) > definition.indent:
         yield "D215", f"the dashes of the section {title!r} are indented more than the docstring"
     rest = section.after[blank + 1 :]
     if not any(line.strip() for line in rest):
@@ -195,11 +201,11 @@ def _underline(section: Section, definition: Definition) -> Said:
 def _numpy_parameters(section: Section) -> set[str]:
     """Return the parameters with a description: a deeper line below them."""
     found: set[str] = set()
-    level = _leading_space(section.line)
+    level = leading_space(section.line)
     content = "\n".join(section.after).replace("\\\n", "").split("\n")
     for line, below in pairwise(content):
-        deeper = len(_leading_space(below)) > len(_leading_space(line))
-        if _leading_space(line) == level and deeper and below.strip():
+        deeper = len(leading_space(below)) > len(leading_space(line))
+        if leading_space(line) == level and deeper and below.strip():
             names = line.partition(":")[0] if ":" in line else line.strip()
             found.update(name.strip() for name in names.split(","))
     return found
@@ -209,7 +215,7 @@ def _google_arguments(section: Section) -> set[str]:
     """Return the arguments with a description: lines as deep as the first one, with a colon."""
     if not section.after:
         return set()
-    level = _leading_space(section.after[0])
+    level = leading_space(section.after[0])
     lines = [line for line in section.after if line.startswith(level) or not line]
     entries: list[str] = []
     for line in dedent("\n".join(lines)).strip().splitlines(keepends=True):
@@ -233,7 +239,3 @@ def _undocumented(documented: set[str], definition: Definition) -> Said:
     if missing:
         listed = ", ".join(sorted(missing))
         yield "D417", f"'{node.name}' has arguments that its docstring does not describe: {listed}"
-
-
-def _leading_space(line: str) -> str:
-    return line[: len(line) - len(line.lstrip())]

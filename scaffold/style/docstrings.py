@@ -11,7 +11,7 @@ import string
 from collections.abc import Callable, Iterator
 from itertools import takewhile
 
-from scaffold.style.definitions import CLASS, Definition, definitions
+from scaffold.style.definitions import CLASS, Definition, definitions, leading_space
 from scaffold.style.finding import FLAKE8, PEP257, Finding
 from scaffold.style.text import PythonText
 
@@ -32,14 +32,18 @@ PROPERTIES = frozenset({"property", "cached_property", "functools.cached_propert
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield what is wrong with the docstrings of a file, with the linters that say so."""
     for definition in definitions(text):
+        said = dict(_judge(definition))
+        if said:
+            from scaffold.style.docstring_fixes import UNSAFE, fix
         at = definition.literal
-        for code, message in dict(_judge(definition)).items():
+        for code, message in said.items():
             linters = PEP257 | (FLAKE8 if code in IN_FLAKE8 else 0)
             if code == "D401" and PROPERTIES.intersection(definition.decorators):
                 linters &= ~FLAKE8
             if definition.skipped == "all" or code in definition.skipped:
                 linters &= ~PEP257
             if linters:
+                mended, title = fix(definition, code)
                 yield Finding(
                     code,
                     at.line,
@@ -47,7 +51,10 @@ def check(text: PythonText) -> Iterator[Finding]:
                     message,
                     at.end_line,
                     at.end_column,
-                    linters=linters,
+                    mended,
+                    title,
+                    linters,
+                    code in UNSAFE,
                 )
 
 
@@ -210,11 +217,6 @@ def _capital(definition: Definition) -> Said:
 def _overload(definition: Definition) -> Said:
     if "overload" in definition.decorators:
         yield "D418", f"'{definition.name}' is an @overload and has a docstring"
-
-
-def leading_space(line: str) -> str:
-    """Return the whitespace that a line starts with."""
-    return line[: len(line) - len(line.lstrip())]
 
 
 _CHECKS: tuple[Callable[[Definition], Said], ...] = (

@@ -30,3 +30,5 @@ class Finding(NamedTuple):
     fix: tuple[Replacement, ...] = ()
     fix_title: str = ""
     linters: int = FLAKE8
+    fix_is_unsafe: bool = False
+    """Whether the fix may change what the code does, or its words."""

@@ -45,6 +45,7 @@ def plain(said: Said) -> Finding:
         said.end_column,
         said.fix,
         said.fix_title,
+        fix_is_unsafe=said.fix_is_unsafe,
     )
 
 

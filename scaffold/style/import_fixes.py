@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from scaffold.record import NamedTuple
 from scaffold.style.finding import Finding
 from scaffold.style.imports import MIXED, Statement, describe, fold
+from scaffold.style.physical import MAX_LENGTH
 from scaffold.style.text import PythonText
 
 CODES = ("I100", "I101", "I201")
@@ -68,14 +69,40 @@ def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | Non
         return None
     if list(statement.names) == sorted(statement.names):
         return _Import(statement, lines)
-    if not isinstance(node, ast.ImportFrom) or statement.line != statement.end_line:
+    if not isinstance(node, ast.ImportFrom):
         return None
+    ordered = statement._replace(names=tuple(sorted(statement.names)))
+    if statement.line != statement.end_line:
+        sorted_lines = _in_place(text, node)
+        return _Import(ordered, sorted_lines) if sorted_lines else None
     head, keyword, rest = lines.partition(" import ")
     aliases = sorted(node.names, key=lambda alias: fold(alias.name))
     names = ", ".join(f"{one.name} as {one.asname}" if one.asname else one.name for one in aliases)
     listed = f"({names})" if rest.strip().startswith("(") else names
-    ordered = statement._replace(names=tuple(sorted(statement.names)))
     return _Import(ordered, f"{head}{keyword}{listed}")
+
+
+def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
+    """Return a statement of several lines with its names sorted; empty if a line gets too long."""
+    first, last = node.lineno, node.end_lineno or node.lineno
+    starts = text.line_starts
+    spans = [
+        (
+            starts[one.lineno - 1] + text.column(one.lineno, one.col_offset) - 1,
+            starts[(one.end_lineno or 0) - 1]
+            + text.column(one.end_lineno or 0, one.end_col_offset or 0)
+            - 1,
+        )
+        for one in node.names
+    ]
+    order = sorted(range(len(spans)), key=lambda at: fold(node.names[at].name))
+    parts: list[str] = []
+    at = starts[first - 1]
+    for (start, end), other in zip(spans, order, strict=True):
+        parts += text.text[at:start], text.text[slice(*spans[other])]
+        at = end
+    lines = "".join([*parts, text.text[at : starts[last]]]).rstrip("\n")
+    return "" if any(len(line) > MAX_LENGTH for line in lines.split("\n")) else lines
 
 
 def _sorted(block: Sequence[_Import]) -> str:

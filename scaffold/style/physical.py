@@ -57,7 +57,17 @@ def _end(text: PythonText) -> Iterator[Finding]:
     last = text.lines[-1]
     number = len(text.lines)
     if last == "\n":
-        yield Finding("W391", number, 1, "blank line at the end of the file")
+        first = number
+        while first > 1 and not text.lines[first - 2].strip():
+            first -= 1
+        yield Finding(
+            "W391",
+            number,
+            1,
+            "blank line at the end of the file",
+            fix=((first, 1, number + 1, 1, ""),),
+            fix_title="remove the blank lines",
+        )
     elif not last.endswith("\n"):
         at = len(last) + 1
         fix = ((number, at, number, at, "\n"),)

@@ -64,6 +64,7 @@ class Said(NamedTuple):
     message: str
     fix: tuple[Replacement, ...]
     fix_title: str
+    fix_is_unsafe: bool = False
 
 
 class Run:
@@ -182,7 +183,7 @@ def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
         start, end = entry["location"], entry["end_location"]
         fix = entry["fix"]
         edits: tuple[Replacement, ...] = ()
-        if fix and fix["applicability"] == "safe":
+        if fix and fix["applicability"] in ("safe", "unsafe"):
             edits = tuple(_replacement(edit) for edit in fix["edits"])
         yield (
             entry["filename"],
@@ -195,6 +196,7 @@ def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
                 entry["message"],
                 edits,
                 fix["message"] or "" if fix else "",
+                bool(fix) and fix["applicability"] == "unsafe",
             ),
         )
 

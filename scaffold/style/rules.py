@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
 
 from scaffold.style import (
     blank_lines,
@@ -68,7 +69,7 @@ def check(
     if broken is not None:
         return [broken._replace(linters=linters)]
     findings = [*_from_ruff(text, said), *own]
-    findings = _with_fixes(findings, said)
+    findings = [_aligned(text, one) for one in _with_fixes(findings, said)]
     kept = [
         finding._replace(linters=finding.linters & linters)
         for finding in findings
@@ -138,16 +139,44 @@ def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
 
 
 def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Finding]:
-    """Give our findings the safe fixes that ruff has for the same code at the same line."""
-    fixes = {(one.code, one.line): one for one in said if one.fix}
+    """Give our findings the fixes that ruff has for the same code at the same line."""
+    fixes: dict[tuple[str, int], Finding] = {}
+    for one in said:
+        if one.fix:
+            key = (one.code, one.line)
+            plain = flakes.plain(one)
+            fixes[key] = _joined(fixes[key], plain) if key in fixes else plain
     result = []
     for finding in findings:
-        one = fixes.get((finding.code, finding.line))
-        if one is not None and not finding.fix:
-            result.append(finding._replace(fix=one.fix, fix_title=one.fix_title))
+        other = fixes.get((finding.code, finding.line))
+        if other is not None and not finding.fix:
+            result.append(
+                finding._replace(
+                    fix=other.fix, fix_title=other.fix_title, fix_is_unsafe=other.fix_is_unsafe
+                )
+            )
         else:
             result.append(finding)
     return result
+
+
+def _aligned(text: PythonText, finding: Finding) -> Finding:
+    """Take away a fix that would move something that continuation lines are aligned with."""
+    for row, start, end_row, end, new in finding.fix:
+        if row != end_row or "\n" in new or end - start == len(new):
+            continue
+        logical = text.logical_line_at(row)
+        if logical is None or logical.end_row == row:
+            continue
+        behind = {one.start[1] for one in logical.tokens if one.start[0] == row}
+        starts = {
+            one.start[1]
+            for before, one in pairwise(logical.tokens)
+            if one.start[0] > max(row, before.start[0]) and one.start[1] >= start
+        }
+        if behind & starts:
+            return finding._replace(fix=(), fix_title="")
+    return finding
 
 
 def _once(findings: Iterable[Finding]) -> list[Finding]:
@@ -157,7 +186,20 @@ def _once(findings: Iterable[Finding]) -> list[Finding]:
         key = (finding.line, finding.code)
         if key in found:
             linters = found[key].linters | finding.linters
-            found[key] = found[key]._replace(linters=linters)
+            found[key] = _joined(found[key], finding)._replace(linters=linters)
         else:
             found[key] = finding
     return list(found.values())
+
+
+def _joined(one: Finding, other: Finding) -> Finding:
+    """Return the first of two findings, with both fixes where they do not meet."""
+    if not one.fix:
+        return one._replace(
+            fix=other.fix, fix_title=other.fix_title, fix_is_unsafe=other.fix_is_unsafe
+        )
+    edits = sorted({*one.fix, *other.fix})
+    meet = any(first[2:4] > second[:2] for first, second in pairwise(edits))
+    if meet or not other.fix or one.fix_is_unsafe != other.fix_is_unsafe:
+        return one
+    return one._replace(fix=tuple(edits))

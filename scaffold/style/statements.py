@@ -8,10 +8,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.style.finding import Finding
+from scaffold.style.finding import Finding, Replacement
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
-from scaffold.style.tokens import COMMENT, OP
+from scaffold.style.tokens import COMMENT, FSTRING_END, FSTRING_START, OP, Position
 
 _BLOCK_WORDS = "def async for if elif else try except finally with class while"
 _BLOCK_KEYWORDS = frozenset(_BLOCK_WORDS.split())
@@ -43,12 +43,12 @@ def check(text: PythonText) -> Iterator[Finding]:
         for logical in _candidates(text, pattern):
             for offset, code, message in judge(logical.text):
                 row, column = logical.position(offset)
-                yield Finding(code, row, column + 1, message)
+                yield _with_fix(logical, Finding(code, row, column + 1, message))
     for logical in text.logical_lines:
         if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
             for offset, code, message in compounds(logical.text):
                 row, column = logical.position(offset)
-                yield Finding(code, row, column + 1, message)
+                yield _with_fix(logical, Finding(code, row, column + 1, message))
     for logical in _candidates(text, r"\\\n"):
         yield from needless_backslashes(logical)
     for logical in _candidates(text, r"\b[lOI]\b"):
@@ -68,6 +68,68 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
             seen = logical.end_row
             if not logical.is_comment:
                 yield logical
+
+
+def _with_fix(logical: LogicalLine, finding: Finding) -> Finding:
+    if finding.code in ("E201", "E202", "E203"):
+        fix = _without_blanks(logical, finding.line, finding.column - 1)
+        return finding._replace(fix=fix, fix_title="remove the whitespace")
+    if finding.code in ("E701", "E702"):
+        fix = _on_new_line(logical, finding)
+        return finding._replace(fix=fix, fix_title="put the statement on a line of its own")
+    return finding
+
+
+def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, ...]:
+    """Return what breaks a line behind its colon or at its semicolon."""
+    row = finding.line
+    line = logical.lines[row - 1].rstrip("\n")
+    indent = line[: len(line) - len(line.lstrip())]
+    opens = finding.code == "E701"
+    if logical.row != row or logical.end_row != row or "\t" in indent or len(indent) % 4:
+        return ()
+    if not opens and logical.first in _BLOCK_KEYWORDS:
+        return ()  # first the block gets a line of its own
+    behind = finding.column  # of the colon or semicolon, and the text after it
+    start = behind + 1 if opens else behind
+    end = behind + len(line[behind:]) - len(line[behind:].lstrip())
+    deeper = " " * 4 if opens else ""
+    return ((row, start, row, end + 1, f"\n{indent}{deeper}"),)
+
+
+def _without_blanks(logical: LogicalLine, row: int, column: int) -> tuple[Replacement, ...]:
+    """Return what takes the blanks at a place out; those around the colon of a slice as well."""
+    around = _brackets(logical, (row, column))
+    line = logical.lines[row - 1].rstrip("\n")
+    found = re.compile(r"[ \t]+").match(line, column)
+    if found is None or not line[:column].strip() or "f" in around:
+        # In f'{x = }' the blanks are seen.
+        return ()
+    start = len(line[:column].rstrip(" \t"))
+    end = found.end()
+    blanks = (row, start + 1, row, end + 1, "")
+    behind = re.compile(r"[ \t]+(?=[^ \t\\#])").match(line, end + 1)
+    is_slice = line[end : end + 1] == ":" and around[-1:] == ["["]
+    if is_slice and behind and "lambda" not in logical.text:
+        return (blanks, (row, end + 2, row, behind.end() + 1, ""))
+    return (blanks,)
+
+
+def _brackets(logical: LogicalLine, place: Position) -> list[str]:
+    """Return what is open at a place: brackets, and ``f`` for an f-string."""
+    found: list[str] = []
+    for token in logical.tokens:
+        if token.start >= place:
+            break
+        if token.type == FSTRING_START:
+            found.append("f")
+        elif token.type == OP and token.string in ("(", "[", "{"):
+            found.append(token.string)
+        elif found and (
+            token.type == FSTRING_END or (token.type == OP and token.string in (")", "]", "}"))
+        ):
+            found.pop()
+    return found
 
 
 def spaces(line: str) -> Said:
