@@ -8,6 +8,7 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_values import value_given
+from scaffold.model.node_entities import Parameter
 from scaffold.model.parameter_files import Entry, parameter_file, parameter_paths, value_type
 from scaffold.model.parameter_use import nodes_for
 from scaffold.model.yaml_tree import Scalar
@@ -61,9 +62,19 @@ class ParameterTypeDiffers(Rule):
                 for entry in section.entries:
                     kind, where = _declared(known, entry.name)
                     given = value_type(entry.value)
-                    if kind and given and given != kind:
-                        message = f"{where} is {_article(kind)}, but this is {_article(given)}"
-                        yield self.report(entry.value, message, _fix(path, entry, kind, given))
+                    if not kind or not given or given == kind:
+                        continue
+                    default = _narrow_default(known, entry.name, given)
+                    if default is not None:
+                        at = entry.value.location
+                        message = (
+                            f"the default is {_article(kind)}, but {at.path}:{at.line} sets "
+                            f"{_article(given)}: the node dies; declare {_article(given)}"
+                        )
+                        yield self.report(default, message)
+                        continue
+                    message = f"{where} is {_article(kind)}, but this is {_article(given)}"
+                    yield self.report(entry.value, message, _fix(path, entry, kind, given))
         yield from self._in_launch_files(package)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
@@ -88,6 +99,25 @@ def _declared(known: list[Declared], name: str) -> tuple[str | None, str]:
         return None, name
     at = nodes[0].places[name].location
     return types.pop(), f"{name} ({at.path}:{at.line})"
+
+
+def _narrow_default(known: list[Declared], name: str, given: str) -> Parameter | None:
+    """Return the parameter whose default, not the file, has a type that nobody means.
+
+    Such as ``1`` for a period, or a number in quotes.
+    """
+    for one in known:
+        parameter = one.places.get(name)
+        default = parameter.default if parameter else None
+        if given == "double" and (type(default) is int or _is_number(default)):
+            return parameter
+        if given == "integer" and _is_number(default):
+            return parameter
+    return None
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, str) and value.lstrip("+-").replace(".", "", 1).isdecimal()
 
 
 def _article(kind: str) -> str:

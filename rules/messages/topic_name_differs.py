@@ -1,0 +1,79 @@
+"""MS021: publishers and subscriptions of a package spell a topic the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_entities import Endpoint
+from scaffold.model.topics import topics_of
+
+_SHORTEST = 5
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_{}\n"
+)
+
+
+class TopicNameDiffers(Rule):
+    """A subscription waits for a topic whose name differs by one letter from one that is published.
+
+    **Why.** Nothing arrives, without an error. Said only for names that have no other side in the
+    package, and the same type.
+
+    **Fix.** Spell both the same way, best from one constant.
+
+    **Source.** ROS 2 documentation, "Understanding topics".
+    """
+
+    code = "MS021"
+    name = "topic-name-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "the same",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+        ),
+        Example(
+            "a letter less",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
+            },
+            at=("b.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        topics = topics_of(package)
+        sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
+        awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
+        for topic in awaited:
+            for other in sent:
+                here, there = topic.subscriptions[0], other.publishers[0]
+                if topic.is_plain and other.is_plain and _is_slip(here, there):
+                    place = f"{there.location.path}:{there.location.line}"
+                    message = f"nobody publishes {here.name!r}; {place} publishes {there.name!r}"
+                    yield self.report(here.name_argument or here, message)
+                    break
+
+
+def _is_slip(here: Endpoint, there: Endpoint) -> bool:
+    """Tell whether two names of one type differ by one letter or by case."""
+    one, other = str(here.name).strip("/"), str(there.name).strip("/")
+    if here.interface is None or here.interface != there.interface or one == other:
+        return False
+    if one.lower() == other.lower():
+        return True
+    short, long = sorted((one, other), key=len)
+    if len(short) < _SHORTEST or len(long) - len(short) > 1 or any(map(str.isdigit, one + other)):
+        return False
+    same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
+    rest = same if len(long) > len(short) else same + 1
+    return short[rest:] == long[same + 1 :]

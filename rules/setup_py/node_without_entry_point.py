@@ -1,0 +1,102 @@
+"""SP055: every node can be started, and every entry point has its own name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import PythonModule
+from scaffold.model.setup_py import EntryPoint, SetupPy
+
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
+    "    entry_points={{'console_scripts': [\n        'node = talker.node:main',\n{}    ]}},\n)\n"
+)
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\nclass Talker(Node):\n    pass\n\n\n"
+    "def main():\n    rclpy.init()\n\n\nif __name__ == '__main__':\n    main()\n"
+)
+_FILES = {"talker/__init__.py": "", "talker/node.py": _NODE, "talker/other.py": _NODE}
+
+
+class NodeWithoutEntryPoint(Rule):
+    """A module with a node and a ``main`` is in no entry point, or two entry points have one name.
+
+    **Why.** ``ros2 run`` answers ``No executable found``; of two entry points with one name only
+    the last is made.
+
+    **Fix.** Add ``'other = talker.other:main'`` to ``console_scripts``.
+
+    **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)", entry
+    points.
+    """
+
+    code = "SP055"
+    name = "node-without-entry-point"
+    examples = (
+        Example(
+            "both",
+            {"setup.py": _SETUP.format("        'other = talker.other:main',\n"), **_FILES},
+        ),
+        Example("one", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:6",)),
+        Example(
+            "one name",
+            {"setup.py": _SETUP.format("        'node = talker.other:main',\n"), **_FILES},
+            at=("setup.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        entries = setup.entry_points
+        seen: dict[str, EntryPoint] = {}
+        for entry in setup.console_scripts:
+            first = seen.setdefault(entry.name, entry)
+            if first is not entry and entry.name:
+                message = f"{entry.name!r} is the name of another entry point: only one is made"
+                yield self.report(entry, message)
+        keyword = setup.keyword("entry_points")
+        if keyword is None or not _is_complete(package, setup):
+            return
+        started = {entry.module for entry in entries}
+        used = _imported(package)
+        for facts in package.rclpy_files():
+            module = facts.module
+            name = module.path.removesuffix(".py").replace("/", ".")
+            if name in started or name in used or not facts.classes or not _is_program(module):
+                continue
+            root = module.path.partition("/")[0]
+            if module.path.count("/") == 1 and root in {one.partition(".")[0] for one in started}:
+                stem = module.path.rpartition("/")[2].removesuffix(".py")
+                message = (
+                    f"{module.path} is a node with a main, but no entry point starts it; "
+                    f"add '{stem} = {name}:main'"
+                )
+                yield self.report(keyword, message)
+
+
+def _is_program(module: PythonModule) -> bool:
+    return module.has_main_guard and "main" in module.functions
+
+
+def _is_complete(package: Package, setup: SetupPy) -> bool:
+    """Tell whether all entry points are known, and no programs are made in other ways."""
+    if not setup.entry_points_complete or setup.has_unknown_keywords or setup.keyword("scripts"):
+        return False
+    if package.build_type != "ament_python":
+        return False
+    return not any(str(data.destination).startswith("lib") for data in setup.data_files)
+
+
+def _imported(package: Package) -> set[str]:
+    """Return the modules of the package that other modules import, by their full names."""
+    found: set[str] = set()
+    for module in package.modules():
+        for one in module.imports:
+            base = one.module
+            if one.level:
+                parts = module.path.split("/")[: -one.level]
+                base = ".".join([*parts, *([one.module] if one.module else [])])
+            found.add(base)
+            found |= {f"{base}.{name.name}" for name in one.names}
+    return found
