@@ -534,7 +534,7 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
         assert runs.checked == ["talker"]
 
 
-@pytest.mark.parametrize(("limit", "value"), [("MAX_RUNS", 4), ("MOST_BYTES", 10_000)])
+@pytest.mark.parametrize(("limit", "value"), [("MAX_RUNS", 4), ("MOST_BYTES", 5000)])
 @pytest.mark.usefixtures("package")
 def test_old_runs_are_dropped(
     runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int
