@@ -132,6 +132,9 @@ def test_an_unparsable_file_is_reported_once() -> None:
         (("CM001",), ("CM",), "CM001", True),
         (("CM",), ("CM001",), "CM001", False),
         (("E",), ("E",), "E501", False),
+        (("CM",), (), "SC001", True),
+        (("CM",), (), "SC003", False),
+        (("CM",), ("SC001",), "SC001", False),
     ],
 )
 def test_selection(

@@ -11,6 +11,10 @@ from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
 
 
+UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
+"""What says that something was not checked: whoever selects other codes must hear it, too."""
+
+
 class Selection(NamedTuple):
     """Code prefixes to report, and where not."""
 
@@ -22,7 +26,7 @@ class Selection(NamedTuple):
 
     def wants(self, code: str) -> bool:
         """Tell whether a code is reported; the longer of two matching prefixes decides."""
-        chosen = _longest(self.select, code) if self.select else 0
+        chosen = _longest(self.select, code) if self.select and code not in UNCHECKED else 0
         return chosen is not None and chosen > (_longest(self.ignore, code) or -1)
 
     def wants_at(self, code: str, path: str) -> bool:
