@@ -461,6 +461,46 @@ def test_a_fast_node_stops_with_0_wherever_the_signal_meets_it(
             assert stopped(node, stop) == []
 
 
+CREATED = dedent("""\
+    import os
+    import signal
+    import sys
+
+    from minimal_publisher import main, MinimalPublisher
+
+    create_timer = MinimalPublisher.create_timer
+
+
+    def create_after_signal(self, *arguments):
+        os.kill(os.getpid(), int(sys.argv[1]))
+        return create_timer(self, *arguments)
+
+
+    MinimalPublisher.create_timer = create_after_signal
+    main()
+""")
+
+
+@pytest.mark.build
+@needs_ros
+@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
+def test_a_node_stops_with_0_while_it_is_created(
+    combinations: Path, variables: dict[str, str], tmp_path: Path, stop: signal.Signals
+) -> None:
+    package = combinations / "cmake_brief_string" / "cmake_brief_string"
+    script = tmp_path / "created.py"
+    script.write_text(CREATED)
+    done = subprocess.run(
+        [sys.executable, str(script), str(int(stop))],
+        env={**variables, "PYTHONPATH": str(package)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 class running:  # noqa: N801  reads as a statement
     """A process whose messages are read, and which does not outlive the block."""
 
