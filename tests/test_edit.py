@@ -686,6 +686,21 @@ def test_executables_of_bin_are_not_moved() -> None:
     ]
 
 
+def test_a_wrong_directory_is_left_to_the_user() -> None:
+    text = "[develop]\nscript_dir=$base/lib/demo/\n[install]\ninstall-scripts=$base/lib/old\n"
+    outcome = setup_cfg.add_directories(
+        Source("setup.cfg", text), Addition("demo", MODULE), has_others=True
+    )
+    assert outcome.source.text == text
+    assert outcome.by_hand == (
+        ByHand(
+            "setup.cfg",
+            "[install] install_scripts=$base/lib/demo",
+            "it is $base/lib/old, where ros2 run does not look",
+        ),
+    )
+
+
 # -- launch files
 
 LAUNCH = """\

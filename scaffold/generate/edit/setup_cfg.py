@@ -61,9 +61,13 @@ def add_directories(source: Source, addition: Addition, *, has_others: bool) -> 
     by_hand: list[ByHand] = []
     for section, key in (("develop", "script_dir"), ("install", "install_scripts")):
         file = IniFile.parse(source)
-        if addition.program is None or file.get(section, key, key.replace("_", "-")) is not None:
+        found = file.get(section, key, key.replace("_", "-"))
+        if addition.program is None or (found or "").strip().rstrip("/") == directory:
             continue
-        if has_others:
+        if found is not None:
+            reason = f"it is {found}, where ros2 run does not look"
+            by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
+        elif has_others:
             reason = "ros2 run looks nowhere else, but it moves the other executables out of bin/"
             by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
         else:
