@@ -14,6 +14,7 @@ import pytest
 
 from scaffold.errors import InputError
 from scaffold.generate.qos import NAMES, Qos, qos
+from scaffold.generate.values import quality
 from scaffold.smoke import environment
 
 needs_ros = pytest.mark.skipif(
@@ -122,6 +123,12 @@ def test_settings_make_a_constant_on_one_line_or_several() -> None:
     assert "from rclpy.duration import Duration" in long.imports
     assert long.says == "reliable, transient local, depth 1, deadline 0.5 s"
     assert qos("latched").says == "latched: reliable, transient local, depth 1"
+
+
+def test_a_file_maps_settings_to_values() -> None:
+    assert quality({"reliability": "best_effort", "depth": 5}) == qos("best_effort,depth=5")
+    with pytest.raises(InputError, match=r"unknown setting 'dept=5'.*did you mean depth"):
+        quality({"dept": 5})
 
 
 @pytest.mark.parametrize(

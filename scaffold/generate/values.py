@@ -185,7 +185,9 @@ def action_type(given: object, where: str) -> ActionPayload:
 
 
 def quality(given: object) -> Qos:
-    """Return a quality of service."""
+    """Return a quality of service; a file may map settings to values."""
+    if isinstance(given, Mapping):
+        given = ",".join(f"{key}={_string(value)}" for key, value in given.items())
     return qos(_string(given))
 
 
