@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import Endpoint
 from scaffold.model.topics import services_of, topics_of
 
@@ -57,11 +58,14 @@ class TopicTypeDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        definitions = next(MessageTypes.of_package(package), None)
+        if definitions is None:
+            return
         for name, topic in topics_of(package).items():
-            if topic.is_plain:
+            if topic.is_plain and _are_known(definitions, topic.publishers, topic.subscriptions):
                 yield from self._check(name, topic.publishers, topic.subscriptions)
         for name, service in services_of(package).items():
-            if service.is_plain:
+            if service.is_plain and _are_known(definitions, service.services, service.clients):
                 yield from self._check(name, service.services, service.clients)
 
     def _check(
@@ -76,3 +80,9 @@ class TopicTypeDiffers(Rule):
                 f"{there.location.path}:{there.location.line}: they do not connect"
             )
             yield self.report(here.type_argument or here, message)
+
+
+def _are_known(types: MessageTypes, *sides: Sequence[Endpoint]) -> bool:
+    """Tell whether the definitions of all types are at hand: else another rule may say why."""
+    names = {one.interface for side in sides for one in side}
+    return all(name is not None and types.definitions.find(name) for name in names)

@@ -102,7 +102,7 @@ def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
         problem = "this is an object, not its class: remove the parentheses" if is_made else ""
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
         problem = f"a name is text, and this is {_said(value)}: TypeError"
-    elif name in _CALLBACKS and (isinstance(value, str) or type(value) in {int, float}):
+    elif name in _CALLBACKS and isinstance(value, str):
         problem = f"a callback is a function, and this is {_said(value)}: TypeError"
     elif name == "qos_profile" and isinstance(entity, Endpoint):
         problem = _qos_problem(facts, node, value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
-from scaffold.model.known import provided_by
+from scaffold.model.known import provided_by, similar_package
 from scaffold.model.needs import declared, needs
 
 _INTERFACES = ("_msgs", "_srvs")
@@ -53,6 +53,8 @@ class ImportDeclaredByOthers(Rule):
             along = [key for key in need.keys if key in there.along]
             if not along or not manifest.dependencies:
                 continue
+            if any(similar_package(one) == along[0] for one in there.direct):
+                continue  # misspelt, as another rule says
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
             by = next((one for one in sorted(there.direct) if along[0] in provided_by({one})), "")
             message = (

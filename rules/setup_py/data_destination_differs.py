@@ -70,6 +70,8 @@ class DataDestinationDiffers(Rule):
         setup = package.setup_py
         if package.build_type != "ament_python" or not package.manifest.name:
             return
+        if setup.name != package.name and setup.name is not None:
+            return  # SP009 says so, or nobody knows
         share = f"share/{package.name}"
         for data in setup.data_files:
             if data.malformed:

@@ -83,7 +83,9 @@ def _is_complete(package: Package, setup: SetupPy) -> bool:
     """Tell whether all entry points are known, and no programs are made in other ways."""
     if not setup.entry_points_complete or setup.has_unknown_keywords or setup.keyword("scripts"):
         return False
-    if package.build_type != "ament_python":
+    if package.build_type != "ament_python" or any(
+        one.malformed or one.joined for one in setup.entry_points
+    ):
         return False
     return not any(str(data.destination).startswith("lib") for data in setup.data_files)
 
