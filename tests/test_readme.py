@@ -73,7 +73,7 @@ def test_step(index: int, session: Session) -> None:
 
 def test_verbs_are_shown() -> None:
     shown = {step.command.split()[1] for step in STEPS if step.command.startswith("ros2-scaffold")}
-    assert shown >= {"new", "check", "rules", "smoke"}
+    assert shown >= {"new", "add", "update", "check", "rules", "templates", "smoke"}
 
 
 def run(command: str, directory: Path) -> str:

@@ -91,7 +91,9 @@ def _help(question: Question) -> str:
     if question.choices and question.metavar:
         details.append(", ".join(question.choices))
     if question.default not in (None, []) and "{" not in str(question.default):
-        details.append(f"default: {question.default}")
+        default = question.default
+        shown = ", ".join(map(str, default)) if isinstance(default, list) else default
+        details.append(f"default: {shown}")
     text = f"{question.help} ({'; '.join(details)})" if details else question.help
     return text.replace("%", "%%")
 
