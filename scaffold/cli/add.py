@@ -180,11 +180,21 @@ def _plan(package: Package, added: Added, *, force: bool) -> WritePlan:
 
 
 def _is_defect(said: list[Diagnostic], added: Added) -> bool:
-    """Tell whether an edit or a template made something that the checker calls an error."""
+    """Tell whether an edit or a template made something that the checker calls an error.
+
+    What it says of other files is not: they may be looked at only now that there is a program.
+    """
     from scaffold.check.diagnostic import Severity
 
-    needed = any(one.is_needed for one in added.by_hand)
-    return not needed and any(one.severity is Severity.ERROR for one in said)
+    if any(one.is_needed for one in added.by_hand):
+        return False
+    others = [path for path in added.package.files if path not in added.files]
+    return any(
+        one.severity is Severity.ERROR
+        and one.location.path not in others
+        and not any(path in one.message for path in others)
+        for one in said
+    )
 
 
 def _report(package: Package, said: list[Diagnostic]) -> None:
