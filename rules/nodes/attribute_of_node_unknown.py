@@ -68,17 +68,38 @@ class AttributeOfNodeUnknown(Rule):
     def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
         known = _defined(node)
         for attribute in facts.module.walk(ast.Attribute):
-            if facts.evaluator.self_class(attribute.value) is not node.node:
-                continue
             name = attribute.attr
-            if not isinstance(attribute.ctx, ast.Load) or name in known or has(NODE, name):
+            if name in known or has(NODE, name) or not _is_own(facts, node, attribute):
                 continue
-            if facts.evaluator.stores(name) or _may_fail(facts, attribute):
+            is_changed = isinstance(facts.module.parent(attribute), ast.AugAssign)
+            if not isinstance(attribute.ctx, ast.Load) and not is_changed:
+                continue
+            if _is_stored(facts, name) or _may_fail(facts, attribute):
                 continue
             near = _ELSEWHERE.get(name) or next(iter(_near(name, known)), "")
             hint = f"; {near!r} is meant" if near else ""
             message = f"neither {node.name} nor rclpy's Node has {name!r}{hint}: AttributeError"
             yield self.report(facts.module.location(attribute), message)
+
+
+def _is_own(facts: NodeFacts, node: NodeClass, attribute: ast.Attribute) -> bool:
+    """Tell whether an attribute is one of ``self``, or of a variable that holds such a node."""
+    if facts.evaluator.self_class(attribute.value) is node.node:
+        return True
+    made = facts.evaluator.single_value(attribute.value)
+    return (
+        isinstance(attribute.value, ast.Name)
+        and isinstance(made, ast.Call)
+        and facts.evaluator.named_class(made.func) is node.node
+    )
+
+
+def _is_stored(facts: NodeFacts, name: str) -> bool:
+    """Tell whether anything in the file sets an attribute of this name, on whatever object."""
+    return any(
+        not isinstance(facts.module.parent(store.node), ast.AugAssign)
+        for store in facts.evaluator.stores(name)
+    )
 
 
 def _near(name: str, known: set[str]) -> list[str]:
@@ -120,7 +141,10 @@ def _defined(node: NodeClass) -> set[str]:
     while owner is not None:
         found |= set(owner.facts.module.index.bindings(owner.node))
         for attribute in ast.walk(owner.node):
-            if isinstance(attribute, ast.Attribute) and not isinstance(attribute.ctx, ast.Load):
+            if not isinstance(attribute, ast.Attribute) or isinstance(attribute.ctx, ast.Load):
+                continue
+            parent = owner.facts.module.parent(attribute)
+            if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
                 found.add(attribute.attr)
         owner = owner.base
     return found

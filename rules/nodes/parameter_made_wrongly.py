@@ -1,0 +1,145 @@
+"""ND060: parameters are made, declared, read and set as rclpy has them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import ParameterRead
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
+from scaffold.model.values import UNKNOWN
+
+_PARAMETER = "rclpy.parameter.Parameter"
+_KINDS = {
+    "BOOL": bool,
+    "BOOL_ARRAY": list,
+    "BYTE_ARRAY": list,
+    "DOUBLE": float,
+    "DOUBLE_ARRAY": list,
+    "INTEGER": int,
+    "INTEGER_ARRAY": list,
+    "STRING": str,
+    "STRING_ARRAY": list,
+}
+_NODE = (
+    "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameters('', [{}])\n"
+    "        self.set_parameters({})\n"
+    "        self.rate = self.get_parameter('rate').value{}\n"
+)
+_RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]", "")
+
+
+class ParameterMadeWrongly(Rule):
+    """A parameter is made, declared, read or set in a form that rclpy does not take.
+
+    **Why.** ``ValueError: Type '2' and value ... do not agree``, ``TypeError: 'float' object is not
+    callable``, ``ParameterAlreadyDeclaredException`` for ``use_sim_time``, which every node has.
+
+    **Fix.** ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)``, a list of pairs for
+    ``declare_parameters``, a list for ``set_parameters``; ``.value`` is no method.
+
+    **Source.** ``rclpy/parameter.py``; ``rclpy/node.py``.
+    """
+
+    code = "ND060"
+    name = "parameter-made-wrongly"
+    examples = (
+        Example("right", {"talker.py": _NODE.format(*_RIGHT)}),
+        Example(
+            "no pairs, no list, a call",
+            {"talker.py": _NODE.format("'rate', 1.0", "Parameter('rate', value=2.0)", "()")},
+            at=("talker.py:8", "talker.py:9", "talker.py:10"),
+        ),
+        Example(
+            "a value in place of the type, another type, one that is there",
+            {
+                "talker.py": _NODE.format(
+                    "('rate', 1.0), ('use_sim_time', True)",
+                    "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
+                    "",
+                )
+            },
+            at=("talker.py:8", "talker.py:9", "talker.py:9"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for one in facts.parameters:
+                if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
+                    message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
+                    yield self.report(one.name_location, message)
+            for call in facts.module.walk(ast.Call):
+                for node, problem in _problems(facts, call):
+                    yield self.report(facts.module.location(node), problem)
+            for read in facts.parameter_reads:
+                used = _used_as_number(facts, read)
+                if used is not None:
+                    message = (
+                        "get_parameter_value() is a message: read a field such as double_value"
+                    )
+                    yield self.report(facts.module.location(used), message)
+
+
+def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    name = facts.module.qualified_name(call.func) or ""
+    if name in {_PARAMETER, "rclpy.Parameter"}:
+        yield from _made(facts, call)
+    match call.func:
+        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == _PARAMETER:
+            yield call, "value is no method of a parameter: leave the parentheses out"
+        case ast.Attribute(attr="set_parameters" | "set_parameters_atomically", value=owner):
+            given = call.args[0] if call.args else None
+            is_one = given is not None and class_of(facts, given) == _PARAMETER
+            if given is not None and is_one and facts.owner_of(owner) is not None:
+                yield given, "parameters are set as a list: [Parameter(...)]"
+        case ast.Attribute(attr="declare_parameters", value=owner):
+            listed = call.args[1] if len(call.args) > 1 else None
+            if isinstance(listed, ast.List) and facts.owner_of(owner) is not None:
+                for item in listed.elts:
+                    if isinstance(item, ast.Constant):
+                        yield item, "each parameter is a pair ('name', default): TypeError"
+                        break
+
+
+def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    given = dict(zip(("name", "type_", "value"), call.args, strict=False))
+    given.update({word.arg: word.value for word in call.keywords if word.arg})
+    type_, value = given.get("type_"), given.get("value")
+    if type_ is None:
+        return
+    constant = facts.evaluator.evaluate(type_)
+    if constant is not UNKNOWN and constant is not None:
+        yield type_, "the second argument is the type: write value=... for a value"
+        return
+    kind = _KINDS.get((facts.module.qualified_name(type_) or "").rpartition(".Type.")[2])
+    known = facts.evaluator.evaluate(value)
+    if kind is None or value is None or known is UNKNOWN or known is None:
+        return
+    if type(known) is not kind and not isinstance(known, tuple):
+        word = type(known).__name__
+        yield (
+            value,
+            f"the type is {facts.module.text(type_)}, but the value is a {word}: ValueError",
+        )
+
+
+def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
+    """Return where the message of a parameter's value is computed with or is a period."""
+    attribute = facts.module.parent(read.call)
+    call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
+    if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
+        return None
+    if not isinstance(call, ast.Call):
+        return None
+    for timer in facts.timers:
+        period = timer.argument("timer_period_sec")
+        if period is not None and facts.evaluator.single_value(period.node) is call:
+            return period.node
+    return call if isinstance(facts.module.parent(call), ast.BinOp) else None
