@@ -148,6 +148,19 @@ def test_fix(code: str) -> None:
     assert only(code)(fixed.package) == []
 
 
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ('"""Go\n\n\\\\alpha there.\n"""\n', '"""\nGo.\n\n\\\\alpha there.\n"""\n'),
+        ('"""\\\\alpha\n\nThere.\n"""\n', '"""\\\\alpha\n\nThere.\n"""\n'),
+        ('r"""Go \\d\n\nthere.\n"""\n', 'r"""\nGo \\d.\n\nthere.\n"""\n'),
+    ],
+)
+def test_docstrings_with_backslashes(before: str, after: str) -> None:
+    fixed = fixer.fix(Package.of({"a.py": before}), check)
+    assert fixed.changed.get("a.py", before.encode()).decode() == after
+
+
 UNSAFE = {
     "C400": ("x = [1]\nlist(y for y in x)\n", "x = [1]\nlist(x)\n"),
     "D401": (

@@ -63,8 +63,10 @@ class UnusedSuppression(_Internal):
 class FileTooLarge(_Internal):
     """A file is too large to be checked.
 
-    **Why.** What is wrong in it stays unknown. Code is read up to 500 kB, twice the largest file
-    of 800 public packages, data such as YAML up to 2 MB, so that no file can hold the check up.
+    **Why.** What is wrong in it stays unknown. So that no file can hold the check up, code is
+    read up to 500 kB, CMakeLists.txt up to 250 kB, package.xml, setup.py and setup.cfg up to
+    100 kB, data such as YAML up to 2 MB: twice to twenty times the largest files of 800 public
+    packages.
 
     **Fix.** Split the file, or keep generated code out of the package's sources.
     """

@@ -27,7 +27,7 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
         mend_around, title = _AROUND[code]
         return tuple(mend_around(definition)), title
     mend, title = _INSIDE.get(code) or _of_section(code)
-    if "\\" in definition.docstring and not (code == "D301" or _is_raw(definition)):
+    if "\\" in definition.docstring and not (code in _LOOKS_AT_ESCAPES or _is_raw(definition)):
         return (), ""
     splices = tuple(mend(definition))
     if not splices or _is_too_long(definition, splices):
@@ -144,9 +144,11 @@ def _strip(definition: Definition) -> Iterator[Splice]:
 
 
 def _second_line(definition: Definition) -> Iterator[Splice]:
-    first, _ = _quotes(definition)
+    literal = definition.docstring
+    first, last = _quotes(definition)
     start, _ = _text(definition)
-    if sum(1 for line in definition.value.split("\n") if line.strip()) > 1:
+    filled = sum(1 for line in literal[first:last].split("\n") if line.strip())
+    if filled > 1 and literal[start] != "\\":
         yield first, start, f"\n{definition.indent}"
 
 
@@ -228,7 +230,7 @@ def _full_stop(definition: Definition) -> Iterator[Splice]:
         and "://" not in word
         and "@" not in word
     )
-    if is_sentence and not following.strip():
+    if is_sentence and not following.strip() and (_is_raw(definition) or "\\" not in summary):
         at = start + len(summary)
         yield at, at, "."
 
@@ -236,7 +238,7 @@ def _full_stop(definition: Definition) -> Iterator[Splice]:
 def _capital(definition: Definition) -> Iterator[Splice]:
     start, _ = _text(definition)
     first = definition.value.split()[0]
-    if first[1:].islower() or len(first) == 1:
+    if definition.docstring.startswith(first, start) and (first[1:].islower() or not first[1:]):
         yield start, start + 1, first[0].upper()
 
 
@@ -249,6 +251,9 @@ def _command(definition: Definition) -> Iterator[Splice]:
         start, _ = _text(definition)
         yield start, start + len(first), wanted[:1].upper() + wanted[1:]
 
+
+_LOOKS_AT_ESCAPES = frozenset({"D213", "D301", "D400", "D403", "D415"})
+"""Codes whose fix keeps away from backslashes itself."""
 
 UNSAFE = frozenset({"D401"})
 """Codes whose fix changes words."""
