@@ -1,0 +1,52 @@
+"""LY041: the changelog is that of the package."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+_TITLE = r"^Changelog for package\s+(\S+)"
+_TEXT = (
+    "^^^^^^^^^^^^^^^^^^^^^^^^^^^^\nChangelog for package {}\n^^^^^^^^^^^^^^^^^^^^^^^^^^^^\n\n"
+    "1.2.0 (2024-11-04)\n------------------\n* First\n"
+)
+_MANIFEST = "<package><name>talker</name><version>1.2.0</version></package>\n"
+
+
+class ChangelogOfOtherPackage(Rule):
+    """CHANGELOG.rst has the name of another package in its title.
+
+    **Why.** It is the page of the package in the index of ROS: readers take it for another one,
+    and it often was copied with the files of that one.
+
+    **Fix.** Write the name of the package.
+
+    **Source.** REP 132.
+    """
+
+    code = "LY041"
+    name = "changelog-of-other-package"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "of the package",
+            {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("talker")},
+        ),
+        Example(
+            "of another one",
+            {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
+            at=("CHANGELOG.rst:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        source = package.source("CHANGELOG.rst")
+        title = re.search(_TITLE, source.text, re.MULTILINE)
+        if title is None or not package.manifest.name:
+            return
+        at = source.location(title.start(1), title.end(1))
+        if title[1] != package.manifest.name:
+            message = f"the changelog is of {title[1]!r}, the package is {package.manifest.name!r}"
+            yield self.report(at, message)

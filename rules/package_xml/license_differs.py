@@ -1,0 +1,76 @@
+"""PX083: the LICENSE file holds the licence that the manifest names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+
+_TEXTS: Mapping[str, tuple[str, ...]] = {
+    "apache": ("apache license", "version 2.0"),
+    "mit": ("permission is hereby granted, free of charge", 'the software is provided "as is"'),
+    "bsd": ("redistribution and use in source and binary forms",),
+    "gpl": ("gnu general public license",),
+    "lgpl": ("gnu lesser general public license",),
+    "mpl": ("mozilla public license",),
+}
+"""What a licence text surely holds, by family."""
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n  <license>{}</license>\n</package>\n'
+_FILE = {"LICENSE": "                 Apache License\n           Version 2.0, January 2004\n"}
+
+
+class LicenseDiffers(Rule):
+    """package.xml names another licence than the LICENSE file of the package holds.
+
+    **Why.** Who uses the package reads two different terms; reviewers of a release refuse it.
+
+    **Fix.** Name the licence of the file.
+
+    **Source.** REP 149, ``license``; ROS 2 documentation, "Indexing your packages".
+    """
+
+    code = "PX083"
+    name = "license-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example("the same", {**_FILE, "package.xml": _MANIFEST.format("Apache-2.0")}),
+        Example(
+            "another",
+            {**_FILE, "package.xml": _MANIFEST.format("MIT")},
+            at=("package.xml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        licenses = package.manifest.all("license")
+        if len(licenses) != 1 or not package.has("LICENSE"):
+            return
+        text = " ".join(package.source("LICENSE").text.lower().split())
+        found = {name for name, parts in _TEXTS.items() if all(part in text for part in parts)}
+        named = _family(licenses[0].text)
+        if "lgpl" in found:
+            found.discard("gpl")
+        if named and len(found) == 1 and named not in found:
+            held = found.pop()
+            message = f"{licenses[0].text!r} is declared, but LICENSE holds {_NAMES[held]}"
+            yield self.report(licenses[0], message)
+
+
+_NAMES = {
+    "apache": "the Apache License 2.0",
+    "mit": "the MIT License",
+    "bsd": "a BSD licence",
+    "gpl": "the GNU GPL",
+    "lgpl": "the GNU LGPL",
+    "mpl": "the Mozilla Public License",
+}
+
+
+def _family(name: str) -> str:
+    """Return the family of a declared licence, or nothing."""
+    text = name.lower()
+    if " or " in text or " and " in text or "/" in text or "," in text:
+        return ""
+    return next((one for one in ("apache", "lgpl", "gpl", "bsd", "mpl") if one in text), "") or (
+        "mit" if text.startswith("mit") else ""
+    )
