@@ -13,6 +13,7 @@ from scaffold.model.interfaces import KINDS, Definitions, Interface
 from scaffold.model.node_entities import ActionServer, Endpoint, Service, Subscription
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.package import Package
+from scaffold.model.rclpy_names import future_given
 from scaffold.model.scopes import Binding
 from scaffold.model.self_values import Store
 from scaffold.record import NamedTuple
@@ -163,6 +164,8 @@ class MessageTypes:
 
     def _infer(self, node: ast.expr) -> FieldType | MessageClass | None:
         match node:
+            case ast.Call(func=ast.Attribute(attr="result", value=future), args=[]):
+                return self._answer(future)
             case ast.Call(func=func):
                 return self.class_of(func)
             case ast.Name():
@@ -171,6 +174,18 @@ class MessageTypes:
                 return self._element(self._type(value))
             case ast.Attribute():
                 return self._type_of_field(node)
+        return None
+
+    def _answer(self, node: ast.expr) -> MessageClass | None:
+        """Return what the future of a service call gives."""
+        future = future_given(self.facts, node)
+        made = self.facts.evaluator.single_value(node if future is None else future)
+        match made:
+            case ast.Call(func=ast.Attribute(attr="call_async", value=holder)):
+                call = self.facts.evaluator.single_value(holder)
+                for client in self.facts.clients:
+                    if client.call is call:
+                        return self._class_of_endpoint(client, "Response")
         return None
 
     def _type_of_field(self, node: ast.Attribute) -> FieldType | MessageClass | None:

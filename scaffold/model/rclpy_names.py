@@ -109,6 +109,12 @@ def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
 
 def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
     """Return the class of what a callback is given: the future that is done."""
+    future = future_given(facts, node)
+    return class_of(facts, future) if future is not None else None
+
+
+def future_given(facts: NodeFacts, node: ast.expr) -> ast.expr | None:
+    """Return the future that is done when a callback is called with what a name stands for."""
     argument = facts.parameter_of(node)
     if argument is None:
         return None
@@ -118,7 +124,7 @@ def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
                 callback = facts.callback(given)
                 given_to = _first_argument(callback.function, is_bound=callback.is_bound)
                 if given_to is argument and not callback.is_partial:
-                    return class_of(facts, attribute.value)
+                    return attribute.value
     return None
 
 

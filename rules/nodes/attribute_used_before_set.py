@@ -1,0 +1,75 @@
+"""ND062: a constructor sets attributes before it uses them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_caught
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import NODE, has
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "{}"
+)
+_MAKE = "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
+_USE = "        self.pub.publish(String())\n"
+
+
+class AttributeUsedBeforeSet(Rule):
+    """The constructor of a node uses an attribute that it sets further down.
+
+    **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start.
+
+    **Fix.** Set it first.
+
+    **Source.** Python documentation, "Classes".
+    """
+
+    code = "ND062"
+    name = "attribute-used-before-set"
+    examples = (
+        Example("set first", {"talker.py": _NODE.format(_MAKE + _USE)}),
+        Example("used first", {"talker.py": _NODE.format(_USE + _MAKE)}, at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for node in facts.classes:
+                if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
+                    continue
+                for used, line in _used_early(facts, node):
+                    message = f"self.{used.attr} is set in line {line} only: AttributeError"
+                    yield self.report(facts.module.location(used), message)
+
+
+def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
+    """Yield the first use of each attribute that stands above all places that set it."""
+    bound = facts.module.index.bindings(node.node)
+    told: set[str] = set()
+    for used in ast.walk(node.constructor) if node.constructor else ():
+        if not isinstance(used, ast.Attribute) or not isinstance(used.ctx, ast.Load):
+            continue
+        if used.attr in told or used.attr in bound or has(NODE, used.attr):
+            continue
+        if facts.evaluator.self_class(used.value) is not node.node:
+            continue
+        stores = facts.evaluator.stores(used.attr)
+        functions = {facts.function_of(store.node) for store in stores}
+        if functions != {node.constructor} or facts.function_of(used) is not node.constructor:
+            continue
+        lines = [store.node.lineno for store in stores]
+        in_loop = any(
+            isinstance(parent, ast.For | ast.While) for parent in facts.module.parents(used)
+        )
+        if used.lineno >= min(lines) or in_loop:
+            continue
+        if not is_caught(facts.module, used, "AttributeError"):
+            told.add(used.attr)
+            yield used, min(lines)
