@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
     from scaffold import config, content
+    from scaffold.cli import flags
     from scaffold.generate import parts, questions, template
 
     templates = template.load(content.roots("templates", config.load().content))
@@ -31,23 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=".",
         help="where the directory of the package is made (default: the current directory)",
     )
-    parser.add_argument("--answers", metavar="FILE", help="a YAML file with answers; flags win")
-    parser.add_argument(
-        "--dry-run", action="store_true", help="say what would be written, and write nothing"
-    )
-    parser.add_argument(
-        "--diff", action="store_true", help="show the changes as a diff, and write nothing"
-    )
+    flags.add_answers(parser)
+    flags.add_looking(parser)
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
     )
-    parser.add_argument(
-        "--content",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="a directory with templates/ of your own; what they ask is answered by --answers",
-    )
+    flags.add_content(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
+    from scaffold.cli import flags
+
     parser.add_argument(
         "directory",
         nargs="?",
@@ -21,19 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="a package that `new` made (default: the current directory)",
     )
-    parser.add_argument(
-        "--dry-run", action="store_true", help="say what would be changed, and change nothing"
-    )
-    parser.add_argument(
-        "--diff", action="store_true", help="show the changes as a diff, and change nothing"
-    )
-    parser.add_argument(
-        "--content",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="a directory with templates/ of your own",
-    )
+    flags.add_looking(parser)
+    flags.add_content(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from scaffold.model.python_module import PythonModule
+from scaffold.model.python_module import PythonModule, last_names
 
 _ALL = frozenset({"Exception", "BaseException"})
 
@@ -23,20 +21,10 @@ def is_caught(module: PythonModule, node: ast.AST, exception: str) -> bool:
     for parent in module.parents(node):
         if isinstance(parent, ast.Try) and child in parent.body:
             for handler in parent.handlers:
-                if handler.type is None or {exception, *_ALL} & _names(handler.type):
+                if handler.type is None or {exception, *_ALL} & last_names(handler.type):
                     return True
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
             return False
         child = parent
     return False
 
-
-def _names(node: ast.expr) -> set[str]:
-    """Return the last parts of the names in an expression."""
-    found: set[str] = set()
-    for part in ast.walk(node):
-        if isinstance(part, ast.Name):
-            found.add(part.id)
-        elif isinstance(part, ast.Attribute):
-            found.add(part.attr)
-    return found

@@ -412,20 +412,20 @@ def _is_main_test(test: ast.expr) -> bool:
 
 def _catches_import_errors(node: ast.Try) -> bool:
     return any(
-        handler.type is None or not _IMPORT_ERRORS.isdisjoint(_names(handler.type))
+        handler.type is None or not _IMPORT_ERRORS.isdisjoint(last_names(handler.type))
         for handler in node.handlers
     )
 
 
 def _suppresses_import_errors(item: ast.withitem) -> bool:
     match item.context_expr:
-        case ast.Call(func=func, args=args) if "suppress" in _names(func):
-            return any(not _IMPORT_ERRORS.isdisjoint(_names(arg)) for arg in args)
+        case ast.Call(func=func, args=args) if "suppress" in last_names(func):
+            return any(not _IMPORT_ERRORS.isdisjoint(last_names(arg)) for arg in args)
         case _:
             return False
 
 
-def _names(node: ast.expr) -> set[str]:
+def last_names(node: ast.expr) -> set[str]:
     """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
     found: set[str] = set()
     for part in ast.walk(node):

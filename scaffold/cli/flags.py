@@ -1,0 +1,31 @@
+"""Flags that several verbs share."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_looking(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of verbs that write, for users who want to look first."""
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be written, and write nothing"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="show the changes as a diff, and write nothing"
+    )
+
+
+def add_content(parser: argparse.ArgumentParser) -> None:
+    """Define the flag for templates of a team."""
+    parser.add_argument(
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with templates/ of your own; what they ask is answered by --answers",
+    )
+
+
+def add_answers(parser: argparse.ArgumentParser) -> None:
+    """Define the flag for an answers file."""
+    parser.add_argument("--answers", metavar="FILE", help="a YAML file with answers; flags win")
