@@ -31,9 +31,9 @@ _PYTHON_PACKAGES = frozenset(
 _TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
 _IMPORTED_CLASSES = frozenset(
     {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
-    | {"Future", "GoalResponse", "GoalStatus", "LifecycleNode", "MultiThreadedExecutor", "Node"}
-    | {"ParameterDescriptor", "SetParametersResult", "SignalHandlerOptions"}
-    | {"TransitionCallbackReturn"}
+    | {"FloatingPointRange", "Future", "GoalResponse", "GoalStatus", "IntegerRange"}
+    | {"LifecycleNode", "MultiThreadedExecutor", "Node", "ParameterDescriptor"}
+    | {"SetParametersResult", "SignalHandlerOptions", "TransitionCallbackReturn"}
 )
 """What the modules of nodes import by name."""
 _RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})

@@ -29,7 +29,7 @@ ACTIONS: dict[str, ActionRecipe] = {
     "Fibonacci": ActionRecipe(
         says="computes the first numbers of the Fibonacci sequence",
         goal="goal.order = 10  # how many numbers after the first",
-        refused="goal.order < 1",
+        refused="not 1 <= goal.order <= 46",  # int32 holds no more
         start="feedback.sequence = [0, 1]",
         steps="range(1, goal.order)",
         feedback="feedback.sequence.append(feedback.sequence[-1] + feedback.sequence[-2])",
