@@ -35,6 +35,13 @@ class LicenseDiffers(Rule):
     examples = (
         Example("the same", {**_FILE, "package.xml": _MANIFEST.format("Apache-2.0")}),
         Example(
+            "the GPL, which speaks of the LGPL at its end",
+            {
+                "LICENSE": "GNU GENERAL PUBLIC LICENSE\n... GNU Lesser General Public License ...\n",
+                "package.xml": _MANIFEST.format("GPL-3.0-only"),
+            },
+        ),
+        Example(
             "another",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
             at=("package.xml:3",),
@@ -48,8 +55,8 @@ class LicenseDiffers(Rule):
         text = " ".join(package.source("LICENSE").text.lower().split())
         found = {name for name, parts in _TEXTS.items() if all(part in text for part in parts)}
         named = _family(licenses[0].text)
-        if "lgpl" in found:
-            found.discard("gpl")
+        if {"gpl", "lgpl"} <= found:  # each speaks of the other, but the title comes first
+            found.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
         if named and len(found) == 1 and named not in found:
             held = found.pop()
             message = f"{licenses[0].text!r} is declared, but LICENSE holds {_NAMES[held]}"

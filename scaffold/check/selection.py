@@ -10,7 +10,6 @@ from fnmatch import fnmatchcase
 from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
 
-
 UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
 """What says that something was not checked: whoever selects other codes must hear it, too."""
 

@@ -27,4 +27,3 @@ def is_caught(module: PythonModule, node: ast.AST, exception: str) -> bool:
             return False
         child = parent
     return False
-
