@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
@@ -26,8 +27,12 @@ from scaffold.style import (
 )
 from scaffold.style.codes import CODES
 from scaffold.style.finding import FLAKE8, PEP257, Finding
+from scaffold.style.logical import LogicalLine
 from scaffold.style.ruff import Said
 from scaffold.style.text import PythonText, decode
+
+MOST_EDITS = 200
+"""Of one fix; a line with more is mended in several rounds, if at all."""
 
 _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
@@ -69,13 +74,13 @@ def check(
     if broken is not None:
         return [broken._replace(linters=linters)]
     findings = [*_from_ruff(text, said), *own]
-    findings = [_aligned(text, one) for one in _with_fixes(findings, said)]
+    findings = _with_fixes(findings, said)
     kept = [
         finding._replace(linters=finding.linters & linters)
         for finding in findings
         if finding.linters & linters
     ]
-    return _once(noqa.apply(text, kept))
+    return [*map(_Alignment(text).kept, _once(noqa.apply(text, kept)))]
 
 
 def _own(text: PythonText) -> Iterator[Finding]:
@@ -160,23 +165,46 @@ def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Findi
     return result
 
 
-def _aligned(text: PythonText, finding: Finding) -> Finding:
-    """Take away a fix that would move something that continuation lines are aligned with."""
-    for row, start, end_row, end, new in finding.fix:
-        if row != end_row or "\n" in new or end - start == len(new):
-            continue
-        logical = text.logical_line_at(row)
-        if logical is None or logical.end_row == row:
-            continue
-        behind = {one.start[1] for one in logical.tokens if one.start[0] == row}
-        starts = {
-            one.start[1]
-            for before, one in pairwise(logical.tokens)
-            if one.start[0] > max(row, before.start[0]) and one.start[1] >= start
-        }
-        if behind & starts:
-            return finding._replace(fix=(), fix_title="")
-    return finding
+class _Alignment:
+    """Knows what continuation lines are aligned with."""
+
+    def __init__(self, text: PythonText) -> None:
+        self._text = text
+        self._starts: dict[int, frozenset[int]] = {}
+        self._columns: dict[int, list[int]] = {}
+
+    def kept(self, finding: Finding) -> Finding:
+        """Take away a fix that would move something that lines further down are aligned with."""
+        for row, start, end_row, end, new in finding.fix:
+            if row != end_row or "\n" in new or end - start == len(new):
+                continue
+            logical = self._text.logical_line_at(row)
+            if logical is None or logical.end_row == row:
+                continue
+            starts = self._line_starts(logical)
+            columns = self._columns_of(row)
+            behind = columns[bisect_left(columns, start) :]
+            if len(behind) > MOST_EDITS or not starts.isdisjoint(behind):
+                return finding._replace(fix=(), fix_title="")
+        return finding
+
+    def _line_starts(self, logical: LogicalLine) -> frozenset[int]:
+        """Return the columns, from 0, where the continuation lines of a statement start."""
+        if logical.row not in self._starts:
+            self._starts[logical.row] = frozenset(
+                one.start[1]
+                for before, one in pairwise(logical.tokens)
+                if one.start[0] > before.start[0]
+            )
+        return self._starts[logical.row]
+
+    def _columns_of(self, row: int) -> list[int]:
+        """Return the columns, from 0, of the tokens of a row."""
+        if row not in self._columns:
+            rows = self._text.token_rows
+            tokens = self._text.tokens[bisect_left(rows, row) : bisect_right(rows, row)]
+            self._columns[row] = [one.start[1] for one in tokens]
+        return self._columns[row]
 
 
 def _once(findings: Iterable[Finding]) -> list[Finding]:
@@ -198,6 +226,8 @@ def _joined(one: Finding, other: Finding) -> Finding:
         return one._replace(
             fix=other.fix, fix_title=other.fix_title, fix_is_unsafe=other.fix_is_unsafe
         )
+    if len(one.fix) > MOST_EDITS:
+        return one
     edits = sorted({*one.fix, *other.fix})
     meet = any(first[2:4] > second[:2] for first, second in pairwise(edits))
     if meet or not other.fix or one.fix_is_unsafe != other.fix_is_unsafe:
