@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.node_entities import Argument, Endpoint, Entity, Parameter
+from scaffold.model.node_entities import Argument, Client, Endpoint, Entity, Parameter, Service
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import UNKNOWN
 
@@ -100,6 +101,8 @@ def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
     if isinstance(entity, Endpoint) and name in _TYPES and isinstance(node, ast.Call):
         is_made = facts.interface(node.func) is not None
         problem = "this is an object, not its class: remove the parentheses" if is_made else ""
+    elif isinstance(entity, Service | Client) and name == "srv_type":
+        problem = _service_problem(facts, node)
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
         problem = f"a name is text, and this is {_said(value)}: TypeError"
     elif name in _CALLBACKS and isinstance(value, str):
@@ -113,6 +116,17 @@ def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
         is_class = full.startswith("rclpy.callback_groups.")
         problem = "this is the class of a callback group: make an object of it" if is_class else ""
     return problem
+
+
+def _service_problem(facts: NodeFacts, node: ast.expr) -> str:
+    """Return what is wrong about a type that should be that of a service."""
+    full = facts.module.qualified_name(node) or ""
+    if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
+        whole = ".".join(full.split(".")[2:3])
+        return f"this is a part of a service; the type is {whole}: RuntimeError"
+    if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):
+        return f"{full.rpartition('.')[2]} is no service: RuntimeError"
+    return ""
 
 
 def _said(value: object) -> str:

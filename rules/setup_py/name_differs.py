@@ -46,6 +46,13 @@ class NameDiffers(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         name = package.manifest.name
         keyword = package.setup_py.keyword("name")
+        if keyword is None and package.setup_py.call is not None and name:
+            if not _is_named_elsewhere(package):
+                message = (
+                    f"setup() has no name: nothing is installed as {name!r}; add name={name!r}"
+                )
+                yield self.report(package.setup_py, message)
+            return
         if keyword is None or not isinstance(keyword.value, str) or not name:
             return
         if keyword.value.replace("-", "_") == name.replace("-", "_") or other_name(package):
@@ -59,3 +66,10 @@ class NameDiffers(Rule):
             edit = Edit("setup.py", start + 1, end - 1, name)
             fix = Fix(f"write {name}", (edit,), Safety.UNSAFE)
         yield self.report(setup.module.source.location(start, end), message, fix)
+
+
+def _is_named_elsewhere(package: Package) -> bool:
+    """Tell whether the name may come from another file, or from arguments that are not known."""
+    if package.setup_py.has_unknown_keywords or package.has("pyproject.toml"):
+        return True
+    return package.has("setup.cfg") and "[metadata]" in package.source("setup.cfg").text

@@ -1,0 +1,68 @@
+"""ND063: nodes read files of their package, not of their author's machine."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.values import PathValue
+
+_READERS = frozenset(
+    {"open", "io.open", "pathlib.Path", "cv2.imread", "numpy.load", "numpy.loadtxt"}
+    | {"pandas.read_csv", "os.listdir", "os.chdir", "os.path.join"}
+)
+_HOME = r"/(home|Users)/[a-z][\w.-]*/.+"
+_NODE = "import rclpy\n\n\ndef words():\n    with open({}) as file:\n        return file.read()\n"
+
+
+class FileOfAuthor(Rule):
+    """A node opens a file in a home directory, or a file of its package by a relative path.
+
+    **Why.** ``FileNotFoundError`` on every other machine; a relative path is one of the directory
+    that ``ros2 run`` was called in.
+
+    **Fix.** Install the file, and look it up below
+    ``get_package_share_directory('<package>')``.
+
+    **Source.** ROS 2 documentation, "Using ament_index_python"; ``ament_index_python/packages.py``.
+    """
+
+    code = "ND063"
+    name = "file-of-author"
+    severity = Severity.WARNING
+    examples = (
+        Example("a parameter", {"talker.py": _NODE.format("get('path')")}),
+        Example(
+            "of a user",
+            {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
+            at=("talker.py:5",),
+        ),
+        Example(
+            "relative",
+            {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
+            at=("talker.py:5",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            module = facts.module
+            for call in module.walk(ast.Call):
+                name = module.qualified_name(call.func)
+                if name not in _READERS or not call.args:
+                    continue
+                value = facts.evaluator.evaluate(call.args[0])
+                text = value.text if isinstance(value, PathValue) else value
+                if not isinstance(text, str):
+                    continue
+                if re.fullmatch(_HOME, text):
+                    message = f"{text} is on the author's machine only"
+                    yield self.report(module.location(call.args[0]), message)
+                elif name == "open" and "/" in text and package.has(text.removeprefix("./")):
+                    message = (
+                        f"{text} is looked for where `ros2 run` is called, not in the package; "
+                        "use get_package_share_directory()"
+                    )
+                    yield self.report(module.location(call.args[0]), message)

@@ -1,0 +1,68 @@
+"""ND064: threads get functions, timers a period, coroutines somebody who awaits them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "import threading\n\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        threading.Thread(target=self.work{}).start()\n"
+    "        self.create_timer({}, self.tick)\n\n"
+    "    def work(self):\n        pass\n\n"
+    "    async def ask(self):\n        pass\n\n"
+    "    async def tick(self):\n        {}self.ask()\n"
+)
+
+
+class ThreadTargetCalled(Rule):
+    """A function is called where a thread should call it, or a coroutine is made and dropped.
+
+    **Why.** ``Thread(target=self.work())`` does the work at once, in the constructor, and the
+    thread has nothing to do; a coroutine that nobody awaits never runs; a timer with the period 0
+    takes all the time there is.
+
+    **Fix.** ``target=self.work``; ``await self.ask()``; a period above 0.
+
+    **Source.** Python documentation, ``threading.Thread``, "Coroutines"; rclpy, ``timer.py``.
+    """
+
+    code = "ND064"
+    name = "thread-target-called"
+    examples = (
+        Example("right", {"talker.py": _NODE.format("", "0.1", "await ")}),
+        Example(
+            "called, zero, dropped",
+            {"talker.py": _NODE.format("()", "0.0", "")},
+            at=("talker.py:9", "talker.py:10", "talker.py:19"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                for node, problem in _problems(facts, call):
+                    yield self.report(facts.module.location(node), problem)
+            for timer in facts.timers:
+                argument = timer.argument("timer_period_sec")
+                if argument is not None and argument.value in (0, 0.0):
+                    yield self.report(argument, "a period of 0 takes all of the processor")
+
+
+def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    if facts.module.qualified_name(call.func) == "threading.Thread":
+        for word in call.keywords:
+            if word.arg == "target" and isinstance(word.value, ast.Call):
+                callback = facts.callback(word.value)
+                if callback.is_called and not callback.is_partial:
+                    yield word.value, f"{callback.name}() is called here: pass the function itself"
+    if isinstance(facts.module.parent(call), ast.Expr):
+        function = facts.callback(call.func).function
+        if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
+            yield call, f"{function.name}() is a coroutine that nobody awaits: it never runs"
