@@ -93,6 +93,8 @@ class _Walk:
         self.ended = list(self.scopes)
         """The scopes of the module and of functions."""
         self.parents: dict[ast.AST, ast.AST] = {}
+        self.forks: dict[ast.AST | None, list[frozenset[ast.AST]]] = {}
+        """The branches of statements that were asked about."""
         self.deferred: list[tuple[Callable[[], None], list[_Scope]]] = []
         self.found: list[Said] = []
         self.hidden: list[tuple[str, _Binding]] = []
@@ -414,8 +416,10 @@ class _Walk:
             if one is not two:
                 break
             common = one
+        if common not in self.forks:
+            self.forks[common] = [frozenset(part) for part in _branches(common)]
         return any(
-            self.is_below(node, part) != self.is_below(other, part) for part in _branches(common)
+            part.isdisjoint(path) != part.isdisjoint(other_path) for part in self.forks[common]
         )
 
     def path(self, node: ast.AST) -> list[ast.AST]:
@@ -423,9 +427,6 @@ class _Walk:
         while found[-1] in self.parents:
             found.append(self.parents[found[-1]])
         return found[::-1]
-
-    def is_below(self, node: ast.AST, part: Sequence[ast.AST]) -> bool:
-        return any(one in part for one in self.path(node))
 
 
 def _unpacks_literal(node: ast.AST | None) -> bool:

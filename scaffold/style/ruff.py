@@ -53,6 +53,10 @@ MAX_ARGUMENTS = 100_000
 """Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
 
 
+MOST_OF_A_LINE = 200
+"""Findings of one code on one line; only one of them is shown."""
+
+
 class Said(NamedTuple):
     """One finding of ruff; the code is empty for a syntax error."""
 
@@ -179,8 +183,13 @@ def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
         return
     import json
 
+    counts: dict[tuple[str, str, int], int] = {}
     for entry in json.loads(output):
         start, end = entry["location"], entry["end_location"]
+        key = (entry["filename"], entry["code"], start["row"])
+        counts[key] = count = counts.get(key, 0) + 1
+        if count > MOST_OF_A_LINE:
+            continue
         fix = entry["fix"]
         edits: tuple[Replacement, ...] = ()
         if fix and fix["applicability"] in ("safe", "unsafe"):
