@@ -24,7 +24,7 @@ from scaffold.check.session import Session
 from scaffold.errors import InputError
 from scaffold.generate import draft, payload, template
 from scaffold.generate.defaults import User
-from scaffold.generate.payload import ActionPayload, Part, Payload, ServicePayload
+from scaffold.generate.payload import ActionPayload, Payload, SectionPayload, ServicePayload
 from scaffold.generate.payload.message import MAX_LINES, MAX_LOG
 from scaffold.generate.questions import Given
 from scaffold.model import discovery
@@ -185,11 +185,11 @@ def test_every_action(name: str, names: dict[str, Any]) -> None:
         assert eval(check, {**names, **scope}), check
 
 
-def run(part: Part, names: dict[str, Any], node: Node, **scope: Any) -> dict[str, Any]:
-    """Run the statements of a part; return its scope with what was filled as others get it."""
-    exec("\n".join([*part.imports, *part.constants]), names)
+def run(section: SectionPayload, names: dict[str, Any], node: Node, **scope: Any) -> dict[str, Any]:
+    """Run the statements of a section; return its scope with what was filled as others get it."""
+    exec("\n".join([*section.imports, *section.constants]), names)
     head = f"fill({', '.join(['self', *scope])})"
-    own = part.statements and method(names, head, part.statements, f"f'{part.log}'")
+    own = section.statements and method(names, head, section.statements, f"f'{section.log}'")
     if own:
         assert len(own(node, **scope)) < 200
     name = next(one for one in ("result", "response", *scope) if one in scope)
@@ -219,7 +219,7 @@ def test_a_compressed_image_is_a_png(names: dict[str, Any]) -> None:
 # -- what the code looks like
 
 
-def parts_of(name: str) -> Iterator[Payload | Part]:
+def parts_of(name: str) -> Iterator[Payload | SectionPayload]:
     """Yield everything that is filled for an interface of the bundle."""
     kind = name.split("/")[1]
     if kind == "msg":

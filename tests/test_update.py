@@ -11,7 +11,7 @@ import pytest
 from scaffold import content
 from scaffold.cli.main import main
 from scaffold.errors import InputError
-from scaffold.generate import merge, record
+from scaffold.generate import merge, provenance
 
 TEMPLATES = Path(content.roots("templates")[0])
 NODE = "talker/minimal_publisher.py"
@@ -59,8 +59,8 @@ def node_of(team: Path) -> str:
 
 
 def test_new_records_answers_and_files(package: Path) -> None:
-    text = (package / record.NAME).read_text()
-    found = record.parse(text, "here")
+    text = (package / provenance.NAME).read_text()
+    found = provenance.parse(text, "here")
     assert "How ros2-scaffold made this package" in text.split("\n")[1]
     assert found.answers["maintainer_name"] == "Ada"
     assert found.answers["add"][0]["rate"] == 2.0
@@ -199,7 +199,7 @@ def test_a_package_of_somebody_else(tmp_path: Path, capsys: pytest.CaptureFixtur
 )
 def test_damaged_records(text: str) -> None:
     with pytest.raises(InputError, match=r"^here: damaged: "):
-        record.parse(text, "here")
+        provenance.parse(text, "here")
 
 
 def test_binary_files_are_not_merged() -> None:

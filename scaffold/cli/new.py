@@ -115,7 +115,7 @@ def _given(
 def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     """Compare with what is there; an existing package is left alone without ``--force``."""
     from scaffold.errors import ConflictError
-    from scaffold.generate import record
+    from scaffold.generate import provenance
     from scaffold.plan import WritePlan
 
     directory = os.path.normpath(os.path.join(options.destination_directory, made.name))
@@ -124,7 +124,7 @@ def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     if os.path.lexists(directory) and not options.force:
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} exists already; {hint}")
-    files = {**made.rendered.files, record.NAME: record.Record.of(made).text()}
+    files = {**made.rendered.files, provenance.NAME: provenance.Provenance.of(made).text()}
     return WritePlan.of(directory, files, executable=made.rendered.executable)
 
 
@@ -150,10 +150,10 @@ def _summary(options: argparse.Namespace, made: Draft, plan: WritePlan) -> str:
 
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:
-    from scaffold.generate import record
+    from scaffold.generate import provenance
     from scaffold.plan import State
 
-    notes_of = {record.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
+    notes_of = {provenance.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
     words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}
     rows: list[tuple[str, str]] = [(f"{made.name}/", "")]
     parents: list[str] = []

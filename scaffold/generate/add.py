@@ -103,7 +103,7 @@ def _add(
     templates: Mapping[str, Template],
     user: User,
 ) -> Added:
-    layout, old = layout_of(package), own.record_of(package)
+    layout, old = layout_of(package), own.provenance_of(package)
     answers = {**own.remembered(old), **given}
     composed = _compose(package, part, answers, roots, templates, user)
     rendered = _placed(composed, package, layout)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from scaffold.generate import parts, record, update
+from scaffold.generate import parts, provenance, update
 from scaffold.generate.defaults import User
 from scaffold.generate.draft import Composed, draft
 from scaffold.generate.edit.addition import Addition
 from scaffold.generate.edit.edit import edit
+from scaffold.generate.provenance import NAME, Provenance
 from scaffold.generate.questions import Given
-from scaffold.generate.record import NAME, Record
 from scaffold.generate.render import Rendered
 from scaffold.generate.template import PARTS, Template
 from scaffold.model.package import Package
@@ -20,7 +20,7 @@ OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_ema
 """The questions of the base that a part asks, too; a package has answered most of them."""
 
 
-def record_of(package: Package) -> Record | None:
+def provenance_of(package: Package) -> Provenance | None:
     """Return how a package was made, if it is one of ours.
 
     Raises:
@@ -28,10 +28,10 @@ def record_of(package: Package) -> Record | None:
     """
     if not package.has(NAME):
         return None
-    return record.parse(package.source(NAME).text, f"{package.directory}/{NAME}")
+    return provenance.parse(package.source(NAME).text, f"{package.directory}/{NAME}")
 
 
-def remembered(old: Record | None) -> dict[str, Given]:
+def remembered(old: Provenance | None) -> dict[str, Given]:
     """Return the answers that a package was made with, as far as parts ask for them."""
     answers = old.answers if old is not None else {}
     return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
@@ -39,7 +39,7 @@ def remembered(old: Record | None) -> dict[str, Given]:
 
 def as_new(
     package: Package,
-    old: Record,
+    old: Provenance,
     composed: Composed,
     roots: Sequence[str],
     templates: Mapping[str, Template],
@@ -76,7 +76,7 @@ def as_new(
 
 
 def noted(
-    old: Record, composed: Composed, rendered: Rendered, addition: Addition
+    old: Provenance, composed: Composed, rendered: Rendered, addition: Addition
 ) -> dict[str, bytes]:
     """Return the record of a package whose files are edited, with the part in it.
 
@@ -95,7 +95,7 @@ def noted(
     return {NAME: old._replace(answers=answers, rendered=files).text().encode()}
 
 
-def _with_part(old: Record, composed: Composed) -> dict[str, Any]:
+def _with_part(old: Provenance, composed: Composed) -> dict[str, Any]:
     """Return the recorded answers and those for a part, unless it is there already."""
     part = composed.answers[parts.ADD][0]
     name = next(layer for layer in composed.layers if layer.role in PARTS).name_question

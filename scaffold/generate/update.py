@@ -11,8 +11,8 @@ from scaffold.generate.defaults import User
 from scaffold.generate.draft import Draft
 from scaffold.generate.merge import merge
 from scaffold.generate.parts import ADD, KIND
+from scaffold.generate.provenance import NAME, Provenance, parse
 from scaffold.generate.questions import Given
-from scaffold.generate.record import NAME, Record, parse
 from scaffold.generate.template import Template
 from scaffold.model.tree import Tree
 
@@ -51,18 +51,18 @@ def update(
             today do not accept.
         ContentError: a template is broken.
     """
-    record = read(tree, where)
+    provenance = read(tree, where)
     remarks: list[str] = []
-    given = recorded(record, templates, where, remarks)
-    made = draft.draft(roots, templates, given, user, record.date)
-    files, conflicts = _merged(tree, record, made, remarks)
-    if record.rendered != made.rendered.files:
-        files[NAME] = Record.of(made).text().encode()
+    given = recorded(provenance, templates, where, remarks)
+    made = draft.draft(roots, templates, given, user, provenance.date)
+    files, conflicts = _merged(tree, provenance, made, remarks)
+    if provenance.rendered != made.rendered.files:
+        files[NAME] = Provenance.of(made).text().encode()
     executable = frozenset(path for path in made.rendered.executable if path in files)
     return Updated(files, executable, conflicts, tuple(remarks))
 
 
-def read(tree: Tree, where: str) -> Record:
+def read(tree: Tree, where: str) -> Provenance:
     """Return the record of a package.
 
     Raises:
@@ -80,18 +80,18 @@ def read(tree: Tree, where: str) -> Record:
 
 
 def recorded(
-    record: Record, templates: Mapping[str, Template], where: str, remarks: list[str]
+    provenance: Provenance, templates: Mapping[str, Template], where: str, remarks: list[str]
 ) -> dict[str, Given]:
     """Return the recorded answers that the templates of today still ask for."""
     origin = f"{where}/{NAME}"
     known = {question.name for question in questions.unique(templates.values())}
     given: dict[str, Given] = {}
-    for name, value in record.answers.items():
+    for name, value in provenance.answers.items():
         if name in known:
             given[name] = Given(value, f"{origin}: {name}")
         else:
             remarks.append(f"the templates no longer ask for {name}")
-    parts = [_known_part(part, templates, remarks) for part in record.answers.get(ADD, ())]
+    parts = [_known_part(part, templates, remarks) for part in provenance.answers.get(ADD, ())]
     given[ADD] = Given(parts, f"{origin}: {ADD}")
     return given
 
@@ -108,13 +108,13 @@ def _known_part(
 
 
 def _merged(
-    tree: Tree, record: Record, made: Draft, remarks: list[str]
+    tree: Tree, provenance: Provenance, made: Draft, remarks: list[str]
 ) -> tuple[dict[str, bytes], dict[str, int]]:
     files: dict[str, bytes] = {}
     conflicts: dict[str, int] = {}
     present = set(tree.files)
     for path, text in made.rendered.files.items():
-        before, now = record.rendered.get(path), text.encode()
+        before, now = provenance.rendered.get(path), text.encode()
         if before == text:
             continue
         if path not in present:
@@ -131,7 +131,7 @@ def _merged(
                 conflicts[path] = found.conflicts
     remarks += [
         f"{path} is no longer in the templates; remove it if you do not need it"
-        for path in record.rendered
+        for path in provenance.rendered
         if path in present and path not in made.rendered.files
     ]
     return files, conflicts

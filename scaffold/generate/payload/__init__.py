@@ -6,14 +6,19 @@ import os
 
 from scaffold.generate.payload.action import of_action
 from scaffold.generate.payload.message import of_message
-from scaffold.generate.payload.records import ActionPayload, Part, Payload, ServicePayload
+from scaffold.generate.payload.payloads import (
+    ActionPayload,
+    Payload,
+    SectionPayload,
+    ServicePayload,
+)
 from scaffold.generate.payload.service import of_service
 from scaffold.model.interfaces import KINDS, Definitions
 
 __all__ = [
     "ActionPayload",
-    "Part",
     "Payload",
+    "SectionPayload",
     "ServicePayload",
     "action",
     "definitions",

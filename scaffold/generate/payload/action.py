@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from scaffold.generate.payload import lookup, part, recipe
+from scaffold.generate.payload import lookup, recipe, section
 from scaffold.generate.payload.code import Block
 from scaffold.generate.payload.lookup import Types
+from scaffold.generate.payload.payloads import ActionPayload
 from scaffold.generate.payload.recipe import ActionRecipe
-from scaffold.generate.payload.records import ActionPayload
 from scaffold.model.interfaces import Definitions, Interface
 
 _FIBONACCI = "example_interfaces/action/Fibonacci"
@@ -51,12 +51,12 @@ def _by_recipe(types: Types, found: ActionRecipe) -> ActionPayload:
         package=own.package,
         name=own.name,
         says=found.says,
-        goal=part.by_recipe(types, own.goal, found.goal, found.goal_log),
+        goal=section.by_recipe(types, own.goal, found.goal, found.goal_log),
         refused=found.refused,
         start=tuple(start.lines()),
         steps=found.steps,
-        feedback=part.by_recipe(types, own.feedback, found.feedback, found.feedback_log),
-        result=part.by_recipe(types, own.result, found.result, found.result_log, found.checks),
+        feedback=section.by_recipe(types, own.feedback, found.feedback, found.feedback_log),
+        result=section.by_recipe(types, own.result, found.result, found.result_log, found.checks),
     )
 
 
@@ -65,11 +65,11 @@ def _by_fields(types: Types) -> ActionPayload:
     return ActionPayload(
         package=own.package,
         name=own.name,
-        says=f"works on {own.name} goals in {part.STEPS} steps",
-        goal=part.asked(types, own.goal),
+        says=f"works on {own.name} goals in {section.STEPS} steps",
+        goal=section.asked(types, own.goal),
         refused="",
         start=(),
-        steps=f"range(1, {part.STEPS + 1})",
-        feedback=part.reported(types, own.feedback),
-        result=part.answered(types, own.result, [own.feedback, own.goal]),
+        steps=f"range(1, {section.STEPS + 1})",
+        feedback=section.reported(types, own.feedback),
+        result=section.answered(types, own.result, [own.feedback, own.goal]),
     )

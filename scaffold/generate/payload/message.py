@@ -9,8 +9,8 @@ from scaffold.generate.payload import lookup, recipe, words
 from scaffold.generate.payload.code import Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import HEADER, Types
+from scaffold.generate.payload.payloads import Payload
 from scaffold.generate.payload.recipe import Recipe
-from scaffold.generate.payload.records import Payload
 from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interfaces import Definitions
 

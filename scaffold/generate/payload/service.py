@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from scaffold.generate.payload import lookup, part, recipe
-from scaffold.generate.payload.records import ServicePayload
+from scaffold.generate.payload import lookup, recipe, section
+from scaffold.generate.payload.payloads import ServicePayload
 from scaffold.model.interfaces import Definitions
 
 
@@ -17,12 +17,12 @@ def of_service(text: str, interfaces: Definitions) -> ServicePayload:
     own = types.interface
     found = recipe.find_service(own.full_name)
     if found is None:
-        request = part.asked(types, own.request)
-        response = part.answered(types, own.response, [own.request])
+        request = section.asked(types, own.request)
+        response = section.answered(types, own.response, [own.request])
         says = f"answers {own.name} requests"
     else:
-        request = part.by_recipe(types, own.request, found.request, found.request_log)
-        response = part.by_recipe(
+        request = section.by_recipe(types, own.request, found.request, found.request_log)
+        response = section.by_recipe(
             types, own.response, found.response, found.response_log, found.checks
         )
         says = found.says

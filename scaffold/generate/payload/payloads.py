@@ -67,11 +67,11 @@ class Payload(NamedTuple):
         return f"from {self.package}.msg import {self.message or self.name}{alias}"
 
 
-class Part(NamedTuple):
-    """How a node fills a part of a service or an action, and how the other side judges it."""
+class SectionPayload(NamedTuple):
+    """How a node fills a section of a service or an action, and how the other side judges it."""
 
     statements: tuple[str, ...]
-    """Lines of a method, without its indentation; they fill the variable of the part's name:
+    """Lines of a method, without its indentation; they fill the variable of the section's name:
     ``request``, ``response``, ``goal``, ``feedback`` or ``result``. Empty if there are no
     fields. They may use ``self.count``, ``self.frame_id`` and ``self.get_clock()``."""
     log: str
@@ -100,9 +100,9 @@ class ServicePayload(NamedTuple):
     name: str
     says: str
     """What the service does, to be read after "a service that", such as ``adds two integers``."""
-    request: Part
+    request: SectionPayload
     """Filled by the client: ``request``; ``self.count`` is the number of requests so far."""
-    response: Part
+    response: SectionPayload
     """Filled by the server from ``request``: ``response``; the checks may use both.
     ``self.count`` is the number of requests answered so far."""
 
@@ -147,7 +147,7 @@ class ActionPayload(NamedTuple):
     name: str
     says: str
     """What the action does, to be read after "an action that", such as ``computes ...``."""
-    goal: Part
+    goal: SectionPayload
     """Filled by the client: ``goal``; ``self.count`` is the number of goals so far."""
     refused: str
     """An expression that is true of a ``goal`` that makes no sense; empty: all make sense."""
@@ -155,9 +155,9 @@ class ActionPayload(NamedTuple):
     """Lines that prepare ``feedback`` from ``goal`` before the first step."""
     steps: str
     """What the server loops over, such as ``range(1, goal.order)``; it may use ``goal``."""
-    feedback: Part
+    feedback: SectionPayload
     """Filled by the server at each step: ``feedback``, from ``goal`` and the number ``step``."""
-    result: Part
+    result: SectionPayload
     """Filled by the server at the end: ``result``, from ``goal`` and ``feedback``; the checks
     may use ``goal`` and ``result``."""
 
@@ -174,14 +174,16 @@ class ActionPayload(NamedTuple):
     @property
     def class_names(self) -> tuple[str, ...]:
         """What the imports call the interfaces: a node's class has another name."""
-        parts = (self.goal, self.feedback, self.result)
-        return _class_names((self.import_line, *(line for part in parts for line in part.imports)))
+        sections = (self.goal, self.feedback, self.result)
+        return _class_names(
+            (self.import_line, *(line for section in sections for line in section.imports))
+        )
 
     @property
     def packages(self) -> tuple[str, ...]:
         """All interface packages that server and client need, in alphabetical order."""
-        parts = (self.goal, self.feedback, self.result)
-        return _union([(self.package,), *(part.packages for part in parts)])
+        sections = (self.goal, self.feedback, self.result)
+        return _union([(self.package,), *(section.packages for section in sections)])
 
 
 def _class_names(imports: Iterable[str]) -> tuple[str, ...]:

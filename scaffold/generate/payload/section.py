@@ -1,4 +1,4 @@
-"""How a node fills a part of a service or an action."""
+"""How a node fills a section of a service or an action."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.generate.payload.code import COUNTER, Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
-from scaffold.generate.payload.records import Part
+from scaffold.generate.payload.payloads import SectionPayload
 from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
@@ -25,19 +25,19 @@ _NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
 
 def by_recipe(
     types: Types, section: Section, code: str, log: str, checks: tuple[str, ...] = ()
-) -> Part:
-    """Return a part that a recipe fills."""
+) -> SectionPayload:
+    """Return a section that a recipe fills."""
     block = Block()
     block.embed(code, section.name)
-    return _part(types, section, block.lines(), log, checks)
+    return _payload(types, section, block.lines(), log, checks)
 
 
-def asked(types: Types, section: Section) -> Part:
+def asked(types: Types, section: Section) -> SectionPayload:
     """Return what a client sends: a request or a goal."""
     return _filled(types, section, {})
 
 
-def answered(types: Types, section: Section, given: Sequence[Section]) -> Part:
+def answered(types: Types, section: Section, given: Sequence[Section]) -> SectionPayload:
     """Return what a server answers: a response or a result, taken from what it was given."""
     fields = tuple(one for one in section.fields if not _is_failure(section, one))
     values = {field.name: _answer(field, given) for field in fields}
@@ -51,7 +51,7 @@ def _is_failure(section: Section, field: Field) -> bool:
     return not any(enums.is_good(one) for one in enums.constants_of(section, field))
 
 
-def reported(types: Types, section: Section) -> Part:
+def reported(types: Types, section: Section) -> SectionPayload:
     """Return what a server says at each step: a feedback."""
     values = {field.name: _progress(field) for field in section.fields}
     return _filled(types, section, values, counter="step")
@@ -59,7 +59,7 @@ def reported(types: Types, section: Section) -> Part:
 
 def _filled(
     types: Types, section: Section, values: Mapping[str, str | None], counter: str = COUNTER
-) -> Part:
+) -> SectionPayload:
     """Fill the fields: some have values, the others are walked, in brief if they are many."""
     for brief in range(MAX_BRIEF + 1):
         block, walk = Block(counter=counter), Walk(types, section.name, brief=brief)
@@ -77,17 +77,17 @@ def _filled(
         if len(block.lines()) <= MAX_LINES:
             break
     log = joined(walk.logged) or _first_scalar(section)
-    part = _part(types, section, block.lines(), log, [*checks, *walk.checks][:3])
-    return part._replace(constants=walk.constants)
+    payload = _payload(types, section, block.lines(), log, [*checks, *walk.checks][:3])
+    return payload._replace(constants=walk.constants)
 
 
 def _owner(types: Types, section: Section) -> str:
-    """Return the class of a part."""
+    """Return the class of a section."""
     return f"{types.interface.name}.{section.name.capitalize()}"
 
 
 def _answer(field: Field, given: Sequence[Section]) -> str | None:
-    """Return the value of a field that follows from other parts; ``None``: it is made up."""
+    """Return the value of a field that follows from other sections; ``None``: it is made up."""
     for one in given:
         same = one.field(field.name)
         if same is not None and same.type == field.type:
@@ -104,9 +104,9 @@ def _answer(field: Field, given: Sequence[Section]) -> str | None:
 def _sum(field: Field, given: Sequence[Section]) -> str | None:
     """Return the sum of all numbers of the field's type that were given, if there are several."""
     numbers = [
-        f"{part.name}.{one.name}"
-        for part in given
-        for one in part.fields
+        f"{section.name}.{one.name}"
+        for section in given
+        for one in section.fields
         if one.type == field.type and one.type.name in _NUMBERS
     ]
     return " + ".join(numbers) if len(numbers) > 1 else None
@@ -146,13 +146,13 @@ def _first_scalar(section: Section) -> str:
     return ""
 
 
-def _part(
+def _payload(
     types: Types, section: Section, lines: Sequence[str], log: str, checks: Iterable[str]
-) -> Part:
+) -> SectionPayload:
     names = [words.phrase(field.name) for field in section.fields]
     log = log or (enumerated(names, "", MAX_LOG) if names else f"an empty {section.name}")
     packages, lines_of_imports = imports(types, [*lines, f"f'{log}'"])
-    return Part(
+    return SectionPayload(
         statements=tuple(lines),
         log=log,
         says=enumerated(names, "", 60) if names else "",

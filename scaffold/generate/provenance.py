@@ -27,7 +27,7 @@ _MOST = 20_000_000
 """Bytes of the files in a record; more is no package of ours."""
 
 
-class Record(NamedTuple):
+class Provenance(NamedTuple):
     """How a package was made."""
 
     date: date
@@ -40,7 +40,7 @@ class Record(NamedTuple):
     """Of this tool."""
 
     @classmethod
-    def of(cls, made: Draft) -> Record:
+    def of(cls, made: Draft) -> Provenance:
         """Return the record of a package that is made now."""
         return cls(made.day, made.answers, made.rendered.files)
 
@@ -57,7 +57,7 @@ class Record(NamedTuple):
         return json.dumps(entries, indent=2, ensure_ascii=False) + "\n"
 
 
-def parse(text: str, path: str) -> Record:
+def parse(text: str, path: str) -> Provenance:
     """Return the record in a file.
 
     Args:
@@ -73,14 +73,14 @@ def parse(text: str, path: str) -> Record:
         data = packed.decompress(base64.b64decode(entries["rendered"]), _MOST)
         rendered = json.loads(data)
         day = date.fromisoformat(entries["date"])
-        record = Record(day, entries["answers"], rendered, str(entries["version"]))
+        found = Provenance(day, entries["answers"], rendered, str(entries["version"]))
     except (ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path}: damaged: {' '.join(str(error).split()) or 'cut off'}") from error
-    texts = [*record.rendered, *record.rendered.values()] if isinstance(rendered, dict) else [None]
+    texts = [*found.rendered, *found.rendered.values()] if isinstance(rendered, dict) else [None]
     if not (
-        isinstance(record.answers, dict)
-        and all(isinstance(part, dict) for part in record.answers.get("add", []))
-        and all(isinstance(one, str) for one in [*texts, *record.answers])
+        isinstance(found.answers, dict)
+        and all(isinstance(part, dict) for part in found.answers.get("add", []))
+        and all(isinstance(one, str) for one in [*texts, *found.answers])
     ):
         raise InputError(f"{path}: damaged: an entry has the wrong type")
-    return record
+    return found
