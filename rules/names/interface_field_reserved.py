@@ -5,23 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.generated_code import reserved
 from scaffold.model.interface_files import interface_files
 
-_C_KEYWORDS = frozenset(
-    """
-    and asm auto bitand bitor bool break case catch char class compl const constexpr continue
-    decltype default delete do double else enum explicit export extern false float for friend goto
-    if inline int long mutable namespace new noexcept not nullptr operator or private protected
-    public register return short signed sizeof static struct switch template this throw true try
-    typedef typeid typename union unsigned using virtual void volatile while xor
-    """.split()  # noqa: SIM905 - eighty quoted names would hide them
-)
-_PYTHON_KEYWORDS = frozenset(
-    """
-    as assert async await def del elif except finally from global import in is lambda nonlocal
-    pass raise with yield
-    """.split()  # noqa: SIM905 - likewise
-)
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 
 
@@ -52,9 +38,6 @@ class InterfaceFieldReserved(Rule):
         for file in interface_files(package):
             for section in file.definition.sections:
                 for field in section.fields:
-                    if field.name in _C_KEYWORDS:
-                        message = f"{field.name!r} is a keyword of C or C++: the generated code "
-                        yield self.report(field, message + "does not compile")
-                    elif field.name in _PYTHON_KEYWORDS:
-                        message = f"{field.name!r} is a keyword of Python: 'message.{field.name}' "
-                        yield self.report(field, message + "is a SyntaxError")
+                    message = reserved(field.name)
+                    if message:
+                        yield self.report(field, message)

@@ -5,14 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.known import BUILD_TOOLS
 
-TOOLS = (
-    "ament_cmake",
-    "ament_cmake_auto",
-    "ament_cmake_python",
-    "ament_cmake_ros",
-    "rosidl_default_generators",
-)
 KINDS = ("depend", "exec_depend", "build_export_depend")
 _MANIFEST = '<package format="3">\n  <{0}>ament_cmake</{0}>\n</package>\n'
 
@@ -43,6 +37,6 @@ class BuildToolMisplaced(Rule):
         if manifest.name.startswith(("ament_", "rosidl_")) or manifest.format == 1:
             return
         for dependency in manifest.dependencies:
-            if dependency.name in TOOLS and dependency.kind in KINDS:
+            if dependency.name in BUILD_TOOLS and dependency.kind in KINDS:
                 message = f"{dependency.name!r} builds the package: write <buildtool_depend>"
                 yield self.report(dependency, message)

@@ -13,6 +13,7 @@ from scaffold.generate.parts import Part
 from scaffold.generate.questions import flag
 from scaffold.generate.render import Renderer
 from scaffold.generate.template import DEPEND_KINDS, PARTS, Question, Role, Template
+from scaffold.model.known import BUILD_TOOLS
 
 VERSION = "0.1.0"
 """Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""
@@ -178,7 +179,7 @@ def _depends(
     for name in context["dependencies"]:
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")
-        if name in found["buildtool"]:
+        if name in found["buildtool"] or name in BUILD_TOOLS:
             raise InputError(f"--dependencies: {name} builds the package; nodes do not need it")
         found["exec"].add(name)
     for kind in ("test", "exec", "build", "build_export"):

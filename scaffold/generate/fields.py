@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from scaffold.errors import InputError
+from scaffold.model.generated_code import reserved
 from scaffold.model.interface_syntax import parse
 from scaffold.model.source import Source
 
@@ -40,6 +41,11 @@ def fields(given: object, where: str = ".") -> Fields:
     definition = parse(Source("fields", "\n".join(lines)), _OWN, "msg", "Fields")
     for problem in definition.problems:
         raise InputError(f"{lines[problem.location.line - 1]!r}: {problem.message}")
+    for section in definition.sections:
+        for field in section.fields:
+            if reserved(field.name):
+                line = lines[field.location.line - 1]
+                raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
     types = [one.type.element for section in definition.sections for one in section.fields]
     used = {one.full_name for one in types if not one.is_primitive}
     own = {name for name in used if name.startswith(f"{_OWN}/")}

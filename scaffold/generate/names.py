@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import os
 import re
 import sys
@@ -86,7 +87,9 @@ def node_name(text: str) -> str:
     _check_form(text, "node name")
     if iskeyword(text):
         raise InputError(f"the node name {text!r} is a keyword of Python; choose another one")
-    if text in sys.stdlib_module_names or text in _PYTHON_PACKAGES or text == "rclpy":
+    from scaffold.model.known import ROS_PACKAGES
+
+    if text in sys.stdlib_module_names or text in _PYTHON_PACKAGES or text in ROS_PACKAGES:
         raise InputError(f"the node name {text!r} would hide the Python module {text}")
     if text in _TEST_MODULES or text.startswith("test_") or text.endswith("_test"):
         raise InputError(f"the node name {text!r} is the name of a test file for pytest")
@@ -133,6 +136,12 @@ def interface_name(text: str) -> str:
         f"the interface name {_shortened(text)!r} must be words of letters and digits, each with a "
         f"capital and nothing between them, {MAX_LENGTH} characters at most{hint}"
     )
+
+
+def header_name(interface: str) -> str:
+    """Return what the files are called that are generated of an interface."""
+    words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", interface)
+    return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", words).lower()
 
 
 def program_name(text: str) -> str:
@@ -182,7 +191,9 @@ def resolve(name: str, node: str) -> str:
 def class_name(node: str, taken: Sequence[str] = ()) -> str:
     """Return the name of a node's class, different from the classes it uses."""
     name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
-    return f"{name}Node" if name in _IMPORTED_CLASSES or name in taken else name
+    # `None` and `True` are keywords, `ValueError` a class that the module may mean.
+    is_taken = name in _IMPORTED_CLASSES or name in taken or hasattr(builtins, name)
+    return f"{name}Node" if is_taken else name
 
 
 def dependency(text: str) -> str:
@@ -192,7 +203,17 @@ def dependency(text: str) -> str:
         InputError: it cannot be one.
     """
     if re.fullmatch(r"[A-Za-z][A-Za-z0-9_.+-]*", text) and len(text) <= MAX_LENGTH:
+        _refuse_index_name(text)
         return text
     raise InputError(
         f"the dependency {_shortened(text)!r} is not the name of a package or a rosdep key"
     )
+
+
+def _refuse_index_name(text: str) -> None:
+    """Raise if a name is that of Python's package index, and rosdep has another one."""
+    from scaffold.model.known import keys_of_module, module_of_key
+
+    module = module_of_key(text)
+    if module is not None:
+        raise InputError(f"rosdep has no rule for {text!r}; its key is {keys_of_module(module)[0]}")

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.generate.fields import Fields, refuse_missing
+from scaffold.generate.names import header_name
 from scaffold.generate.questions import Given
 from scaffold.generate.template import PARTS, Role, Template
 
@@ -113,6 +114,20 @@ def refuse_impossible(
         other = names.setdefault(part.name, part)
         if other is not part:
             raise InputError(f"two parts of the package have the name {part.name!r}")
+    _refuse_alike([part for part in parts if part.template.role is Role.INTERFACE])
+
+
+def _refuse_alike(interfaces: Sequence[Part]) -> None:
+    """Raise if the files generated of two interfaces have one name."""
+    headers: dict[tuple[str, str], str] = {}
+    for part in interfaces:
+        header = header_name(part.name)
+        other = headers.setdefault((part.template.definition, header), part.name)
+        if other != part.name:
+            raise InputError(
+                f"{other!r} and {part.name!r} are too alike: the code of both would be in "
+                f"{header}.hpp"
+            )
 
 
 def refuse_build_type(template: Template, build_type: str) -> None:

@@ -111,6 +111,11 @@ zstd_vendor
 """
 
 ROS_PACKAGES = frozenset(_ROS_PACKAGES.split())
+BUILD_TOOLS = frozenset(
+    {"ament_cmake", "ament_cmake_auto", "ament_cmake_python", "ament_cmake_ros"}
+    | {"rosidl_default_generators"}
+)
+"""What builds packages, and is of no use on a robot."""
 
 _OTHER_MODULES = {
     "PIL": "python3-pil",
