@@ -76,9 +76,14 @@ class Session:
 
         yield from batches(self.run_batch, targets)
 
-    def run_batch(self, targets: Sequence[Target]) -> list[Result]:
-        """Check packages in this process, with one start of the style backend for all."""
-        style = self._start_style([target.package for target in targets])
+    def run_batch(self, targets: Sequence[Target], style: StyleCheck | None = None) -> list[Result]:
+        """Check packages in this process, with one start of the style backend for all.
+
+        Args:
+            targets: The packages.
+            style: The style backend, where it has been started for them.
+        """
+        style = style or self._start_style([target.package for target in targets])
         results: list[Result] = []
         for target in targets:
             found = self._check_rules(target.package)
@@ -89,9 +94,9 @@ class Session:
             target.package.forget()
         return results
 
-    def check(self, package: Package) -> list[Diagnostic]:
-        """Check one package, for instance one in memory."""
-        (result,) = self.run_batch([Target(package)])
+    def check(self, package: Package, style: StyleCheck | None = None) -> list[Diagnostic]:
+        """Check one package, for instance one in memory; see `run_batch`."""
+        (result,) = self.run_batch([Target(package)], style)
         return result.diagnostics
 
     def _start_style(self, packages: Sequence[Package]) -> StyleCheck | None:

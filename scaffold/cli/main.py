@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from importlib import import_module
@@ -19,6 +20,9 @@ FOUND = 1
 AT_FAULT = 2
 DEFECT = 3
 INTERRUPTED = 130
+
+COLLECT_FROM = 10_000
+"""Objects after which Python looks for garbage: the modules that a short run loads hold none."""
 
 VERBS = {
     "new": "write a package",
@@ -41,6 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     tool, 130 interrupted.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
+    gc.set_threshold(COLLECT_FROM)
     try:
         if "_ARGCOMPLETE" in os.environ:
             _complete()

@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
     )
-    flags.add_content(parser)
+    flags.add_content(parser, flags.ANSWERED_BY_FILE)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -59,7 +59,8 @@ def run(options: argparse.Namespace) -> int:
     made = draft.draft(roots, templates, given, User(options.destination_directory))
     place.check(options.destination_directory, made.name)
     plan = _plan(options, made)
-    defects = draft.defects(made, registry.load(content.roots("rules")))
+    end_check = draft.begin_check(made)
+    defects = end_check(registry.load(content.roots("rules")))
     if defects:
         _report_defects(defects)
         return DEFECT

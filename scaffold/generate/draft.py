@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -150,13 +150,29 @@ def compose(
 
 def defects(package: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
     """Return what the checker says about a draft: a defect of the templates."""
-    from scaffold.check.selection import Selection
-    from scaffold.check.session import Session
+    return begin_check(package)(rules)
+
+
+def begin_check(package: Draft) -> Callable[[Sequence[type[Rule]]], list[Diagnostic]]:
+    """Start to check a draft; return what ends it: it wants the rules, as in `defects`.
+
+    Whoever loads the rules in between does so while ruff runs.
+    """
     from scaffold.model.package import Package
     from scaffold.model.tree import MemoryTree
+    from scaffold.style import StyleCheck
 
     tree = MemoryTree(package.rendered.files, package.rendered.executable)
-    return Session(rules, Selection()).check(Package(tree, directory=package.name))
+    checked = Package(tree, directory=package.name)
+    style = StyleCheck([checked])
+
+    def end(rules: Sequence[type[Rule]]) -> list[Diagnostic]:
+        from scaffold.check.selection import Selection
+        from scaffold.check.session import Session
+
+        return Session(rules, Selection()).check(checked, style)
+
+    return end
 
 
 def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Order:

@@ -10,10 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.model.qos import PROFILES
+from scaffold.record import NamedTuple
 
 MAX_DEPTH = 10_000
 MAX_SECONDS = 1_000_000.0

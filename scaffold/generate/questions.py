@@ -9,12 +9,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, NamedTuple
+from typing import Any
 
 from scaffold.errors import InputError
 from scaffold.generate.qos import NAMES
 from scaffold.generate.template import Question, Template, read_yaml
 from scaffold.generate.values import TYPES
+from scaffold.record import NamedTuple
 
 SEVERAL = "several"
 """The type of a question that takes several of its choices."""

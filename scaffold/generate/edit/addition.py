@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from scaffold.check.diagnostic import Edit
 from scaffold.check.fixer import splice
 from scaffold.model.source import Source
+from scaffold.record import NamedTuple
 
 NOTHING: Mapping[str, Sequence[str]] = {}
 
