@@ -314,6 +314,22 @@ def test_too_large(tmp_path: Path, place: str) -> None:
     assert here <= about_the_file
 
 
+@pytest.mark.parametrize("place", ["CMakeLists.txt", "package.xml"])
+def test_a_line_that_is_too_long(tmp_path: Path, place: str) -> None:
+    """A line of 60 kB is within the size of a file, and no line that people write."""
+    found = _check(_package(tmp_path, {place: b"x;" * 30_000}))
+    (told,) = (one for one in found if one["code"] == "SC004")
+    assert told["path"].endswith(place)
+    assert told["message"].startswith("a line of 60 kB, 20 kB are read")
+
+
+def test_a_line_that_is_too_long_for_the_style(tmp_path: Path) -> None:
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
+    said = {one["code"] for one in found if one["path"].endswith("node.py")}
+    assert "E902" in said
+    assert said <= {"E902", "SC004", "LY020"}
+
+
 def test_too_many_findings(tmp_path: Path) -> None:
     """A flood ends, and says so."""
     found = _check(_package(tmp_path, {"hostile/node.py": b"x = 1  \n" * 6000}))

@@ -65,8 +65,8 @@ class FileTooLarge(_Internal):
 
     **Why.** What is wrong in it stays unknown. So that no file can hold the check up, code is
     read up to 500 kB, CMakeLists.txt up to 250 kB, package.xml, setup.py and setup.cfg up to
-    100 kB, data such as YAML up to 2 MB: twice to twenty times the largest files of 800 public
-    packages.
+    100 kB, data such as YAML up to 2 MB, and a line of code up to 20 kB: twice to twenty times the
+    largest files and lines of 800 public packages.
 
     **Fix.** Split the file, or keep generated code out of the package's sources.
     """

@@ -38,6 +38,9 @@ MOST_BYTES_OF_CMAKE = 250_000
 """Of CMakeLists.txt; the largest of those packages has 60 kB."""
 MOST_BYTES_OF_DECLARATIONS = 100_000
 """Of package.xml, setup.py and setup.cfg, which have a few kB."""
+MOST_BYTES_OF_LINE = 20_000
+"""Of a line of code; in the Python files of those packages the longest has 2 kB."""
+_CODE = (".py", ".cfg", "CMakeLists.txt")
 _DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
 
 
@@ -341,10 +344,9 @@ class Package:
         except OSError as error:
             reason = error.strerror or str(error)
             raise ParseError(at, f"cannot be read: {reason}") from error
-        most = most_bytes(path)
-        if len(data) > most:
-            said = f"{len(data) // 1000} kB of {most // 1000} kB that are read: it is not checked"
-            raise TooLargeError(at, said)
+        reason = why_unread(path, data)
+        if reason:
+            raise TooLargeError(at, reason)
         return data
 
     def _bytes_as_declared(self, path: str) -> Source:
@@ -377,7 +379,23 @@ class Package:
         return cast("View", found)
 
 
-def most_bytes(path: str) -> int:
+def why_unread(path: str, data: bytes) -> str:
+    """Return why a file is not read, empty if it is: the bounds are far above what people write.
+
+    Some checks take a time that grows with the square of a line, so lines have a bound, too.
+    """
+    most = _most_bytes(path)
+    if len(data) > most:
+        return f"{len(data) // 1000} kB of {most // 1000} kB that are read: it is not checked"
+    if len(data) > MOST_BYTES_OF_LINE and (path == MANIFEST or path.endswith(_CODE)):
+        longest = max(map(len, data.splitlines()))
+        if longest > MOST_BYTES_OF_LINE:
+            most = MOST_BYTES_OF_LINE // 1000
+            return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
+    return ""
+
+
+def _most_bytes(path: str) -> int:
     """Return the size up to which a file is read: by kind, far above what people write."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_BYTES_OF_DECLARATIONS

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold.check.diagnostic import Diagnostic, Edit, Fix, Safety
 from scaffold.check.runner import MOST_FINDINGS
 from scaffold.errors import ViewError
-from scaffold.model.package import Package, most_bytes
+from scaffold.model.package import Package, why_unread
 from scaffold.model.source import Location, Source
 from scaffold.style import ruff
 from scaffold.style.cache import Cache
@@ -118,7 +118,7 @@ class StyleCheck:
             except OSError:
                 continue
             file = _File(path, "", data, linters)
-            if len(data) > most_bytes(path):
+            if why_unread(path, data):
                 said = "the file is too large to be checked"
                 file.findings = [Finding("E902", 1, 1, said, linters=linters)]
                 files.append(file)
