@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from jinja2 import BaseLoader, StrictUndefined, TemplateError, TemplateNotFound
 from jinja2 import Environment as Jinja
@@ -17,6 +17,8 @@ from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
 from scaffold.generate.compiled import Compiled
 from scaffold.generate.template import ENDING, MANIFEST, Template
+from scaffold.model.disk import digest
+from scaffold.record import NamedTuple
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
 """A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
@@ -49,11 +51,12 @@ class Renderer:
         self._roots = roots
         self._templates = templates
         self._is_tutorial = is_tutorial
+        self._loader = _Loader(roots, templates, is_tutorial=is_tutorial)
 
     @cached_property
     def _plain(self) -> Jinja:
         jinja = ImmutableSandboxedEnvironment(
-            loader=_Loader(self._roots, self._templates, is_tutorial=self._is_tutorial),
+            loader=self._loader,
             undefined=StrictUndefined,
             keep_trailing_newline=True,
             trim_blocks=True,
@@ -94,7 +97,7 @@ class Renderer:
         if "{" not in source:
             return source
         with _Told(source):
-            return self._plain.from_string(source).render(context)
+            return self._plain.get_template(self._loader.named(source)).render(context)
 
     def condition(self, expression: str, context: Mapping[str, Any]) -> bool:
         """Evaluate a Jinja expression.
@@ -102,10 +105,7 @@ class Renderer:
         Raises:
             ContentError: it cannot be evaluated.
         """
-        with _Told(expression):
-            return bool(
-                self._plain.compile_expression(expression, undefined_to_none=False)(context)
-            )
+        return bool(self.text(f"{{% if {expression} %}}true{{% endif %}}", context))
 
     def file(self, name: str, context: Mapping[str, Any]) -> str:
         """Render a file by its name, such as ``package/README.md.jinja``.
@@ -205,7 +205,10 @@ def _first_match(table: Mapping[str, str], path: str) -> str | None:
 
 
 class _Loader(BaseLoader):
-    """Finds ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners."""
+    """Finds ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners.
+
+    A short text is a template, too, so that it is kept compiled, as the files are.
+    """
 
     def __init__(
         self, roots: Sequence[str], templates: Mapping[str, Template], *, is_tutorial: bool
@@ -213,12 +216,21 @@ class _Loader(BaseLoader):
         self._roots = roots
         self._templates = templates
         self._is_tutorial = is_tutorial
+        self._texts: dict[str, str] = {}
+
+    def named(self, text: str) -> str:
+        """Return the name of the template that a short text is."""
+        name = f"text {digest(text.encode('utf-8', 'surrogatepass'))}"
+        self._texts[name] = text
+        return name
 
     def get_source(
         self, environment: Jinja, template: str
     ) -> tuple[str, str, Callable[[], bool] | None]:
         """Return the text of a template file."""
         del environment
+        if template in self._texts:
+            return self._texts[template], template, None
         first, _, rest = template.partition("/")
         if ".." in rest.split("/"):
             raise TemplateNotFound(template)
