@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of the part that exist and differ"
     )
-    flags.add_content(parser)
+    flags.add_content(parser, flags.ANSWERED_BY_FILE)
 
 
 def run(options: argparse.Namespace) -> int:

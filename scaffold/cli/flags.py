@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+ANSWERED_BY_FILE = "; what they ask is answered by --answers"
+"""The flags of a verb are laid out before ``--content`` is read."""
+
 
 def add_looking(parser: argparse.ArgumentParser) -> None:
     """Define the flags of verbs that write, for users who want to look first."""
@@ -15,14 +18,14 @@ def add_looking(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_content(parser: argparse.ArgumentParser) -> None:
-    """Define the flag for templates of a team."""
+def add_content(parser: argparse.ArgumentParser, note: str = "") -> None:
+    """Define the flag for templates of a team; a note says what else the verb's users must know."""
     parser.add_argument(
         "--content",
         action="append",
         default=[],
         metavar="DIR",
-        help="a directory with templates/ of your own; what they ask is answered by --answers",
+        help=f"a directory with templates/ of your own{note}",
     )
 
 

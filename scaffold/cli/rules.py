@@ -15,9 +15,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "codes", nargs="*", metavar="CODE", help="explain these: a code such as CM001, or a name"
     )
-    parser.add_argument("--format", choices=("text", "json"), default="text")
     parser.add_argument(
-        "--content", action="append", default=[], metavar="DIR", help="with rules of your own"
+        "--format", choices=("text", "json"), default="text", help="form of the list"
+    )
+    parser.add_argument(
+        "--content", action="append", default=[], metavar="DIR", help="a directory with rules/ of your own"
     )
     parser.add_argument(
         "--write-docs", metavar="DIR", help="write a page per rule into a directory instead"
