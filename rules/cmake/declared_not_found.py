@@ -9,7 +9,14 @@ from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.model.known import ROS_PACKAGES
 
 KINDS = ("build_depend", "buildtool_depend")
-_NOT_FOUND_BY_NAME = ("ament_cmake_", "rosidl_", "ament_index", "ament_lint", "eigen")
+_NOT_FOUND_BY_NAME = (
+    "ament_cmake_",
+    "rosidl_",
+    "ament_index",
+    "ament_lint",
+    "eigen",
+    "ros_environment",  # gives variables such as ROS_DISTRO
+)
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n'
     "  <build_depend>std_msgs</build_depend>\n</package>\n"
@@ -38,6 +45,13 @@ class DeclaredNotFound(Rule):
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": _LISTS.format("find_package(std_msgs REQUIRED)\n"),
+            },
+        ),
+        Example(
+            "the variables of ROS",
+            {
+                "package.xml": _MANIFEST.replace("std_msgs", "ros_environment"),
+                "CMakeLists.txt": _LISTS.format(""),
             },
         ),
         Example(

@@ -25,6 +25,14 @@ class ProjectNameDiffers(Rule):
     examples = (
         Example("one name", {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"}),
         Example(
+            "one of two",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": "if(SUPERBUILD)\n  project(all NONE)\n  return()\nelse()\n"
+                "  project(talker)\nendif()\n",
+            },
+        ),
+        Example(
             "another name",
             {"package.xml": _MANIFEST, "CMakeLists.txt": "project(listener)\n"},
             at=("CMakeLists.txt:1",),
@@ -40,6 +48,9 @@ class ProjectNameDiffers(Rule):
             return
         if package.build_type == "cmake" or other_name(package):
             return
+        projects = [call.arguments[0] for call in package.cmake.find("project") if call.arguments]
+        if any(package.cmake.expand(one) == name for one in projects):
+            return  # the others are for other ways to build it
         line = package.manifest.all("name")[0].location.line
         message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"
         argument = package.cmake.find("project")[0].arguments[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
@@ -13,6 +14,7 @@ _OLD = {
     "node_namespace": "namespace",
     "node_plugin": "plugin",
 }
+_RELEASES = frozenset({"crystal", "dashing", "eloquent", "foxy", "ROS_DISTRO"})
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"
@@ -37,6 +39,14 @@ class KeywordOfOldRelease(Rule):
     examples = (
         Example("of today", {"launch/a.launch.py": _LAUNCH.format("executable", "name")}),
         Example(
+            "of Eloquent, for Eloquent",
+            {
+                "launch/a.launch.py": _LAUNCH.format("node_executable", "node_name").replace(
+                    "    return", "    if os.environ['ROS_DISTRO'] == 'eloquent':\n        return"
+                )
+            },
+        ),
+        Example(
             "of Eloquent",
             {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
             at=("launch/a.launch.py:7", "launch/a.launch.py:7"),
@@ -47,6 +57,8 @@ class KeywordOfOldRelease(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for launch in LaunchFile.of_package(package):
             for call in launch.find(*NODES, "ComposableNode"):
+                if _is_for_release(launch, call.call):
+                    continue
                 for old, word in call.words.items():
                     new = _OLD.get(old)
                     if new is None:
@@ -58,3 +70,15 @@ class KeywordOfOldRelease(Rule):
                         edit = Edit(launch.path, start, start + len(old), new)
                         fix = Fix(f"write {new}", (edit,))
                     yield self.report(at, f"{call.kind} has no {old}; it is {new} now", fix)
+
+
+def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:
+    """Tell whether a call is run for another release of ROS only."""
+    return any(
+        isinstance(parent, ast.If | ast.IfExp)
+        and any(
+            isinstance(part, ast.Constant) and part.value in _RELEASES
+            for part in ast.walk(parent.test)
+        )
+        for parent in launch.module.parents(call)
+    )

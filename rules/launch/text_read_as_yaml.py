@@ -62,7 +62,7 @@ class TextReadAsYaml(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
             owner = node.owner
-            declared = declared_by(owner) if owner is not None else None
+            declared = declared_by(owner, package) if owner is not None else None
             for name, _, value in node.parameter_dicts if declared else ():
                 call = node.launch.call_of(value)
                 if call is None or call.kind != "LaunchConfiguration":

@@ -31,6 +31,14 @@ _NODE = (
     "        self.declare_parameter('gains', {})\n\n"
     "    def tick(self):\n        pass\n"
 )
+_HELPER = {
+    "talker/__init__.py": "",
+    "talker/base.py": "class Helper:\n    def create_client(self, kind, name):\n        pass\n",
+    "talker/pull.py": "import rclpy\nfrom std_srvs.srv import Trigger\n\n"
+    "from .base import Helper\n\n\n"
+    "class Pull(Helper):\n    def client(self) -> rclpy.node.Client:\n"
+    "        return self.create_client(Trigger, ('mission', 'pull'))\n",
+}
 _LATCHED = "QoSProfile(depth=1, {}=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
@@ -57,6 +65,7 @@ class ArgumentUnusable(Rule):
                 )
             },
         ),
+        Example("a method of the same name", _HELPER),
         Example(
             "an object, a text, a text, two types",
             {"talker.py": _NODE.format("String()", "'10'", "'tick'", "[1, 2.0]")},

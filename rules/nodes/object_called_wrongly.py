@@ -10,6 +10,7 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
 
+_WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
 _PRESETS = "rclpy.qos.qos_profile_"
 _NOT_CALLED = frozenset(
     {"rclpy.client.Client", "rclpy.clock.Clock", "rclpy.publisher.Publisher"}
@@ -54,6 +55,14 @@ class ObjectCalledWrongly(Rule):
             at=("talker.py:11", "talker.py:13", "talker.py:14", "talker.py:14", "talker.py:17"),
         ),
         Example(
+            "a class of a module that is called action",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "talker/action.py": "class Step:\n    pass\n",
+                "talker/node.py": "import rclpy\nfrom talker.action import Step\n\nSTEP = Step()\n",
+            },
+        ),
+        Example(
             "a duration by position",
             {
                 "talker.py": _NODE.format(*_RIGHT).replace("seconds=", ""),
@@ -81,7 +90,7 @@ def _problem(facts: NodeFacts, call: ast.Call) -> str:
         problem = f"{name[10:]} is a profile, no function: leave the parentheses out"
     elif name in {"rclpy.duration.Duration", "rclpy.time.Time"} and call.args:
         problem = f"{name.rpartition('.')[2]}() takes keywords only: seconds=..., nanoseconds=..."
-    elif re.fullmatch(r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*", name):
+    elif re.fullmatch(_WHOLE, name) and facts.interface(call.func):
         part = "Goal" if ".action." in name else "Request"
         kind = name.rpartition(".")[2]
         problem = f"{kind} itself cannot be made: NotImplementedError; write {kind}.{part}()"

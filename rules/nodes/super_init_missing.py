@@ -30,13 +30,20 @@ class SuperInitMissing(Rule):
     name = "super-init-missing"
     examples = (
         Example("called", {"talker.py": _NODE.format("super().__init__('talker')")}),
+        Example(
+            "called when it starts",
+            {
+                "talker.py": _NODE.format("self.count = 0")
+                + "\n    def main(self):\n        super().__init__('talker')\n"
+            },
+        ),
         Example("forgotten", {"talker.py": _NODE.format("self.count = 0")}, at=("talker.py:5",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for node in facts.classes:
-                if node.calls_super_init or node.constructor is None:
+                if node.calls_super_init or node.constructor is None or node.is_made_later:
                     continue
                 at = facts.module.name_location(node.constructor)
                 message = (

@@ -36,6 +36,14 @@ class DependencyMalformed(Rule):
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(
+            "for another ROS",
+            {
+                "package.xml": _MANIFEST.format("python-numpy").replace(
+                    "<exec_depend", "<exec_depend condition='$ROS_PYTHON_VERSION == 2'"
+                )
+            },
+        ),
+        Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
             at=("package.xml:3",),
@@ -57,7 +65,7 @@ class DependencyMalformed(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for dependency in package.manifest.dependencies:
-            problem = _problem(dependency.name)
+            problem = _problem(dependency.name) if dependency.active else ""
             if problem and package.workspace.get(dependency.name) is None:
                 yield self.report(dependency, problem)
 

@@ -58,7 +58,7 @@ class ParameterTypeDiffers(Rule):
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
-                known = [declared_by(owner) for owner in nodes_for(package, path, section)]
+                known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
                 for entry in section.entries:
                     kind, where = _declared(known, entry.name)
                     given = value_type(entry.value)
@@ -80,7 +80,7 @@ class ParameterTypeDiffers(Rule):
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
             owner = node.owner
-            declared = declared_by(owner) if owner is not None else None
+            declared = declared_by(owner, package) if owner is not None else None
             for name, _, value in node.parameter_dicts if declared else ():
                 kind, where = _declared([declared] if declared else [], name)
                 given = value_given(node.launch, value)

@@ -45,6 +45,16 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "declared where the node is made",
+            {
+                "talker/__init__.py": "",
+                "talker/node.py": _NODE.format(""),
+                "talker/main.py": "import rclpy\n\nfrom .node import Talker\n\n\n"
+                "def main():\n    node = Talker()\n    node.declare_parameter('high', 4)\n",
+                "a.yaml": _FILE.format("high: 4"),
+            },
+        ),
+        Example(
             "misspelt, and forgotten",
             {
                 "talker.py": _NODE.format(""),
@@ -59,7 +69,7 @@ class ParameterUndeclared(Rule):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
                 owners = nodes_for(package, path, section)
-                known = [declared_by(owner) for owner in owners]
+                known = [declared_by(owner, package) for owner in owners]
                 if not known or not all(one.complete for one in known):
                     continue
                 for entry in section.entries:
@@ -68,7 +78,7 @@ class ParameterUndeclared(Rule):
                         yield self.report(entry, message)
         for node in started_nodes(package):
             owner = node.owner
-            declared = declared_by(owner) if owner is not None else None
+            declared = declared_by(owner, package) if owner is not None else None
             if declared is None or not declared.complete:
                 continue
             for name, key, _ in node.parameter_dicts:

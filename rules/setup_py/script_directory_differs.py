@@ -39,6 +39,15 @@ class ScriptDirectoryDiffers(Rule):
             },
         ),
         Example(
+            "set by a command",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.replace("setup(", "setup(cmdclass={'install': Install}, "),
+                "setup.cfg": "[flake8]\n",
+                "talker/node.py": "import rclpy\n",
+            },
+        ),
+        Example(
             "of the package that it was copied from",
             {
                 "package.xml": _MANIFEST,
@@ -66,8 +75,8 @@ class ScriptDirectoryDiffers(Rule):
         wanted = f"$base/lib/{package.name}"
         if not package.setup_py.console_scripts or not package.manifest.name:
             return
-        if other_name(package):
-            return
+        if other_name(package) or package.setup_py.keyword("cmdclass"):
+            return  # commands of its own may set the directory
         for section, key in KEYS:
             entry = cfg.option(section, key, key.replace("_", "-"))
             if entry is None and node_scripts(package):

@@ -14,6 +14,9 @@ _FILES = {
     "talker/text/__init__.py": "",
     "test/__init__.py": "",
 }
+_BY_CMAKE = (
+    "<package><name>talker</name><export><build_type>ament_cmake</build_type></export></package>\n"
+)
 _FIND = "find_packages(exclude=['test'])"
 
 
@@ -33,6 +36,14 @@ class SubpackageNotInstalled(Rule):
     examples = (
         Example("found", {**_FILES, "setup.py": _SETUP.format("find_packages, setup", _FIND)}),
         Example(
+            "installed by CMake",
+            {
+                **_FILES,
+                "package.xml": _BY_CMAKE,
+                "setup.py": _SETUP.format("setup", "['talker']"),
+            },
+        ),
+        Example(
             "one listed",
             {**_FILES, "setup.py": _SETUP.format("find_packages, setup", "['talker']")},
             at=("setup.py:5",),
@@ -41,6 +52,8 @@ class SubpackageNotInstalled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # ament_python_install_package() copies the whole directory
         setup = package.setup_py
         packages = setup.packages
         keyword = setup.keyword("packages")

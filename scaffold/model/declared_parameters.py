@@ -33,15 +33,15 @@ class Declared(NamedTuple):
         return name in self.types or name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
-def declared_by(owner: NodeOwner) -> Declared:
-    """Return what a node declares, base classes of the package included."""
+def declared_by(owner: NodeOwner, package: Package) -> Declared:
+    """Return what a node declares: in its class, in base classes, and where it is made."""
     types: dict[str, str | None] = {}
     places: dict[str, Parameter] = {}
     complete = True
     current: NodeOwner | None = owner
     while current is not None:
         is_dynamic = "dynamic_typing" in current.facts.module.source.text
-        for parameter in current.parameters:
+        for parameter in (*current.parameters, *_from_outside(package).get(current, ())):
             name = parameter.name
             if not isinstance(name, str) or parameter.has_unknown_arguments:
                 complete = False
@@ -51,8 +51,24 @@ def declared_by(owner: NodeOwner) -> Declared:
             places.setdefault(name, parameter)
         complete = complete and not current.declares_automatically and not _escapes(current)
         complete = complete and all(item.owner is not None for item in current.facts.parameters)
+        complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
+
+
+def _from_outside(package: Package) -> dict[NodeOwner, list[Parameter]]:
+    """Return what other files declare on nodes: ``node = Talker(); node.declare_parameter()``."""
+
+    def find() -> dict[NodeOwner, list[Parameter]]:
+        found: dict[NodeOwner, list[Parameter]] = {}
+        for facts in package.rclpy_files():
+            for parameter in facts.parameters:
+                owner = parameter.owner
+                if owner is not None and owner.facts is not facts:
+                    found.setdefault(owner, []).append(parameter)
+        return found
+
+    return package.remember("parameters_from_outside", find)
 
 
 def own_nodes(package: Package) -> tuple[list[NodeOwner], bool]:

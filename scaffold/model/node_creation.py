@@ -81,12 +81,19 @@ class Creation:
         if isinstance(func, ast.Attribute) and func.attr in _SIGNATURES and func.attr[0].islower():
             if self._facts.is_node_class(func.value):
                 return None  # Node.create_publisher(self, ...): an override passes on its own
-            is_known = self._facts.uses_rclpy or self._facts.owner_of(func.value) is not None
-            return func.attr if is_known else None
+            is_node = self._facts.owner_of(func.value) is not None
+            return func.attr if is_node or self._may_be_of_rclpy(func) else None
         for name in self._facts.module.qualified_names(call.func):
             if name in _ACTIONS:
                 return _ACTIONS[name]
         return None
+
+    def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
+        """Tell whether a method of what is not known to be a node may be rclpy's."""
+        if not self._facts.uses_rclpy:
+            return False
+        class_ = self._facts.evaluator.self_class(func.value)
+        return class_ is None or not self._facts.defines(class_, func.attr)
 
     def _created_by(self, call: ast.Call, method: str) -> Iterator[Entity]:
         created = self._created(call, method)

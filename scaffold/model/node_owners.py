@@ -219,6 +219,17 @@ class NodeClass(NodeOwner):
         return self.constructor is None or self.super_init is not None
 
     @cached_property
+    def is_made_later(self) -> bool:
+        """Whether another method than the constructor calls the one of the base class."""
+        for name, method in self.methods.items():
+            for call in self.facts.calls_in(method) if name != "__init__" else ():
+                match call.func:
+                    case ast.Attribute(attr="__init__", value=value):
+                        if _is_super(call) or self._is_base(value):
+                            return True
+        return False
+
+    @cached_property
     def constructor_call(self) -> ast.Call | None:
         """The call of the base class's constructor, without the ``self`` of ``Node.__init__``."""
         call = self.super_init

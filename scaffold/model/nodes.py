@@ -210,6 +210,30 @@ class NodeFacts:
             return self._base_class(call.func, self.module.qualified_names(call.func))
         return None
 
+    def defines(self, node: ast.ClassDef, method: str, depth: int = MAX_BASES) -> bool:
+        """Tell whether a class, or a base class in the package, has a method of its own."""
+        if method in self.module.index.bindings(node):
+            return True
+        for expression in node.bases if depth else ():
+            for facts, base in self._classes_named(expression):
+                if base is not node and facts.defines(base, method, depth - 1):
+                    return True
+        return False
+
+    def _classes_named(self, expression: ast.expr) -> Iterator[tuple[NodeFacts, ast.ClassDef]]:
+        """Yield the classes of the package that an expression may name."""
+        if isinstance(expression, ast.Name):
+            found = self.module.index.lookup(expression.id, expression)
+            for binding in found[1] if found else ():
+                if isinstance(binding.node, ast.ClassDef):
+                    yield self, binding.node
+        for name in self.module.qualified_names(expression):
+            module, _, class_name = name.rpartition(".")
+            facts = self._facts_of(module)
+            known = facts.module.classes.get(class_name) if facts else None
+            if facts and known:
+                yield facts, known.node
+
     def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
         """Return the function parameter that an expression is the name of."""
         if isinstance(node, ast.Name):
@@ -282,6 +306,8 @@ class NodeFacts:
         kinds = [part for part in parts[1:-1] if part in {"msg", "srv", "action"}]
         if not kinds or not parts[0] or not parts[-1][:1].isupper():
             return None
+        if self._facts_of(".".join(parts[:2])) is not None:
+            return None  # a module of the package that is called action, too
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 
     def is_conditional(self, node: ast.AST) -> bool:
