@@ -37,7 +37,7 @@ class LicenseDiffers(Rule):
         Example(
             "the GPL, which speaks of the LGPL at its end",
             {
-                "LICENSE": "GNU GENERAL PUBLIC LICENSE\n... GNU Lesser General Public License ...\n",
+                "LICENSE": "GNU GENERAL PUBLIC LICENSE\n... GNU Lesser General Public License.\n",
                 "package.xml": _MANIFEST.format("GPL-3.0-only"),
             },
         ),
