@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import re
 from functools import cached_property
-from typing import NamedTuple
 
 from scaffold.config import Config
 from scaffold.generate.questions import Given
+from scaffold.record import NamedTuple
 
 TABLE = "new"
 """The table of the configuration file: ``[new]`` with the names of questions as keys."""

@@ -11,11 +11,12 @@ import json
 import zlib
 from collections.abc import Mapping
 from datetime import date
-from typing import Any, NamedTuple
+from typing import Any
 
 from scaffold import __version__
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
+from scaffold.record import NamedTuple
 
 NAME = ".ros2-scaffold.json"
 """The record's path in a package."""

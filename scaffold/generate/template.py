@@ -11,12 +11,13 @@ import marshal
 import os
 from collections.abc import Mapping, Sequence
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import Any
 
 from scaffold.check import memory
 from scaffold.errors import ContentError
 from scaffold.generate import licenses
 from scaffold.model.disk import digest, stamp
+from scaffold.record import NamedTuple
 
 MANIFEST = "template.yaml"
 ENDING = ".jinja"

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 
+from scaffold.generate.payload.action import of_action
+from scaffold.generate.payload.message import of_message
 from scaffold.generate.payload.payloads import (
     ActionPayload,
     Payload,
     SectionPayload,
     ServicePayload,
 )
+from scaffold.generate.payload.service import of_service
 from scaffold.model.interfaces import KINDS, Definitions
 
 __all__ = [
@@ -35,22 +38,16 @@ def payload(text: str, interfaces: Definitions | None = None) -> Payload:
         InputError: the type is not known or cannot be used; the message names the nearest
             ones, or the file and the line of what is wrong.
     """
-    from scaffold.generate.payload.message import of_message
-
     return of_message(text, interfaces or definitions())
 
 
 def service(text: str, interfaces: Definitions | None = None) -> ServicePayload:
     """Return how to ask and answer services of a type; see `payload`."""
-    from scaffold.generate.payload.service import of_service
-
     return of_service(text, interfaces or definitions())
 
 
 def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
     """Return how to ask for and work on actions of a type; see `payload`."""
-    from scaffold.generate.payload.action import of_action
-
     return of_action(text, interfaces or definitions())
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
 from scaffold.generate.payload.code import COUNT, WAVE
+from scaffold.record import NamedTuple
 
 
 class Quantity(NamedTuple):
