@@ -596,7 +596,9 @@ POOLS: dict[str, tuple[Any, ...]] = {
     "qos": QUALITIES,
     "rate": RATES,
 }
-ODD: tuple[Any, ...] = (True, None, 5, 2.5, [], ["a", 1], {"a": 1}, {}, "", b"x", [[]], float("nan"))
+ODD: tuple[Any, ...] = (
+    *(True, None, 5, 2.5, [], ["a", 1], {"a": 1}, {}, "", b"x", [[]], float("nan")),
+)
 """What a file of answers may hold where a text is wanted."""
 NEIGHBOURS = {
     Role.NODE: [name for name in KINDS if TEMPLATES[name].role is not Role.INTERFACE],

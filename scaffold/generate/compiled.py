@@ -9,7 +9,7 @@ from jinja2.bccache import Bucket
 
 from scaffold.check import memory
 
-_HEAD = b"scaffold-template-1\n"
+_HEAD = b"scaffold-template-2\n"
 _MOST = 500
 """Templates that are kept in one form."""
 

@@ -11,11 +11,11 @@ from typing import Any
 
 from jinja2 import BaseLoader, StrictUndefined, TemplateError, TemplateNotFound
 from jinja2 import Environment as Jinja
-from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
 from scaffold.generate.compiled import Compiled
+from scaffold.generate.sandbox import Sandbox, refuse_leaving, refuse_outside
 from scaffold.generate.template import ENDING, MANIFEST, Template
 from scaffold.model.disk import digest
 from scaffold.record import NamedTuple
@@ -55,7 +55,7 @@ class Renderer:
 
     @cached_property
     def _plain(self) -> Jinja:
-        jinja = ImmutableSandboxedEnvironment(
+        jinja = Sandbox(
             loader=self._loader,
             undefined=StrictUndefined,
             keep_trailing_newline=True,
@@ -162,8 +162,9 @@ class Renderer:
     def _path(self, layer: Template, source: str, scope: Mapping[str, Any]) -> str:
         """Fill in the names in a path; it holds no other Jinja, so Jinja is not needed."""
         path = _NAME.sub(lambda match: str(_value(match[1], scope)), source)
+        where = os.path.join(layer.directory, source + ENDING)
+        refuse_leaving(path, where)
         if "{" in path or "}" in path:
-            where = os.path.join(layer.directory, source + ENDING)
             raise ContentError(f"{where}: a path holds only {{{{ names }}}} that are defined")
         return path
 
@@ -177,6 +178,8 @@ def _sources(directory: str) -> Iterator[str]:
     """Yield the paths of a template's files without their ending, partials left out."""
     for parent, directories, names in os.walk(directory):
         directories.sort()
+        for name in directories:
+            refuse_outside(os.path.join(parent, name), [directory])
         for name in sorted(names):
             path = os.path.relpath(os.path.join(parent, name), directory).replace(os.sep, "/")
             if path == MANIFEST or (name.startswith(".") and not name.endswith(ENDING)):
@@ -232,12 +235,13 @@ class _Loader(BaseLoader):
         if template in self._texts:
             return self._texts[template], template, None
         first, _, rest = template.partition("/")
-        if ".." in rest.split("/"):
+        if ".." in template.split("/") or os.path.isabs(template):
             raise TemplateNotFound(template)
         for directory in self._directories(first):
             path = os.path.join(directory, *rest.split("/"))
             try:
                 with open(path, encoding="utf-8") as file:
+                    refuse_outside(path, [*self._roots, directory])
                     return self._with_comments(file.read()), path, None
             except (FileNotFoundError, NotADirectoryError):
                 continue
@@ -275,10 +279,17 @@ class _Told:
     def __exit__(self, kind: type[BaseException] | None, error: object, trace: object) -> None:
         if kind is None or not isinstance(error, Exception) or isinstance(error, ContentError):
             return
-        line = (
-            f":{error.lineno}"
-            if isinstance(error, TemplateError) and hasattr(error, "lineno")
-            else ""
-        )
-        message = f"template {self._where!r}{line}: {type(error).__name__}: {error}"
+        line = getattr(error, "lineno", None) if isinstance(error, TemplateError) else None
+        at = f":{line}" if line else _line_of(error)
+        message = f"template {self._where!r}{at}: {type(error).__name__}: {error}"
         raise ContentError(" ".join(message.split())) from error
+
+
+def _line_of(error: Exception) -> str:
+    """Return where in a template's file something went wrong, if Jinja knows."""
+    import traceback
+
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if frame.filename.endswith(ENDING):
+            return f", {frame.filename}:{frame.lineno}"
+    return ""

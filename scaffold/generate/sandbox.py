@@ -1,0 +1,78 @@
+"""What templates may do: nothing of Python's inside, no file beside theirs, nothing without end."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+from jinja2.exceptions import SecurityError
+from jinja2.runtime import Context
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from scaffold.errors import ContentError
+
+_MOST_ROUNDS = 1_000_000
+"""Numbers that all calls of `range` in the files of a package may give together."""
+_MOST_REPEATED = 1_000_000
+"""Characters or elements of what is repeated, digits of a power."""
+
+
+class Sandbox(ImmutableSandboxedEnvironment):
+    """Jinja's sandbox, in which loops and what multiplies have bounds."""
+
+    intercepted_binops = frozenset({"*", "**"})
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:  # noqa: ANN401  those of Jinja
+        super().__init__(*arguments, **options)
+        self._rounds = 0
+        self.globals["range"] = self._range
+
+    def _range(self, *arguments: int) -> range:
+        found = range(*arguments)
+        self._rounds += len(found)
+        if self._rounds > _MOST_ROUNDS:
+            raise SecurityError(f"more than {_MOST_ROUNDS} rounds of loops")
+        return found
+
+    def call_binop(
+        self,
+        context: Context,
+        operator: str,
+        left: Any,  # noqa: ANN401  as Jinja has it
+        right: Any,  # noqa: ANN401
+    ) -> Any:  # noqa: ANN401
+        """Multiply, or raise to a power, what is small enough."""
+        if operator == "**" and _size(left) * abs(right) > _MOST_REPEATED:
+            raise SecurityError("a power is too large")
+        if operator == "*":
+            for some, times in ((left, right), (right, left)):
+                if hasattr(some, "__len__") and len(some) * times > _MOST_REPEATED:
+                    raise SecurityError("too much is repeated")
+        return super().call_binop(context, operator, left, right)
+
+
+def _size(number: Any) -> int:  # noqa: ANN401  whatever a template computes with
+    return number.bit_length() if isinstance(number, int) else 1
+
+
+def refuse_outside(path: str, places: Iterable[str]) -> None:
+    """Raise if a file is not in one of some directories, links followed.
+
+    Raises:
+        ContentError: it is elsewhere.
+    """
+    real = os.path.realpath(path)
+    if not any(real.startswith(os.path.realpath(place) + os.sep) for place in places):
+        raise ContentError(f"{path}: a link to {real}, which is not in the directory of templates")
+
+
+def refuse_leaving(path: str, where: str) -> None:
+    """Raise if the path of a rendered file leaves the package.
+
+    Raises:
+        ContentError: it does, or is none.
+    """
+    parts = path.split("/")
+    if "\0" in path or not all(parts) or {".", ".."} & set(parts):
+        raise ContentError(f"{where}: {path!r} is not a path in the package")
