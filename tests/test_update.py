@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -200,6 +201,19 @@ def test_a_package_of_somebody_else(tmp_path: Path, capsys: pytest.CaptureFixtur
 def test_damaged_records(text: str) -> None:
     with pytest.raises(InputError, match=r"^here: damaged: "):
         provenance.parse(text, "here")
+
+
+@pytest.mark.parametrize("answers", [{}, {"add": 5}, {"add": None}, {"add": [{}]}])
+def test_answers_that_nobody_gave(
+    package: Path, answers: dict[str, object], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = package / provenance.NAME
+    entries = json.loads(path.read_text())
+    entries["answers"] = {**entries["answers"], **answers} if answers else {}
+    path.write_text(json.dumps(entries))
+    for verb in (["update", "talker"], ["add", "timer", "clock", "--package-directory", "talker"]):
+        assert main(verb) == 2
+        assert "damaged: an entry has the wrong type" in capsys.readouterr().err
 
 
 def test_binary_files_are_not_merged() -> None:

@@ -78,10 +78,18 @@ def parse(text: str, path: str) -> Provenance:
     except (ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path}: damaged: {' '.join(str(error).split()) or 'cut off'}") from error
     texts = [*found.rendered, *found.rendered.values()] if isinstance(rendered, dict) else [None]
-    if not (
-        isinstance(found.answers, dict)
-        and all(isinstance(part, dict) for part in found.answers.get("add", []))
-        and all(isinstance(one, str) for one in [*texts, *found.answers])
-    ):
+    if not (_are_answers(found.answers) and all(isinstance(one, str) for one in texts)):
         raise InputError(f"{path}: damaged: an entry has the wrong type")
     return found
+
+
+def _are_answers(answers: object) -> bool:
+    """Tell whether answers have the form in which they are kept; each is judged later."""
+    if not isinstance(answers, dict) or not isinstance(answers.get("package"), str):
+        return False
+    parts = answers.get("add", [])
+    return (
+        all(isinstance(name, str) for name in answers)
+        and isinstance(parts, list)
+        and all(isinstance(part, dict) and isinstance(part.get("kind"), str) for part in parts)
+    )
