@@ -33,6 +33,13 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "brought along by what stands for several",
+            {
+                "package.xml": _MANIFEST.format("  <depend>common_interfaces</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("std_srvs"),
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             at=("package.xml:3",),

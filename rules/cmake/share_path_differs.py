@@ -19,6 +19,8 @@ class SharePathDiffers(Rule):
     files land in ``share/<package>/`` or in ``share/<package>/config/config/``, where no launch
     file looks for them.
 
+    Only ``ros2 launch`` finds its files wherever they land.
+
     **Fix.** Write ``install(DIRECTORY config DESTINATION share/${PROJECT_NAME})``.
 
     **Source.** CMake documentation, ``install(DIRECTORY)``.
@@ -34,6 +36,10 @@ class SharePathDiffers(Rule):
                 **_FILES,
                 "CMakeLists.txt": _LISTS.format("config", "") + _LISTS.format("config/", "/config"),
             },
+        ),
+        Example(
+            "launch files, which are found anywhere",
+            {"launch/talk.launch.py": "", "CMakeLists.txt": _LISTS.format("launch/", "")},
         ),
         Example(
             "dropped",
@@ -61,7 +67,7 @@ class SharePathDiffers(Rule):
                 if directory not in DIRECTORIES or item.argument.quoted:
                     continue
                 slash = written.endswith("/")
-                if slash and target == f"share/{name}":
+                if slash and target == f"share/{name}" and directory != "launch":
                     end = item.argument.end
                     edit = Edit("CMakeLists.txt", end - 1, end, "")
                     lands = f"{target}/, not in {target}/{directory}/"

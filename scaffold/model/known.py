@@ -199,6 +199,9 @@ PROVIDES = {
     "rclpy": "ament_index_python builtin_interfaces rcl_interfaces action_msgs service_msgs "
     "lifecycle_msgs rosgraph_msgs rpyutils unique_identifier_msgs type_description_interfaces "
     "python3-yaml",
+    "common_interfaces": "actionlib_msgs builtin_interfaces diagnostic_msgs geometry_msgs nav_msgs "
+    "sensor_msgs shape_msgs std_msgs std_srvs stereo_msgs trajectory_msgs visualization_msgs",
+    "ament_cmake": "ament_cmake_core ament_cmake_python ament_cmake_test ament_cmake_version",
     "std_msgs": "builtin_interfaces",
     "geometry_msgs": "std_msgs builtin_interfaces",
     "sensor_msgs": "std_msgs geometry_msgs builtin_interfaces",
