@@ -46,6 +46,14 @@ class SharePathMissing(Rule):
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")},
         ),
         Example(
+            "made on each machine, so git leaves it out",
+            {
+                **_FILES,
+                ".gitignore": "*.pyc\ntalk.yaml\n",
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talk.yaml'"),
+            },
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.launch_markup import markup_files
 from scaffold.model.launch_py import LaunchFile
+from scaffold.model.left_out import is_left_out
 from scaffold.model.share_files import share_of
 from scaffold.record import NamedTuple
 
@@ -62,6 +63,8 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         return f"{build} of {owner.name} does not install {first}"
     if any(_name(one).startswith(f"{_name(path)}.") for one in owner.files):
         return None  # made from a template
+    if is_left_out(owner, path):
+        return None  # made on each machine
     near = get_close_matches(path, files, 1, 0.6)
     hint = f"; {near[0]} is" if near else ""
     return f"{owner.name} has no such file{hint}"

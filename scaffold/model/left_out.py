@@ -1,0 +1,55 @@
+"""Files that git leaves out: each machine makes its own, such as a calibration."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_FILE = ".gitignore"
+
+
+def is_left_out(package: Package, path: str) -> bool:
+    """Tell whether a ``.gitignore`` names a file of a package.
+
+    Patterns for directories and for places are not looked at.
+    """
+    from fnmatch import fnmatchcase  # few packages name a file that is not there
+
+    name = path.rpartition("/")[2]
+    for text in _texts(package):
+        for line in text.splitlines():
+            pattern = line.strip()
+            if pattern and pattern[0] not in "#!" and fnmatchcase(name, pattern):
+                return True
+    return False
+
+
+def _texts(package: Package) -> Iterator[str]:
+    """Yield what the .gitignore files say, from the package up to the root of the checkout."""
+    with contextlib.suppress(OSError):
+        yield package.tree.read(_FILE).decode(errors="replace")
+    disk = package.workspace.disk
+    for directory in _parents(package):
+        with contextlib.suppress(OSError):
+            yield disk.read(os.path.join(directory, _FILE)).decode(errors="replace")
+
+
+def _parents(package: Package) -> list[str]:
+    """Return the directories above a package that belong to its checkout."""
+    if package.root is None:
+        return []
+    disk = package.workspace.disk
+    directory = os.path.realpath(package.root)
+    found: list[str] = []
+    while not disk.exists(os.path.join(directory, ".git")):
+        parent = os.path.dirname(directory)
+        if parent == directory:
+            return []  # no checkout
+        found.append(parent)
+        directory = parent
+    return found

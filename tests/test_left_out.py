@@ -1,0 +1,26 @@
+"""Files that git leaves out are made on each machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scaffold.model.left_out import is_left_out
+from scaffold.model.package import Package
+from scaffold.model.tree import DiskTree
+from scaffold.model.workspace import Workspace
+
+
+@pytest.mark.parametrize(("checkout", "expected"), [("src", True), ("", True), (None, False)])
+def test_the_files_of_the_checkout_count(
+    tmp_path: Path, checkout: str | None, *, expected: bool
+) -> None:
+    directory = tmp_path / "src" / "talker"
+    directory.mkdir(parents=True)
+    (tmp_path / "src" / ".gitignore").write_text("# made by calibration\ncalibrated_*.yaml\n")
+    if checkout is not None:
+        (tmp_path / checkout / ".git").mkdir()
+    package = Package(DiskTree(str(directory)), workspace=Workspace())
+    assert is_left_out(package, "config/calibrated_head.yaml") is expected
+    assert not is_left_out(package, "config/head.yaml")
