@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from scaffold.errors import ConfigError
+
 TYPE_CHECKING = False  # the one of typing is slow to import, and every start needs this module
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,13 +20,19 @@ def built_in() -> str:
 
 
 def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
-    """Return the existing directories of ``kind`` (``rules`` or ``templates``).
+    """Return the directories of ``kind`` (``rules`` or ``templates``).
 
     The built-in one comes first; a later one may add to it, and templates may override.
 
     Args:
         kind: The name of the directory.
         own: Content directories of the user, each with the same layout as the built-in one.
+
+    Raises:
+        ConfigError: one of the user's is no directory.
     """
+    for base in own:
+        if not os.path.isdir(base):
+            raise ConfigError(f"{base}: no such directory; --content or the configuration names it")
     candidates = [os.path.join(base, kind) for base in (built_in(), *own)]
     return [path for path in candidates if os.path.isdir(path)]

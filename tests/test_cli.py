@@ -129,6 +129,7 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["check", "nowhere"], "nowhere: no such file or directory"),
         (["check", "--select", "CN001"], "--select: no rule has the code 'CN001'"),
         (["rules", "CN001"], "there is no rule 'CN001'; did you mean"),
+        (["rules", "--content", "nowhere"], "nowhere: no such directory; --content or"),
     ],
 )
 def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:

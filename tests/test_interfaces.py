@@ -446,7 +446,7 @@ def test_spellings(spelling: str, parts: tuple[str | None, str | None, str]) -> 
         ("std_msgs/Strin", "no interface 'std_msgs/Strin'; did you mean std_msgs/msg/String?"),
         ("std_msgs/srv/String", "did you mean std_msgs/msg/String?"),
         ("geometry_msg/twist", "did you mean geometry_msgs/msg/Twist?"),
-        ("Qwertz", "there is no interface 'Qwertz'$"),
+        ("Qwertz", "there is no interface 'Qwertz'; see `ros2-scaffold interfaces`$"),
     ],
 )
 def test_unknown_and_ambiguous_spellings(spelling: str, message: str) -> None:

@@ -19,7 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--format", choices=("text", "json"), default="text", help="form of the list"
     )
     parser.add_argument(
-        "--content", action="append", default=[], metavar="DIR", help="a directory with rules/ of your own"
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with rules/ of your own",
     )
     parser.add_argument(
         "--write-docs", metavar="DIR", help="write a page per rule into a directory instead"

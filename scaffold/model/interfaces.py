@@ -207,7 +207,8 @@ class Definitions:
         found = self.matches(spelling)
         if not found:
             near = self.nearest(spelling)
-            hint = f"; did you mean {' or '.join(near)}?" if near else ""
+            known = "see `ros2-scaffold interfaces`"
+            hint = f"; did you mean {' or '.join(near)}?" if near else f"; {known}"
             raise InputError(f"there is no interface {spelling!r}{hint}")
         if len(found) > 1:
             raise InputError(
