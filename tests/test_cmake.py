@@ -667,12 +667,6 @@ def test_change_and_remove_arguments() -> None:
     assert apply(TALKER, cmake_edit.remove_argument(lists, scripts)) == without
 
 
-def test_remove_command() -> None:
-    lists = read(TALKER)
-    edits = cmake_edit.remove_command(lists, lists.find("find_package")[1])
-    assert apply(TALKER, edits) == TALKER.replace("find_package(rclpy REQUIRED)\n", "")
-
-
 @pytest.mark.parametrize(
     ("value", "written"),
     [("a/b.py", "a/b.py"), ("${A}/b", "${A}/b"), ("a b", '"a b"'), ('a"\\', '"a\\"\\\\"')],
@@ -687,7 +681,6 @@ def test_broken_files_are_not_edited() -> None:
     assert cmake_edit.install_program(lists, "m") is None
     assert cmake_edit.insert_before_end(lists, ["m()"]) is None
     assert cmake_edit.insert_in_testing(lists, ["m()"]) is None
-    assert cmake_edit.remove_command(lists, lists.commands[0]) is None
     assert cmake_edit.remove_argument(lists, lists.commands[0].arguments[0]) is None
 
 

@@ -600,55 +600,7 @@ def test_rename() -> None:
     assert apply(before, *edits) == "<package><exec_depend>a</exec_depend><c/></package>"
 
 
-def test_set_text() -> None:
-    before = "<package><a> x </a><b/><c></c></package>"
-    manifest = read(before)
-    edits = [manifest_edit.set_text(manifest, one, "<y>") for one in manifest.root.children]
-    lt = "&lt;y&gt;"
-    assert apply(before, *edits) == f"<package><a> {lt} </a><b>{lt}</b><c>{lt}</c></package>"
-
-
-def test_set_attribute() -> None:
-    before = "<package format='2'><a/></package>"
-    manifest = read(before)
-    edits = [
-        manifest_edit.set_attribute(manifest, manifest.root, "format", "3"),
-        manifest_edit.set_attribute(manifest, manifest.root.children[0], "b", "1"),
-    ]
-    assert apply(before, *edits) == "<package format='3'><a b=\"1\"/></package>"
-
-
 BUILD_TYPE = "  <export>\n    <build_type>t</build_type>\n  </export>\n"
-
-
-@pytest.mark.parametrize(
-    ("before", "after"),
-    [
-        ("  <name>a</name>\n", f"  <name>a</name>\n{BUILD_TYPE}"),
-        ("  <export/>\n", BUILD_TYPE),
-        ("  <export>\n  </export>\n", BUILD_TYPE),
-        (
-            "  <export>\n    <x/>\n  </export>\n",
-            "  <export>\n    <x/>\n    <build_type>t</build_type>\n  </export>\n",
-        ),
-    ],
-)
-def test_insert_build_type(before: str, after: str) -> None:
-    before, after = (f"<package>\n{text}</package>\n" for text in (before, after))
-    assert apply(before, manifest_edit.insert_build_type(read(before), "t")) == after
-
-
-def test_insert_xml_model_and_declaration() -> None:
-    line = (
-        '<?xml-model href="http://download.ros.org/schema/package_format3.xsd" '
-        'schematypens="http://www.w3.org/2001/XMLSchema"?>'
-    )
-    before = '<?xml version="1.0"?>\n<package format="3"/>\n'
-    after = f'<?xml version="1.0"?>\n{line}\n<package format="3"/>\n'
-    assert apply(before, manifest_edit.insert_xml_model(read(before))) == after
-    bare = '<package format="3"/>\n'
-    assert apply(bare, manifest_edit.insert_xml_model(read(bare))) == f"{line}\n{bare}"
-    assert apply(bare, manifest_edit.insert_xml_declaration(read(bare))) == before
 
 
 def test_reorder_takes_comments_and_blank_lines_along() -> None:

@@ -153,13 +153,6 @@ def remove_argument(lists: CMakeLists, argument: Argument) -> Edits | None:
     return (_removal(lists, argument.start, argument.end),)
 
 
-def remove_command(lists: CMakeLists, command: Command) -> Edits | None:
-    """Take a call out, with its lines when nothing else stands on them."""
-    if lists.errors:
-        return None
-    return (_removal(lists, command.start, command.end),)
-
-
 def quote(value: str) -> str:
     """Return a value as an argument is written."""
     plain = value and not any(char in ' \t\r\n()#"\\;' for char in value)

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 PACKAGE_COMMANDS = ("ament_package", "ament_auto_package", "autoware_package")
 """Commands that make ament's files: the index entry, the environment hooks."""
-HIDING_COMMANDS = ("autoware_package", "ament_auto_package")
-_KNOWN_PREFIXES = ("ament_", "rosidl_", "find_package", "install", "include", "set", "list")
 
 
 class Program(NamedTuple):

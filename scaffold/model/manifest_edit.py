@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from scaffold.check.diagnostic import Edit
 from scaffold.model.manifest import DEPENDENCY_TAGS, Manifest
-from scaffold.model.xml_tree import BOM, Element
+from scaffold.model.xml_tree import Element
 
 SCHEMA = "http://download.ros.org/schema/package_format{}.xsd"
 _DEPENDENCIES = (*DEPENDENCY_TAGS, "conflict", "replace")
@@ -42,17 +42,6 @@ def insert(
 def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
     """Add markup behind an element, on a line of its own where that one has one."""
     return _after(manifest, element, markup)
-
-
-def insert_build_type(manifest: Manifest, build_type: str) -> Edit:
-    """Add ``<export><build_type>…`` or the part of it that is missing."""
-    line = render("build_type", build_type)
-    export = manifest.one("export")
-    if export is None:
-        unit, newline = _indentation(manifest), manifest.source.newline
-        lines = ["<export>", f"{unit}{unit}{line}", f"{unit}</export>"]
-        return place(manifest, "export", "", newline.join(lines))
-    return insert_into(manifest, export, line)
 
 
 def insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
@@ -119,47 +108,6 @@ def rename(manifest: Manifest, element: Element, tag: str) -> tuple[Edit, ...]:
         start = element.close_start + 2
         edits.append(Edit(path, start, start + len(element.tag), tag))
     return tuple(edits)
-
-
-def set_text(manifest: Manifest, element: Element, text: str) -> Edit:
-    """Give an element another text; blanks around the old one stay."""
-    path = manifest.source.path
-    if element.is_empty_tag:
-        opened = manifest.source.text[element.start : element.open_end - 2].rstrip()
-        markup = f"{opened}>{escape(text)}</{element.tag}>"
-        return Edit(path, element.start, element.end, markup)
-    return Edit(path, *element.text_span, escape(text))
-
-
-def set_attribute(manifest: Manifest, element: Element, name: str, value: str) -> Edit:
-    """Change or add an attribute of an element."""
-    source = manifest.source
-    found = element.attributes.get(name)
-    if found is not None:
-        start = source.offset(found.location.line, found.location.column)
-        end = source.offset(found.location.end_line, found.location.end_column)
-        return Edit(source.path, start, end, escape(value, '"'))
-    at = element.start + 1 + len(element.tag)
-    return Edit(source.path, at, at, f' {name}="{escape(value, chr(34))}"')
-
-
-def insert_xml_model(manifest: Manifest) -> Edit:
-    """Add the line that names the schema of the manifest's format."""
-    source = manifest.source
-    href = SCHEMA.format(manifest.format)
-    line = f'<?xml-model href="{href}" schematypens="http://www.w3.org/2001/XMLSchema"?>'
-    if manifest.document.declaration is not None:
-        at = manifest.document.declaration[1]
-        return Edit(source.path, at, at, source.newline + line)
-    at = 1 if source.text.startswith(BOM) else 0
-    return Edit(source.path, at, at, line + source.newline)
-
-
-def insert_xml_declaration(manifest: Manifest) -> Edit:
-    """Add ``<?xml version="1.0"?>`` as the first line."""
-    source = manifest.source
-    at = 1 if source.text.startswith(BOM) else 0
-    return Edit(source.path, at, at, f'<?xml version="1.0"?>{source.newline}')
 
 
 def render(tag: str, text: str, attributes: Mapping[str, str] | None = None) -> str:

@@ -9,7 +9,6 @@ from scaffold.check.diagnostic import Edit
 
 if TYPE_CHECKING:
     from scaffold.model.setup_py import Keyword, SetupPy
-    from scaffold.model.source import Location
 
 
 def literal_span(setup: SetupPy, keyword: Keyword) -> tuple[int, int]:
@@ -21,11 +20,6 @@ def literal_span(setup: SetupPy, keyword: Keyword) -> tuple[int, int]:
         if len(bindings) == 1 and isinstance(bindings[0].value, ast.Constant):
             node = bindings[0].value
     return setup.module.span(node)
-
-
-def literal_location(setup: SetupPy, keyword: Keyword) -> Location:
-    """Return the place of the literal of a keyword."""
-    return setup.module.source.location(*literal_span(setup, keyword))
 
 
 def span(setup: SetupPy, name: str) -> tuple[int, int] | None:

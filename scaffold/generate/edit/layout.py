@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.generate.edit.cmake import INSTALL_PYTHON
+from scaffold.generate.provenance import NAME as PROVENANCE
 from scaffold.model.cmake_facts import programs
 from scaffold.model.cmake_interfaces import is_interface_package
 from scaffold.model.package import Package
@@ -15,8 +16,6 @@ from scaffold.model.setup_py import FindPackages, SetupPy
 
 SCRIPTS = "scripts"
 """The directory for programs of a package that has no Python yet."""
-RECORD = ".ros2-scaffold.json"
-"""In packages of ours, whose nodes are in their Python package."""
 _USUAL = (SCRIPTS, "script", "nodes", "bin", "src")
 _TESTS = ("test", "tests")
 BUILD_TYPES = ("ament_cmake", "ament_python")
@@ -67,7 +66,7 @@ def _of_cmake(package: Package) -> Layout:
     if installed is not None and package.has(f"{installed}/__init__.py"):
         return Layout(installed, name, tests)
     init = f"{name}/__init__.py"
-    if (package.has(init) or package.has(RECORD)) and not is_interface_package(package):
+    if (package.has(init) or package.has(PROVENANCE)) and not is_interface_package(package):
         missing = () if package.has(init) else (init,)
         return Layout(name, name, tests, missing, installs_python=True)
     return Layout(SCRIPTS, "", tests)
