@@ -72,6 +72,11 @@ def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
     assert "    config\n    launch\n  DESTINATION share/${PROJECT_NAME}" in files["CMakeLists.txt"]
 
 
+def test_long_names_fit_on_their_lines() -> None:
+    for build_type in BUILD_TYPES:
+        make(package="p" * 48, build_type=build_type, extras=list(EXTRAS), node_name="n" * 48)
+
+
 def test_a_package_without_nodes_has_nothing_to_launch() -> None:
     files = make(package="tools", extras=["launch"], add=["cpp_program:tool"])
     assert not [path for path in files if path.startswith(("launch", "config"))]

@@ -708,16 +708,29 @@ def assert_reads(path: str, text: str) -> None:
 
 
 ASKED = [
-    pytest.param(kind, question, id=f"{kind}-{question.name}")
+    (kind, question)
     for kind in ["package", *KINDS]
     for question in TEMPLATES[kind].questions
     if question.type not in {"parts", "several"} and question.name != "node_kind"
 ]
+FEW = 4
+"""Answers for the second and later kinds that ask the same: all of them would take minutes."""
 
 
-@pytest.mark.parametrize(("kind", "question"), ASKED)
+def answers(kind: str, question: Question) -> list[Any]:
+    """Return all hostile answers for the first kind that asks, some for the others."""
+    values = list(pool(question))
+    if kind == next(other for other, one in ASKED if one.name == question.name):
+        return values
+    start = KINDS.index(kind) % len(values)
+    return [values[(start + step * len(values) // FEW) % len(values)] for step in range(FEW)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "question"), [pytest.param(*one, id=f"{one[0]}-{one[1].name}") for one in ASKED]
+)
 def test_every_answer_alone(kind: str, question: Question) -> None:
-    for value in pool(question):
+    for value in answers(kind, question):
         wanted: dict[str, Any] = {"package": "talker"}
         if kind == "package":
             wanted[question.name] = value
@@ -727,7 +740,7 @@ def test_every_answer_alone(kind: str, question: Question) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=10, suppress_health_check=list(HealthCheck))
+@settings(max_examples=3, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_answers_together(kind: str, data: st.DataObject) -> None:
     judged(data.draw(requests(kind)))

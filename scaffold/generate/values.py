@@ -26,6 +26,8 @@ from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 MAX_RATE = 10_000.0
 """Hertz; no Python node publishes faster."""
 MIN_RATE = 0.001
+MAX_TEXT = 3000
+"""Characters of any other text: it stands on one line of package.xml."""
 MAX_PERSON = 60
 """Characters of a name or a mail address: it stands on one line with its key."""
 
@@ -42,6 +44,8 @@ def text(given: object) -> str:
     folded = " ".join(_string(given).split())
     if not folded:
         raise InputError("must not be empty")
+    if len(folded) > MAX_TEXT:
+        raise InputError(f"has {len(folded)} characters; the limit is {MAX_TEXT}")
     for character in folded:
         if unicodedata.category(character) in {"Cc", "Cs"} or character in "\ufffe\uffff":
             raise InputError(f"holds the character U+{ord(character):04X}, which XML forbids")
