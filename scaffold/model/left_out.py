@@ -33,7 +33,7 @@ def _texts(package: Package) -> Iterator[str]:
     """Yield what the .gitignore files say, from the package up to the root of the checkout."""
     with contextlib.suppress(OSError):
         yield package.tree.read(_FILE).decode(errors="replace")
-    disk = package.workspace.disk
+    disk = package.outside
     for directory in _parents(package):
         with contextlib.suppress(OSError):
             yield disk.read(os.path.join(directory, _FILE)).decode(errors="replace")
@@ -43,8 +43,8 @@ def _parents(package: Package) -> list[str]:
     """Return the directories above a package that belong to its checkout."""
     if package.root is None:
         return []
-    disk = package.workspace.disk
-    directory = os.path.realpath(package.root)
+    disk = package.outside
+    directory = disk.real(package.root)
     found: list[str] = []
     while not disk.exists(os.path.join(directory, ".git")):
         parent = os.path.dirname(directory)
