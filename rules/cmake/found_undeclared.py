@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.model import needs
 from scaffold.model.known import ROS_PACKAGES, provided_by
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
@@ -40,6 +41,19 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "brought along by a package of the workspace",
+            {
+                "package.xml": _MANIFEST.format("  <depend>common</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("nav_msgs"),
+            },
+            neighbours={
+                "common": {
+                    "package.xml": '<package format="3">\n  <name>common</name>\n'
+                    "  <depend>nav_msgs</depend>\n</package>\n"
+                }
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             at=("package.xml:3",),
@@ -55,7 +69,7 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         declared = manifest.declared_names
-        along = provided_by(declared)
+        along = provided_by(declared) | needs.declared(package, for_tests=True).along
         told: set[str] = set()
         for found in package.cmake.found_packages:
             name = found.name

@@ -43,6 +43,17 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
+            "a CMakeLists.txt that colcon does not read",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n  <export>\n'
+                "    <build_type>ament_python</build_type>\n  </export>\n</package>\n",
+                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+                "CMakeLists.txt": _LISTS.format(""),
+                "talker/node.py": _NODE,
+                "talker/other.py": _NODE,
+            },
+        ),
+        Example(
             "one is missing",
             {
                 "CMakeLists.txt": _LISTS.format(""),

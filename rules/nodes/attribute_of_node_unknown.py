@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.handlers import is_caught
+from scaffold.model.handlers import is_harmless
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has, known_names
@@ -51,6 +51,13 @@ class AttributeOfNodeUnknown(Rule):
     name = "attribute-of-node-unknown"
     examples = (
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
+        Example(
+            "never reached",
+            {
+                "talker.py": _NODE.format("on_timer", "pub")
+                + "\n    def stop(self):\n        return\n        self.client.cancel()\n"
+            },
+        ),
         Example(
             "misspelt",
             {"talker.py": _NODE.format("on_tick", "publisher")},
@@ -104,7 +111,9 @@ def _is_stored(facts: NodeFacts, name: str) -> bool:
 
 def _near(name: str, known: set[str]) -> list[str]:
     names = {*known, *(one.removesuffix("()") for one in known_names()[NODE])}
-    return get_close_matches(name, [one for one in names if not one.startswith("__")], 1, 0.7)
+    # rclpy's own attributes start with an underscore: nobody means those.
+    hidden = "__" if name.startswith("_") else "_"
+    return get_close_matches(name, [one for one in names if not one.startswith(hidden)], 1, 0.7)
 
 
 def _names_of_bases(package: Package) -> frozenset[str]:
@@ -152,7 +161,7 @@ def _defined(node: NodeClass) -> set[str]:
 
 def _may_fail(facts: NodeFacts, node: ast.Attribute) -> bool:
     """Tell whether the code is ready for the attribute not to be there."""
-    if is_caught(facts.module, node, "AttributeError"):
+    if is_harmless(facts.module, node, "AttributeError"):
         return True
     return f"'{node.attr}'" in facts.module.source.text or (
         f'"{node.attr}"' in facts.module.source.text

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.handlers import is_caught
+from scaffold.model.handlers import is_harmless
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, class_of, has, is_method, known_names
 
@@ -78,7 +78,7 @@ class AttributeOfObjectUnknown(Rule):
         owner = class_of(facts, node.value)
         if owner is None or has(owner, node.attr) or facts.evaluator.stores(node.attr):
             return
-        if is_caught(facts.module, node, "AttributeError"):
+        if is_harmless(facts.module, node, "AttributeError"):
             return
         known = [one.removesuffix("()") for one in known_names()[owner] if one[0] != "_"]
         near = _ELSEWHERE.get(node.attr) or next(iter(get_close_matches(node.attr, known, 1)), "")

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.handlers import is_caught
+from scaffold.model.handlers import is_harmless
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has
@@ -70,6 +70,6 @@ def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribu
         )
         if used.lineno >= min(lines) or in_loop:
             continue
-        if not is_caught(facts.module, used, "AttributeError"):
+        if not is_harmless(facts.module, used, "AttributeError"):
             told.add(used.attr)
             yield used, min(lines)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.handlers import is_caught
+from scaffold.model.handlers import is_harmless
 from scaffold.model.python_module import Import, PythonModule
 from scaffold.model.rclpy_names import PLACES, first_unknown, known_names
 
@@ -66,7 +66,7 @@ class NameOfRclpyUnknown(Rule):
 
     def _check_uses(self, module: PythonModule) -> Iterator[Diagnostic]:
         for node in module.walk(ast.Attribute):
-            if isinstance(module.parent(node), ast.Attribute) or is_caught(
+            if isinstance(module.parent(node), ast.Attribute) or is_harmless(
                 module, node, "AttributeError"
             ):
                 continue

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.handlers import is_caught
+from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import Parameter, ParameterRead
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
@@ -135,4 +135,4 @@ def _passes_itself_on(facts: NodeFacts, node: NodeClass) -> bool:
 
 def _is_ready(facts: NodeFacts, call: ast.Call) -> bool:
     """Tell whether the code expects that the parameter may not be declared."""
-    return is_caught(facts.module, call, "ParameterNotDeclaredException")
+    return is_harmless(facts.module, call, "ParameterNotDeclaredException")

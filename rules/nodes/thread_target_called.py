@@ -38,6 +38,14 @@ class ThreadTargetCalled(Rule):
     examples = (
         Example("right", {"talker.py": _NODE.format("", "0.1", "await ")}),
         Example(
+            "a parameter that somebody sets",
+            {
+                "talker.py": _NODE.format(
+                    "", "self.declare_parameter('period', 0.0).value", "await "
+                )
+            },
+        ),
+        Example(
             "called, zero, dropped",
             {"talker.py": _NODE.format("()", "0.0", "")},
             at=("talker.py:9", "talker.py:10", "talker.py:19"),
@@ -51,7 +59,9 @@ class ThreadTargetCalled(Rule):
                     yield self.report(facts.module.location(node), problem)
             for timer in facts.timers:
                 argument = timer.argument("timer_period_sec")
-                if argument is not None and argument.value in (0, 0.0):
+                value, notes = facts.evaluator.trace(argument.node if argument else None)
+                # Zero as the default of a parameter is there to be replaced.
+                if argument is not None and value in (0, 0.0) and not notes:
                     yield self.report(argument, "a period of 0 takes all of the processor")
 
 

@@ -202,6 +202,15 @@ PROVIDES = {
     "common_interfaces": "actionlib_msgs builtin_interfaces diagnostic_msgs geometry_msgs nav_msgs "
     "sensor_msgs shape_msgs std_msgs std_srvs stereo_msgs trajectory_msgs visualization_msgs",
     "ament_cmake": "ament_cmake_core ament_cmake_python ament_cmake_test ament_cmake_version",
+    "rclcpp": "ament_index_cpp builtin_interfaces libstatistics_collector rcl rcl_interfaces "
+    "rcl_yaml_param_parser rcpputils rcutils rmw rosgraph_msgs statistics_msgs tracetools",
+    "rclcpp_action": "action_msgs rcl rcl_action rclcpp rcpputils",
+    "rclcpp_components": "ament_index_cpp class_loader composition_interfaces rclcpp",
+    "rclcpp_lifecycle": "lifecycle_msgs rcl rcl_interfaces rcl_lifecycle rclcpp rcutils rmw",
+    "tf2_eigen": "geometry_msgs tf2 tf2_ros",
+    "tf2_geometry_msgs": "geometry_msgs python3-numpy tf2 tf2_ros tf2_ros_py",
+    "tf2_sensor_msgs": "geometry_msgs python3-numpy sensor_msgs sensor_msgs_py std_msgs tf2 "
+    "tf2_ros tf2_ros_py",
     "std_msgs": "builtin_interfaces",
     "geometry_msgs": "std_msgs builtin_interfaces",
     "sensor_msgs": "std_msgs geometry_msgs builtin_interfaces",
@@ -226,7 +235,8 @@ PROVIDES = {
     "ament_cmake_pep257": "ament_pep257",
     "ament_cmake_mypy": "ament_mypy",
     "ament_cmake_xmllint": "ament_xmllint",
-    "tf2_ros": "tf2_ros_py tf2_py tf2_msgs geometry_msgs builtin_interfaces rclpy std_msgs",
+    "tf2_ros": "tf2_ros_py tf2 tf2_py tf2_msgs geometry_msgs builtin_interfaces message_filters "
+    "rclcpp rclcpp_action rclcpp_components rclpy std_msgs",
     "tf2_ros_py": "tf2_py tf2_msgs geometry_msgs builtin_interfaces rclpy sensor_msgs std_msgs",
     "cv_bridge": "sensor_msgs python3-numpy python3-opencv",
     "sensor_msgs_py": "sensor_msgs python3-numpy",

@@ -159,11 +159,13 @@ class Package:
 
     @property
     def cmake(self) -> CMakeLists:
-        """CMakeLists.txt."""
+        """CMakeLists.txt, unless nobody reads it: colcon builds ament_python with setup.py."""
 
         def parse() -> CMakeLists:
             from scaffold.model.cmake import CMakeLists
 
+            if self.build_type == "ament_python" and self.has(SETUP_PY):
+                raise MissingFileError(CMAKE_LISTS)
             lists = CMakeLists.parse(self.source(CMAKE_LISTS))
             for at, message in lists.errors:
                 raise ParseError(at, message)
