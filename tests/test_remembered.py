@@ -512,7 +512,7 @@ def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
         kept.write_bytes(damaged)
         slot = memory.Slot.of(["check", str(package)])
         assert slot is not None
-        assert slot.load() is None
+        assert slot.last is None
 
 
 @pytest.mark.usefixtures("package")

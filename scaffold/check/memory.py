@@ -68,10 +68,24 @@ class Run:
         self.results = results
         self.code = code
         self.output = output
+        self._asked: dict[int, bool] = {}
 
     def is_current(self) -> bool:
         """Tell whether nothing has changed since."""
-        return holds(self.outside) and all(seen is not None and holds(seen) for seen in self.trees)
+        return self.is_same_outside() and all(map(self.is_same, range(len(self.trees))))
+
+    def is_same_outside(self) -> bool:
+        """Tell whether nothing has changed outside of the packages; the disk is asked once."""
+        return self._holds(-1, self.outside)
+
+    def is_same(self, at: int) -> bool:
+        """Tell whether nothing has changed in the package of a place; the disk is asked once."""
+        return self._holds(at, self.trees[at])
+
+    def _holds(self, at: int, seen: Seen | None) -> bool:
+        if at not in self._asked:
+            self._asked[at] = seen is not None and holds(seen)
+        return self._asked[at]
 
 
 def directory(kind: str) -> str | None:
@@ -86,6 +100,9 @@ class Slot:
     """Where a run is remembered: one place for each command line, directory and environment.
 
     Made before the run, because a rule that is edited meanwhile must not count as the one used.
+
+    Attributes:
+        last: The last run, if this very tool remembered it and nothing damaged it.
     """
 
     def __init__(self, kept: str, words: Sequence[str]) -> None:
@@ -94,6 +111,8 @@ class Slot:
         key = marshal.dumps((list(words), where, variables, sys.stdout.isatty()))
         self._path = os.path.join(kept, digest(key))
         self._head = _MAGIC + tool().encode()
+        data = read_sealed(self._path, self._head)
+        self.last = None if data is None else Run(*marshal.loads(data))  # noqa: S302  own files
 
     @classmethod
     def of(cls, words: Sequence[str]) -> Slot | None:
@@ -103,11 +122,6 @@ class Slot:
             return cls(kept, words) if kept is not None else None
         except (OSError, ValueError):
             return None
-
-    def load(self) -> Run | None:
-        """Return the last run, if this very tool remembered it and nothing damaged it."""
-        data = read_sealed(self._path, self._head)
-        return None if data is None else Run(*marshal.loads(data))  # noqa: S302  own files
 
     def save(self, run: Run) -> None:
         """Store a run."""

@@ -46,13 +46,13 @@ class Memory:
         """By place, the packages whose verdict still stands."""
         self._trees: dict[int, Seen] = {}
         self._outside: Seen = {}
-        if run is not None and holds(run.outside):
+        if run is not None and run.is_same_outside():
             self._recall(run, [_Known(*one) for one in run.results])
 
     def _recall(self, run: Run, known: Sequence[_Known]) -> None:
         if [(one.directory, one.only) for one in known] != [_asked(one) for one in self._targets]:
             return
-        same = [seen is not None and holds(seen) for seen in run.trees]
+        same = [run.is_same(at) for at in range(len(run.trees))]
         for one, target, is_same in zip(known, self._targets, same, strict=True):
             if not is_same and one.identity != tuple(target.package.identity):
                 return

@@ -92,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
         return _reference(targets)
     # Nobody knows what else a rule of the user's own looks at.
     slot = None if settings.content else getattr(options, "slot", None)
-    memory = Memory(slot.load() if slot else None, targets)
+    memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = _Copy()
     reporters.get(options.format)(results, output)

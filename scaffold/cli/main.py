@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(given: list[str]) -> int:
     verb = next((word for word in given if not word.startswith("-")), "")
     slot = memory.Slot.of(given) if verb == "check" else None
-    last = slot.load() if slot is not None else None
+    last = slot.last if slot is not None else None
     if last is not None and last.is_current():
         # Before argparse: laying out the flags takes longer than looking at a small package.
         sys.stdout.write(last.output)
