@@ -280,7 +280,7 @@ def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_pa
         *TESTED,
         PYTHONPATH=path,
     )
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.returncode == 0, workspace.colcon("test-result", "--verbose").stdout
     build = workspace.root / "build"
     sine = results_of(build / "cmake_float")
     assert sine.pop("test_sine") == (2, 0)
