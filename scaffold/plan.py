@@ -8,7 +8,6 @@ a failure puts back what was there.
 from __future__ import annotations
 
 import os
-import secrets
 import shutil
 import stat
 from collections.abc import Callable, Collection, Mapping
@@ -107,9 +106,13 @@ class WritePlan:
         """The paths of files that exist and would be changed or removed."""
         return [file.path for file in self.files if file.state in {State.DIFFERING, State.REMOVED}]
 
-    def diff(self) -> str:
-        """Return the changes as a unified diff, new files included."""
-        return "".join(_diff(file) for file in self.changes)
+    def diff(self, *, hidden: Collection[str] = ()) -> str:
+        """Return the changes as a unified diff, new files included.
+
+        Args:
+            hidden: Paths of files that nobody reads.
+        """
+        return "".join(_diff(file) for file in self.changes if file.path not in hidden)
 
     def write(self, *, force: bool = False) -> None:
         """Write what differs.
@@ -235,7 +238,7 @@ def _refuse_files_inside_files(planned: list[PlannedFile]) -> None:
 
 def _hidden(directory: str, name: str) -> str:
     """Return a name that colcon, git status and globs do not take for the real thing."""
-    return os.path.join(directory, f".{name[:100]}.{secrets.token_hex(4)}.tmp")
+    return os.path.join(directory, f".{name[:100]}.{os.urandom(4).hex()}.tmp")
 
 
 def _write(name: str, file: PlannedFile) -> None:

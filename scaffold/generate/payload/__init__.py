@@ -1,18 +1,18 @@
-"""What generated nodes put into messages, services and actions: code, checks, words."""
+"""What generated nodes put into messages, services and actions: code, checks, words.
+
+What makes a payload is imported when one is asked for: most packages need a single kind.
+"""
 
 from __future__ import annotations
 
 import os
 
-from scaffold.generate.payload.action import of_action
-from scaffold.generate.payload.message import of_message
 from scaffold.generate.payload.payloads import (
     ActionPayload,
     Payload,
     SectionPayload,
     ServicePayload,
 )
-from scaffold.generate.payload.service import of_service
 from scaffold.model.interfaces import KINDS, Definitions
 
 __all__ = [
@@ -38,35 +38,39 @@ def payload(text: str, interfaces: Definitions | None = None) -> Payload:
         InputError: the type is not known or cannot be used; the message names the nearest
             ones, or the file and the line of what is wrong.
     """
+    from scaffold.generate.payload.message import of_message
+
     return of_message(text, interfaces or definitions())
 
 
 def service(text: str, interfaces: Definitions | None = None) -> ServicePayload:
     """Return how to ask and answer services of a type; see `payload`."""
+    from scaffold.generate.payload.services import of_service
+
     return of_service(text, interfaces or definitions())
 
 
 def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
     """Return how to ask for and work on actions of a type; see `payload`."""
+    from scaffold.generate.payload.actions import of_action
+
     return of_action(text, interfaces or definitions())
 
 
 def definitions(directory: str = ".") -> Definitions:
     """Return the definitions of the workspace around a directory, installed ones, common ones."""
-    from scaffold.errors import InputError
-    from scaffold.generate import place
-    from scaffold.model import discovery
+    from scaffold.model import colcon
+    from scaffold.model.disk import Disk
+    from scaffold.model.package import Package
     from scaffold.model.workspace import Workspace
 
-    top = place.workspace(directory)
-    if top is None:
-        return Definitions.around()
-    try:
-        targets = list(discovery.find([os.path.join(top, place.SOURCES)]))
-    except InputError:  # none yet
-        return Definitions.around()
-    packages = [target.package for target in targets if _has_interfaces(target.package.directory)]
-    return Definitions.around(Workspace(packages))
+    disk = Disk()
+    sources = colcon.sources_at(disk, disk.real(directory))
+    workspace = Workspace()
+    for found in colcon.package_directories(disk, sources) if sources else ():
+        if _has_interfaces(found):
+            workspace.add(Package.at(found, workspace))
+    return Definitions.around(workspace)
 
 
 def _has_interfaces(directory: str) -> bool:
