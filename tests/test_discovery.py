@@ -8,7 +8,8 @@ import pytest
 
 from scaffold.errors import InputError
 from scaffold.model import discovery
-from scaffold.model.tree import IGNORE_MARKERS, DiskTree
+from scaffold.model.colcon import IGNORE_MARKERS
+from scaffold.model.tree import DiskTree
 
 MANIFEST = "<package format='3'><name>{}</name></package>\n"
 

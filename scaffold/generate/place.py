@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 
 from scaffold.errors import ConflictError, InputError
+from scaffold.model import colcon
+from scaffold.model.disk import Disk
 from scaffold.model.package import Package
 from scaffold.model.tree import MANIFEST
-
-SOURCES = "src"
-"""The directory of a workspace with the packages."""
 
 
 def check(destination: str, package: str) -> None:
@@ -29,53 +27,27 @@ def check(destination: str, package: str) -> None:
         top = os.path.dirname(top)
     if not os.path.isdir(top):
         raise InputError(f"{destination}: {top} is not a directory")
-    _refuse_nested(top)
+    if outer := colcon.package_around(Disk(), top):
+        raise ConflictError(
+            f"{outer} is a package, and colcon does not look for others inside of it"
+        )
     own = os.path.join(os.path.realpath(destination), package)
     for other in _neighbours(top):
-        directory = os.path.realpath(other.directory)
-        if directory != own and other.name == package:
+        directory = os.path.realpath(other)
+        if directory != own and Package.at(directory).name == package:
             raise ConflictError(f"{directory} is a package with the name {package!r} already")
 
 
 def workspace(destination: str) -> str | None:
-    """Return the workspace of a directory: the parent of the innermost ``src`` above it."""
-    sources = _sources(os.path.realpath(destination))
+    """Return the workspace that a directory belongs to: where colcon is started."""
+    sources = colcon.sources_at(Disk(), os.path.realpath(destination))
     return os.path.dirname(sources) if sources else None
 
 
-def _sources(directory: str) -> str | None:
-    below = os.path.join(directory, SOURCES)
-    if os.path.isdir(below):
-        return below
-    while os.path.basename(directory) != SOURCES:
-        if directory == os.path.dirname(directory):
-            return None
-        directory = os.path.dirname(directory)
-    return directory
-
-
-def _refuse_nested(directory: str) -> None:
-    while True:
-        if os.path.isfile(os.path.join(directory, MANIFEST)):
-            raise ConflictError(
-                f"{directory} is a package, and colcon does not look for others inside of it"
-            )
-        parent = os.path.dirname(directory)
-        if parent == directory:
-            return
-        directory = parent
-
-
-def _neighbours(top: str) -> Iterator[Package]:
-    """Yield the packages of the workspace; outside of one, those beside the new package."""
-    sources = _sources(top)
-    if sources is not None:
-        from scaffold.model import discovery
-
-        try:
-            yield from (target.package for target in discovery.find([sources]))
-        except InputError:  # none yet
-            return
-    for name in sorted(os.listdir(top)):
-        if os.path.isfile(os.path.join(top, name, MANIFEST)):
-            yield Package.at(os.path.join(top, name))
+def _neighbours(top: str) -> list[str]:
+    """Return the packages of the workspace, and those beside the new package."""
+    disk = Disk()
+    sources = colcon.sources_at(disk, top)
+    found = colcon.package_directories(disk, sources) if sources else []
+    beside = (os.path.join(top, name) for name in disk.names(top)[1])
+    return [*found, *(one for one in beside if disk.is_file(os.path.join(one, MANIFEST)))]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from scaffold.errors import InputError
+from scaffold.model import colcon
 from scaffold.model.disk import Disk
 from scaffold.model.package import Package
-from scaffold.model.surroundings import Surroundings, sources_around
-from scaffold.model.tree import BUILD_DIRECTORIES, IGNORE_MARKERS, MANIFEST, DiskTree
+from scaffold.model.surroundings import Surroundings
+from scaffold.model.tree import MANIFEST, DiskTree
 from scaffold.model.workspace import Workspace
 from scaffold.record import NamedTuple
 
@@ -73,7 +74,7 @@ def _surroundings(disk: Disk, workspace: Workspace, given: Sequence[str]) -> Sur
     """Return the packages beside those given, unless the whole workspace was given."""
     own = [disk.real(one.directory) for one in workspace if not isinstance(one.tree, _LooseFiles)]
     covered = [os.path.join(disk.real(path), "") for path in given]
-    sources = dict.fromkeys(filter(None, (sources_around(disk, one) for one in own)))
+    sources = dict.fromkeys(filter(None, (colcon.sources_around(disk, one) for one in own)))
     open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
     return Surroundings(open_, frozenset(own), workspace) if open_ else None
 
@@ -101,52 +102,20 @@ def _sort_files(
 
 
 def _package_directories(disk: Disk, path: str) -> list[str]:
-    found = list(_walk(disk, path))
+    found = colcon.package_directories(disk, path)
+    # If nothing else is there, these are meant; a rule says that colcon does not see them.
+    found = found or colcon.package_directories(disk, path, ignored=True)
     if found:
         return found
-    # Nothing else is there, so these are meant; a rule says that colcon does not see them.
-    hidden = list(_walk(disk, path, ignored=True))
-    if hidden:
-        return hidden
     if disk.is_file(os.path.join(path, "setup.py")):
         raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
     raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")
 
 
-def _walk(disk: Disk, top: str, *, ignored: bool = False) -> Iterator[str]:
-    """Yield package directories in sorted order; what lies inside a package is not searched."""
-    if disk.is_file(os.path.join(top, MANIFEST)):
-        yield top
-        return
-    pending = [top]
-    while pending:
-        parent = pending.pop()
-        below: list[str] = []
-        for name in disk.names(parent)[1]:
-            path = os.path.join(parent, name)
-            if name.startswith("."):
-                continue
-            if not ignored and any(disk.exists(os.path.join(path, m)) for m in IGNORE_MARKERS):
-                continue
-            if disk.is_file(os.path.join(path, MANIFEST)):
-                yield path
-            elif name not in BUILD_DIRECTORIES:
-                below.append(path)
-        pending.extend(reversed(below))
-
-
 def _package_of(disk: Disk, path: str) -> str | None:
-    """Return the nearest directory above a file that has a manifest, as the user would write it."""
-    directory = os.path.dirname(path)
-    absolute = os.path.abspath(directory or ".")
-    for _ in range(64):
-        if disk.is_file(os.path.join(absolute, MANIFEST)):
-            return os.path.relpath(absolute) if not os.path.isabs(path) else absolute
-        parent = os.path.dirname(absolute)
-        if parent == absolute:
-            break
-        absolute = parent
-    return None
+    """Return the package that a file lies in, as the user would write it."""
+    found = colcon.package_around(disk, os.path.dirname(os.path.abspath(path)))
+    return os.path.relpath(found) if found and not os.path.isabs(path) else found
 
 
 def _relative(path: str, root: str) -> str:

@@ -13,42 +13,16 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.tree import BUILD_DIRECTORIES, IGNORE_MARKERS, MANIFEST
+from scaffold.model.colcon import package_directories
+from scaffold.model.tree import MANIFEST
 
 if TYPE_CHECKING:
-    from scaffold.model.disk import Disk
     from scaffold.model.package import Package
     from scaffold.model.workspace import Workspace
 
-SOURCES = "src"
-"""The directory of a workspace with the packages."""
 MOST_DIRECTORIES = 2000
 """A larger workspace is not searched: that would take longer than the check of a package."""
 _NAME = rb"<name>\s*([A-Za-z][\w-]*)\s*</name>"
-
-
-def sources_around(disk: Disk, directory: str) -> str | None:
-    """Return the directory with the sources of the workspace that a package lies in.
-
-    The one beside the results of colcon, else the innermost that is called ``src``.
-
-    Args:
-        disk: Notes what was looked at.
-        directory: Of the package, without links.
-    """
-    found: list[str] = []
-    parent = os.path.dirname(directory)
-    while parent != os.path.dirname(parent):
-        if os.path.basename(parent) == SOURCES:
-            found.append(parent)
-        parent = os.path.dirname(parent)
-    for sources in found if len(found) > 1 else ():
-        if any(disk.is_directory(os.path.join(os.path.dirname(sources), n)) for n in _RESULTS):
-            return sources
-    return found[0] if found else None
-
-
-_RESULTS = ("install", "build")
 
 
 class Surroundings:
@@ -71,7 +45,7 @@ class Surroundings:
         """Where the packages are, by name; none if there are too many directories."""
         found: dict[str, str] = {}
         for top in self._sources:
-            for directory in _package_directories(self._workspace.disk, top):
+            for directory in package_directories(self._workspace.disk, top, most=MOST_DIRECTORIES):
                 name = None if directory in self._own else self._name_of(directory)
                 if name is not None:
                     found.setdefault(name, directory)
@@ -100,24 +74,3 @@ class Surroundings:
             found = self.get(name)
             if found is not None:
                 yield found
-
-
-def _package_directories(disk: Disk, top: str) -> list[str]:
-    """Return where packages are, the way colcon looks for them."""
-    found: list[str] = []
-    pending = [top]
-    for directory in pending:
-        files, children, _ = disk.names(directory)
-        if not set(IGNORE_MARKERS).isdisjoint(files):
-            continue
-        if MANIFEST in files:
-            found.append(directory)
-            continue
-        pending += [
-            os.path.join(directory, name)
-            for name in children
-            if not name.startswith(".") and name not in BUILD_DIRECTORIES
-        ]
-        if len(pending) > MOST_DIRECTORIES:
-            return []
-    return found

@@ -11,8 +11,6 @@ from scaffold.model.disk import Disk
 
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
-IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
-"""Files that hide a directory from colcon."""
 
 
 class Tree(Protocol):
