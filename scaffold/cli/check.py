@@ -65,8 +65,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
-    import gc
-
     from scaffold import config, content, reporters
     from scaffold.check import registry
     from scaffold.check.remembered import Memory
@@ -77,12 +75,7 @@ def run(options: argparse.Namespace) -> int:
 
     disk = Disk()
     settings = config.load(content=tuple(options.content), disk=disk)
-    gc.disable()  # nothing of what is loaded now can be collected
-    try:
-        rules = registry.load(content.roots("rules", settings.content))
-    finally:
-        gc.freeze()
-        gc.enable()
+    rules = registry.load(content.roots("rules", settings.content))
     selection = _selection(options, settings, rules)
     session = Session(rules, selection)
     targets = discovery.find(options.paths, disk)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import sys
@@ -21,8 +22,8 @@ AT_FAULT = 2
 DEFECT = 3
 INTERRUPTED = 130
 
-COLLECT_FROM = 10_000
-"""Objects after which Python looks for garbage: the modules that a short run loads hold none."""
+COLLECT_FROM = 100_000
+"""Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
 
 VERBS = {
     "new": "write a package",
@@ -46,6 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
     gc.set_threshold(COLLECT_FROM)
+    atexit.register(gc.freeze)  # else Python looks through everything once more
     try:
         if "_ARGCOMPLETE" in os.environ:
             _complete()
