@@ -119,6 +119,8 @@ PERSONS = (
         "|x|",
         "Ada, Bob and the others of the lab",
     ),
+    *("coding: latin-1", "Ada -*- coding: utf-16 -*-", "coding=none", "\u200b" * 60, "日" * 60),
+    *("\U000e0001" * 60, "'" * 60, "*/", "# flake8: noqa", "&amp;", "👩\u200d👩\u200d👧 family"),
 )
 NAMES = (
     *("match", "type", "case", "print", "self", "cls", "node", "main", "rclpy", "math", "signal"),
@@ -278,6 +280,7 @@ TOPICS = (
         "x" * 30 + "/" + "y" * 30,
         "0x1",
     ),
+    *("~/get_parameters", "~/transition_event", "/talker/set_parameters", "~/~", "parameters"),
 )
 MESSAGES = (
     *(
@@ -765,12 +768,46 @@ def test_answers_together(kind: str, data: st.DataObject) -> None:
             },
             "'HTTPServer' and 'HttpServer' are too alike: .* http_server.hpp",
         ),
+        ({"copyright_holder": "Ada coding: latin-1"}, "would tell Python the encoding"),
+        (
+            {"add": [{"kind": "service_server", "name": "a", "service": "/a/get_parameters"}]},
+            "--service: '/a/get_parameters' is a service that ROS gives the node itself",
+        ),
+        (
+            {
+                "add": [
+                    {"kind": "service_server", "name": "a", "service_type": "std_srvs/srv/Empty"},
+                    {"kind": "service_client", "name": "b"},
+                ]
+            },
+            "the service /add_two_ints is std_srvs/srv/Empty in a, but example_interfaces/srv/",
+        ),
     ],
 )
 def test_what_would_break_is_refused(wanted: dict[str, Any], message: str) -> None:
     asked = {name: Given(value, f"--{name}") for name, value in wanted.items()}
     with pytest.raises(InputError, match=message):
         draft.draft(ROOTS, TEMPLATES, {"package": Given("talker", "PACKAGE"), **asked}, User("."))
+
+
+def test_a_topic_of_two_types_is_noted() -> None:
+    parts = [
+        {"kind": "publisher", "name": "eye", "message_type": "Image"},
+        {"kind": "publisher_subscriber", "name": "ear", "input_topic": "/example_topic"},
+    ]
+    made = judged({"package": "talker", "add": parts})
+    assert made is not None
+    (said,) = (one for one in made.remarks if "example_topic" in one)
+    assert said == (
+        "the topic /example_topic is sensor_msgs/msg/Image in eye, but std_msgs/msg/String in "
+        "ear: they do not connect; give both the same type, or another name to one"
+    )
+
+
+@pytest.mark.parametrize("name", ["parameter", "params", "ros_params", "ros_parameters"])
+def test_nodes_may_be_called_parameters(name: str) -> None:
+    part = {"kind": "publisher", "node_name": name}
+    assert judged({"package": "talker", "add": [part], "extras": ["launch"]}) is not None
 
 
 @pytest.mark.parametrize("name", ["none", "true", "value_error", "node", "exception"])

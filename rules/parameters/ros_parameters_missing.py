@@ -29,6 +29,10 @@ class RosParametersMissing(Rule):
     examples = (
         Example("two underscores", {"config/talker.yaml": _FILE.format("ros__parameters")}),
         Example(
+            "a node that is called so",
+            {"config/a.yaml": _FILE.format("ros__parameters").replace("talker", "parameters")},
+        ),
+        Example(
             "one underscore; too few letters",
             {
                 "config/a.yaml": _FILE.format("ros_parameters"),

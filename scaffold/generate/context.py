@@ -127,6 +127,7 @@ def _node(
     for question in part.template.questions:
         if question.type in _GRAPH_NAMES:
             full_name = _full_name(question, node[question.name], name)
+            _refuse_own(question, full_name, name)
             node[f"{question.name}_name"] = full_name
             other = flags.setdefault((question.type, full_name), flag(question.name))
             if other != flag(question.name):
@@ -154,6 +155,26 @@ def _full_name(question: Question, given: str, node: str) -> str:
             f"the limit is {names.MAX_TOPIC}"
         )
     return name
+
+
+_OWN_NAMES: Mapping[str, frozenset[str]] = {
+    "topic": frozenset({"transition_event"}),
+    "service_name": frozenset(
+        {"describe_parameters", "get_parameter_types", "get_parameters", "get_type_description"}
+        | {"list_parameters", "set_parameters", "set_parameters_atomically"}
+    ),
+}
+"""What nodes have below their own names, by the type of the question."""
+
+
+def _refuse_own(question: Question, full_name: str, node: str) -> None:
+    """Raise if a name is one that the node has for itself: two of them would not get along."""
+    own = full_name.removeprefix(f"/{node}/")
+    if own != full_name and own in _OWN_NAMES.get(question.type, ()):
+        what = question.type.partition("_")[0]
+        raise InputError(
+            f"{flag(question.name)}: {full_name!r} is a {what} that ROS gives the node itself"
+        )
 
 
 _WIDER: Mapping[str, str] = {

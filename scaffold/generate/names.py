@@ -26,9 +26,15 @@ _DIRECTORIES = frozenset(
     | {"scripts", "share", "src", "srv", "tests", "urdf", "worlds"}
 )
 _PYTHON_PACKAGES = frozenset(
-    {"catkin_pkg", "colcon_core", "em", "flake8", "lark", "lxml", "matplotlib", "numpy", "pip"}
-    | {"pkg_resources", "pydocstyle", "pytest", "requests", "scipy", "setuptools", "wheel", "yaml"}
+    {"argcomplete", "attr", "attrs", "bloom", "catkin_pkg", "colcon_core", "coverage"}
+    | {"cryptography", "distro", "distutils", "docutils", "em", "flake8", "hypothesis"}
+    | {"iniconfig", "lark", "lxml", "markupsafe", "matplotlib", "mccabe", "mypy", "netifaces"}
+    | {"numpy", "pip", "pkg_resources", "pluggy", "pycodestyle", "pycparser", "pydocstyle"}
+    | {"pyflakes", "pygments", "pyparsing", "pytest", "requests", "rosdep2", "rosdistro"}
+    | {"rospkg", "scipy", "setuptools", "six", "snowballstemmer", "urllib3", "vcstool"}
+    | {"wheel", "yaml"}
 )
+"""What colcon, the linters and the tools of ROS import, besides the modules that rosdep knows."""
 _TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
 _IMPORTED_CLASSES = frozenset(
     {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
@@ -63,10 +69,16 @@ def _why_taken(name: str) -> str:
         (name in _DIRECTORIES, "is the name of a directory in workspaces and packages"),
         (name in sys.stdlib_module_names, "is a module of the Python standard library"),
         (name in ROS_PACKAGES or name == "ros", "is an existing ROS package"),
-        (name in _PYTHON_PACKAGES, "is an existing Python package"),
+        (_is_python_package(name), "is an existing Python package"),
         (prefix is not None, f"is a package installed in {prefix}"),
     )
     return next((reason for applies, reason in reasons if applies), "")
+
+
+def _is_python_package(name: str) -> bool:
+    from scaffold.model.known import keys_of_module
+
+    return name in _PYTHON_PACKAGES or bool(keys_of_module(name))
 
 
 def _installed(name: str) -> str | None:
@@ -87,9 +99,7 @@ def node_name(text: str) -> str:
     _check_form(text, "node name")
     if iskeyword(text):
         raise InputError(f"the node name {text!r} is a keyword of Python; choose another one")
-    from scaffold.model.known import ROS_PACKAGES
-
-    if text in sys.stdlib_module_names or text in _PYTHON_PACKAGES or text in ROS_PACKAGES:
+    if text in sys.stdlib_module_names or _is_python_package(text):
         raise InputError(f"the node name {text!r} would hide the Python module {text}")
     if text in _TEST_MODULES or text.startswith("test_") or text.endswith("_test"):
         raise InputError(f"the node name {text!r} is the name of a test file for pytest")

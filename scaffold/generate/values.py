@@ -31,6 +31,9 @@ MAX_TEXT = 3000
 MAX_PERSON = 60
 """Characters of a name or a mail address: it stands on one line with its key."""
 
+_ENCODING = r"coding[:=]\s*[-\w.]"
+"""What Python takes for the encoding of a file, in a comment on its first two lines."""
+
 _ADDRESS = r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}"
 """What catkin_pkg accepts; colcon passes over a package whose maintainer has another one."""
 
@@ -65,6 +68,8 @@ def person(given: object) -> str:
         raise InputError(f"{_short(name)!r} has more than {MAX_PERSON} characters")
     if set(name) & set('"\\'):
         raise InputError(f"{name!r} holds a double quote or a backslash")
+    if re.search(_ENCODING, name):
+        raise InputError(f"{name!r} would tell Python the encoding of the files")
     return name
 
 

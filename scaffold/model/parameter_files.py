@@ -109,7 +109,7 @@ class ParameterFile:
             if key.text == KEY and near is None:
                 self._read_section(key, value, above)
             elif isinstance(value, Mapping):
-                is_near = near is None and re.fullmatch(_NEAR, key.text) is not None
+                is_near = near is None and re.fullmatch(_NEAR, key.text) and not _has_key(value)
                 self._read(value, (*above, key), key if is_near else near)
             else:
                 depth = above.index(near) if near is not None else len(above)
@@ -126,6 +126,11 @@ class ParameterFile:
                 self.refused.extend(_refused(entry.name, entry.key, entry.value))
         elif isinstance(value, Scalar):
             self.refused.append(Refused(key.location, f"{KEY} holds no parameters"))
+
+
+def _has_key(mapping: Mapping) -> bool:
+    """Tell whether a mapping is the node that its key names, even if that is ``parameters``."""
+    return any(key.text == KEY for key, _ in mapping.pairs)
 
 
 def parameter_file(package: Package, path: str) -> ParameterFile | None:
