@@ -47,6 +47,14 @@ class ParameterReadUndeclared(Rule):
             {"talker.py": _NODE.format("        declare_all(self)\n", "")},
         ),
         Example(
+            "declared through a variable",
+            {
+                "talker.py": _NODE.format(
+                    "        declare = self.declare_parameter\n        declare('rate', 1.0)\n", ""
+                )
+            },
+        ),
+        Example(
             "another one declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
             at=("talker.py:8",),

@@ -46,6 +46,8 @@ _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "ActionServer": ("node", "action_type", "action_name", "execute_callback"),
     "ActionClient": ("node", "action_type", "action_name"),
 }
+NODE_METHODS = tuple(name for name in _SIGNATURES if name.islower())
+"""The methods of a node that create or read something."""
 _READS = frozenset({"get_parameter", "get_parameter_or", "has_parameter", "get_parameter_type"})
 _ENDPOINTS: Mapping[str, type[Endpoint]] = {
     "create_publisher": Publisher,
@@ -77,8 +79,8 @@ class Creation:
                 yield from self._created_by(call, method)
 
     def _creating_method(self, call: ast.Call) -> str | None:
-        func = call.func
-        if isinstance(func, ast.Attribute) and func.attr in _SIGNATURES and func.attr[0].islower():
+        func = self._facts.method_of(call)
+        if func is not None and func.attr in NODE_METHODS:
             if self._facts.is_node_class(func.value):
                 return None  # Node.create_publisher(self, ...): an override passes on its own
             is_node = self._facts.owner_of(func.value) is not None
@@ -152,8 +154,9 @@ class Creation:
             else:
                 arguments[word.arg] = self._argument(word.arg, word.value)
         attribute, variable = self.target(call)
-        if isinstance(call.func, ast.Attribute) and method not in _ACTIONS.values():
-            owner = self._facts.owner_of(call.func.value)
+        func = self._facts.method_of(call)
+        if func is not None and method not in _ACTIONS.values():
+            owner = self._facts.owner_of(func.value)
         else:
             owner = self._facts.owner_of(arguments["node"].node) if "node" in arguments else None
         return Created(

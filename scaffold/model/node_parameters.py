@@ -81,8 +81,8 @@ class Declarations:
         self._is_indexing = True
         found: dict[str, list[_Declaration]] = {}
         for call in self._facts.module.walk(ast.Call):
-            func = call.func
-            if isinstance(func, ast.Attribute) and func.attr in SIGNATURES:
+            func = self._facts.method_of(call)
+            if func is not None and func.attr in SIGNATURES:
                 owner = self._facts.owner_of(func.value)
                 for prefix, name, value in self.declarations_in(call, func.attr):
                     text = self.full_name(prefix, name)

@@ -76,15 +76,16 @@ class NodeEvaluator(SelfEvaluator):
     def _parameter(self, node: ast.expr) -> object:
         """Return the default of the parameter that an expression such as a call reads."""
         call = self.single_value(node)
-        if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+        if not isinstance(call, ast.Call):
             return UNKNOWN
-        if call.func.attr not in PARAMETER_CALLS:
+        func = self.single_value(call.func) if isinstance(call.func, ast.Name) else call.func
+        if not isinstance(func, ast.Attribute) or func.attr not in PARAMETER_CALLS:
             return UNKNOWN
         named = [*call.args, *(word.value for word in call.keywords if word.arg == "name")]
         name = self.text(named[0]) if named else UNKNOWN
         if name is UNKNOWN:
             return UNKNOWN
-        value = self._default_of(call.func.value, name)
+        value = self._default_of(func.value, name)
         if value is None or not is_known(value):
             return UNKNOWN
         self.note(NOTE + name)

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from scaffold.errors import ViewError
 from scaffold.model import node_callbacks
-from scaffold.model.node_creation import Creation
+from scaffold.model.node_creation import NODE_METHODS, Creation
 from scaffold.model.node_entities import (
     ActionClient,
     ActionServer,
@@ -209,6 +209,25 @@ class NodeFacts:
                     return item
             return self._base_class(call.func, self.module.qualified_names(call.func))
         return None
+
+    def method_of(self, call: ast.Call) -> ast.Attribute | None:
+        """Return the method that is called, also through ``declare = self.declare_parameter``."""
+        func: ast.expr | None = call.func
+        if isinstance(func, ast.Name) and func.id in self._method_variables:
+            func = self.evaluator.single_value(func)
+        return func if isinstance(func, ast.Attribute) else None
+
+    @cached_property
+    def _method_variables(self) -> frozenset[str]:
+        """The variables that a method of a node is stored in."""
+        return frozenset(
+            target.id
+            for method in NODE_METHODS
+            for node in self.module.index.attributes(method)
+            if isinstance(assignment := self.module.parent(node), ast.Assign)
+            for target in assignment.targets
+            if isinstance(target, ast.Name)
+        )
 
     def defines(self, node: ast.ClassDef, method: str, depth: int = MAX_BASES) -> bool:
         """Tell whether a class, or a base class in the package, has a method of its own."""
