@@ -131,6 +131,53 @@ def package_of(path: str, packages: list[str]) -> str:
     return max((p for p in packages if not p or path.startswith(p + "/")), key=len, default="")
 
 
+class Tally:
+    """How often both sides agree, by code."""
+
+    def __init__(self) -> None:
+        self.agree: Counter[str] = Counter()
+        self.missing: Counter[str] = Counter()
+        self.extra: Counter[str] = Counter()
+        self.passes: Counter[str] = Counter()
+        """Files and packages that only one side calls clean, in the words of the summary."""
+
+    def add(self, directory: Path, theirs: set[Finding], mine: set[Finding]) -> None:
+        """Count what was found in a directory."""
+        self.agree.update(code for _, _, code in theirs & mine)
+        self.missing.update(code for _, _, code in theirs - mine)
+        self.extra.update(code for _, _, code in mine - theirs)
+        manifests = (str(p.parent.relative_to(directory)) for p in directory.rglob("package.xml"))
+        packages = ["", *("" if path == "." else path for path in manifests)]
+        their_files, my_files = {f for f, _, _ in theirs}, {f for f, _, _ in mine}
+        their_packages = {package_of(f, packages) for f in their_files}
+        my_packages = {package_of(f, packages) for f in my_files}
+        self.passes["files"] += len(their_files - my_files)
+        self.passes["packages"] += len(their_packages - my_packages)
+        self.passes["files that only we fail"] += len(my_files - their_files)
+        self.passes["packages that only we fail"] += len(my_packages - their_packages)
+
+    def show(self) -> None:
+        """Print a line for each code, and the sums."""
+        print(f"{'code':8}{'ament':>8}{'agree':>8}{'-':>6}{'+':>6}")
+        for code in sorted({*self.agree, *self.missing, *self.extra}):
+            self._show_line(
+                code, self.agree[code], self.missing[code], self.extra[code], ending="\n"
+            )
+        same, missing, extra = (sum(c.values()) for c in (self.agree, self.missing, self.extra))
+        everything = same + missing + extra
+        agreement = same / everything if everything else 1
+        self._show_line("all", same, missing, extra, ending=f"   agreement {agreement:.4%}\n")
+        print(
+            f"false passes: {self.passes['files']} files, {self.passes['packages']} packages; "
+            f"only we fail: {self.passes['files that only we fail']} files, "
+            f"{self.passes['packages that only we fail']} packages"
+        )
+
+    @staticmethod
+    def _show_line(code: str, same: int, missing: int, extra: int, *, ending: str) -> None:
+        print(f"{code:8}{same + missing:8}{same:8}{missing:6}{extra:6}", end=ending)
+
+
 def main() -> int:
     """Compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -142,54 +189,22 @@ def main() -> int:
     parser.add_argument("--oracle-only", action="store_true")
     args = parser.parse_args()
 
-    agree: Counter[str] = Counter()
-    missing: Counter[str] = Counter()
-    extra: Counter[str] = Counter()
-    passes: Counter[str] = Counter()
+    tally = Tally()
     for directory in args.directories:
         theirs = union(*oracle(args, directory))
         if args.oracle_only:
             print(f"{directory.name}: {len(theirs)} findings", flush=True)
             continue
         mine = ours(directory)
-        agree.update(code for _, _, code in theirs & mine)
-        missing.update(code for _, _, code in theirs - mine)
-        extra.update(code for _, _, code in mine - theirs)
+        tally.add(directory, theirs, mine)
         for sign, difference in (("-", theirs - mine), ("+", mine - theirs)):
             for path, line, code in sorted(difference):
                 if code in args.show or "all" in args.show:
                     print(f"{sign} {directory / path}:{line}: {code}")
-        packages = [
-            "",
-            *(str(p.parent.relative_to(directory)) for p in directory.rglob("package.xml")),
-        ]
-        packages = ["" if p == "." else p for p in packages]
-        their_files, my_files = {f for f, _, _ in theirs}, {f for f, _, _ in mine}
-        their_packages = {package_of(f, packages) for f in their_files}
-        my_packages = {package_of(f, packages) for f in my_files}
-        passes["files"] += len(their_files - my_files)
-        passes["packages"] += len(their_packages - my_packages)
-        passes["files that only we fail"] += len(my_files - their_files)
-        passes["packages that only we fail"] += len(my_packages - their_packages)
-
     if args.oracle_only:
         return 0
-    print(f"{'code':8}{'ament':>8}{'agree':>8}{'-':>6}{'+':>6}")
-    for code in sorted({*agree, *missing, *extra}):
-        total = agree[code] + missing[code]
-        print(f"{code:8}{total:8}{agree[code]:8}{missing[code]:6}{extra[code]:6}")
-    total, same = sum(agree.values()) + sum(missing.values()), sum(agree.values())
-    union_size = total + sum(extra.values())
-    print(
-        f"{'all':8}{total:8}{same:8}{sum(missing.values()):6}{sum(extra.values()):6}"
-        f"   agreement {same / union_size if union_size else 1:.4%}"
-    )
-    print(
-        f"false passes: {passes['files']} files, {passes['packages']} packages; only we fail: "
-        f"{passes['files that only we fail']} files, "
-        f"{passes['packages that only we fail']} packages"
-    )
-    return 1 if passes["files"] else 0
+    tally.show()
+    return 1 if tally.passes["files"] else 0
 
 
 if __name__ == "__main__":

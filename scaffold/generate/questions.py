@@ -214,23 +214,27 @@ def resolve(
         answers.values[question.name] = parse(question, found, where)
         answers.written[question.name] = found.value
 
-    later: list[Question] = []
+    later = [one for one in questions if one.name not in given and _is_jinja(one.default)]
     for question in questions:
-        found = given.get(question.name)
-        if found is None and question.default is None:
-            found = fallback(question.name)
-        elif found is None and isinstance(question.default, str) and "{" in question.default:
-            later.append(question)
-            continue
-        elif found is None:
-            found = Given(question.default, "default")
-        if found is None:
-            raise InputError(f"{flag(question.name)} is needed: {question.help}")
-        add(question, found)
+        if question not in later:
+            add(question, given.get(question.name) or _default(question, fallback))
     for question in later:
         text = render(question.default, {**known, **answers.values})
         add(question, Given(text, "default"))
     return answers
+
+
+def _is_jinja(default: object) -> bool:
+    return isinstance(default, str) and "{" in default
+
+
+def _default(question: Question, fallback: Callable[[str], Given | None]) -> Given:
+    if question.default is not None:
+        return Given(question.default, "default")
+    found = fallback(question.name)
+    if found is None:
+        raise InputError(f"{flag(question.name)} is needed: {question.help}")
+    return found
 
 
 def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: ANN401  as its type says

@@ -53,6 +53,8 @@ async def build(
 ) -> dict[str, Build]:
     """Build packages; return what became of each, by name.
 
+    Colcon is started again for packages that had no turn, because another made it fail.
+
     Args:
         environment: The ROS 2 to build with.
         packages: They are built where they are; nothing is written to them.
@@ -65,21 +67,17 @@ async def build(
     done: dict[str, Build] = {}
     left = list(packages)
     while left:
-        run = await process.start(
+        said, exit_code = await _run(
             command(environment, left, layout),
             variables(environment, scratch),
             scratch / "colcon",
             mark,
+            deadline,
         )
-        try:
-            in_time = await run.ended_within(deadline - time.monotonic())
-        finally:
-            await run.kill()
-            process.sweep(mark)
-        said = output.read(run.out) + output.read(run.err)
+        in_time = exit_code is not None
         if not in_time:
             said += f"\nthe build did not end within {timeout:g} s\n"
-        log = _Log.read(layout.log / "latest_build", said, succeeded=run.exit_code == 0)
+        log = _Log.read(layout.log / "latest_build", said, succeeded=exit_code == 0)
         # A package that makes colcon itself fail ends the build also of those that come later.
         later = [one for one in left if log.had_no_turn(one.name)] if in_time else []
         if len(later) == len(left):
@@ -87,6 +85,19 @@ async def build(
         done.update({one.name: log.result(one) for one in left if one not in later})
         left = later
     return done
+
+
+async def _run(
+    command: list[str], variables: Mapping[str, str], out: Path, mark: str, deadline: float
+) -> tuple[str, int | None]:
+    """Return what colcon says, and its exit code; ``None`` for it if time was up before."""
+    run = await process.start(command, variables, out, mark)
+    try:
+        in_time = await run.ended_within(deadline - time.monotonic())
+    finally:
+        await run.kill()
+        process.sweep(mark)
+    return output.read(run.out) + output.read(run.err), run.exit_code if in_time else None
 
 
 def command(environment: Environment, packages: Sequence[Source], layout: Layout) -> list[str]:
