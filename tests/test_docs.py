@@ -1,14 +1,23 @@
-"""The documentation of the rules is made from the rules; `make docs` renews it."""
+"""The pages of the rules are made from the rules (`make docs`); links and paths lead somewhere."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+
+import pytest
 
 from scaffold import content
 from scaffold.check import docs, registry
 from scaffold.check.session import all_rules
 
 ROOT = Path(__file__).parent.parent
+PAGES = [
+    str(path.relative_to(ROOT))
+    for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("changelog.d/*.md"))
+    if not re.fullmatch(r"[A-Z]{2}\d+", path.stem)
+]
+"""Those that are written by hand, and the table of the rules."""
 RULES = all_rules(registry.load(content.roots("rules")))
 
 
@@ -25,3 +34,12 @@ def test_table_lists_every_rule() -> None:
     assert [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("| [")] == [
         f"[{rule.code}]({rule.code}.md)" for rule in RULES
     ]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_and_paths_lead_somewhere(page: str) -> None:
+    text = (ROOT / page).read_text()
+    links = re.findall(r"\]\((?!https?:)([^)#]+)", text)
+    paths = re.findall(r"`((?:benchmarks|docs|scaffold|scripts|templates|tests)/[\w./]+)`", text)
+    named = [*((ROOT / page).parent / link for link in links), *(ROOT / path for path in paths)]
+    assert [str(path) for path in named if not path.exists()] == []
