@@ -1,6 +1,9 @@
 """Run ``add publisher extra_talker`` on copies of public packages, twice, and judge the result.
 
-    python benchmarks/add_public.py [--every N] [--build] [--diffs FILE] DIRECTORY...
+    python benchmarks/add_public.py [--every N] [--build] [--diffs FILE] [--extra EXTRA] DIR...
+
+With ``--extra launch`` it runs ``add launch`` instead; packages for which an extra has nothing to
+write are passed over.
 
 Printed per package: the lines that existing files gained and lost, what the checker says only
 afterwards, what is left to do by hand, whether a second run changes anything, and, with
@@ -33,6 +36,8 @@ from scaffold.model.package import Package
 from scaffold.smoke import environment
 
 NODE = "extra_talker"
+PASSED_OVER = "has nothing to write"
+"""What ``add`` says where an extra makes no sense."""
 SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log")
 BUILDERS = ("ament_cmake", "ament_python")
 
@@ -64,27 +69,28 @@ class Outcome(NamedTuple):
         return not failed and self.is_stable and not self.notes and self.built != "broken"
 
 
-def run_add(directory: Path, *more: str) -> tuple[int, str, str]:
+def run_add(what: list[str], directory: Path, *more: str) -> tuple[int, str, str]:
     """Run the command in this process; return its exit code and what it prints."""
     out, error = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-        words = ["add", "publisher", NODE, "--package-directory", str(directory), *more]
-        code = main.main(words)
+        code = main.main(["add", *what, "--package-directory", str(directory), *more])
     return code, out.getvalue(), error.getvalue()
 
 
-def judge(package: Package, root: Path, ros: environment.Environment | None) -> Outcome:
-    """Add a node to a copy of a package."""
+def judge(
+    package: Package, root: Path, ros: environment.Environment | None, what: list[str]
+) -> Outcome:
+    """Add a node or an extra to a copy of a package."""
     directory = root / "src" / package.name
     shutil.copytree(package.directory, directory, ignore=SKIPPED, symlinks=True)
     before = builds(root, package, ros) if ros else "not asked for"
-    _, diff, _ = run_add(directory, "--diff")
-    code, _, error = run_add(directory)
-    again, changes, _ = run_add(directory, "--diff")
+    _, diff, _ = run_add(what, directory, "--diff")
+    code, _, error = run_add(what, directory)
+    again, changes, _ = run_add(what, directory, "--diff")
     built = before
     if before == "builds" and ros is not None and code in {main.CLEAN, main.FOUND}:
         # What is left to the user may be what installs the program.
-        program = NODE if code == main.CLEAN else ""
+        program = NODE if code == main.CLEAN and NODE in what else ""
         built = "builds" if builds(root, package, ros, program) == "builds" else "broken"
     added, removed = counts(diff)
     lines = error.splitlines()
@@ -170,8 +176,9 @@ def summary(found: list[Outcome]) -> str:
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("directories", nargs="+", metavar="DIRECTORY")
+    parser.add_argument("directories", nargs="+", metavar="DIR")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="take each Nth package")
+    parser.add_argument("--extra", metavar="EXTRA", help="add this, not a node")
     parser.add_argument("--build", action="store_true", help="build with colcon")
     parser.add_argument("--diffs", metavar="FILE", help="write all diffs into a file")
     return parser.parse_args()
@@ -182,13 +189,16 @@ def run() -> int:
     options = parse()
     ros = environment.select(os.environ) if options.build else None
     targets = discovery.find(options.directories)[:: options.every]
+    what = [options.extra] if options.extra else ["publisher", NODE]
     found: list[Outcome] = []
     for target in targets:
         if target.package.build_type not in BUILDERS:
             continue
         with tempfile.TemporaryDirectory() as root:
-            found.append(judge(target.package, Path(root), ros))
-        print(shown(found[-1]), flush=True)
+            one = judge(target.package, Path(root), ros, what)
+        if PASSED_OVER not in one.said:
+            found.append(one)
+            print(shown(one), flush=True)
     print(summary(found))
     if options.diffs:
         Path(options.diffs).write_text("".join(f"# {one.name}\n{one.diff}" for one in found))

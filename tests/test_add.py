@@ -18,6 +18,7 @@ from scaffold.smoke import environment
 from tests.test_generated import Workspace, counts, needs_ros
 
 TEMPLATES = template.load(content.roots("templates"))
+EXTRAS = [name for name, one in TEMPLATES.items() if one.role is Role.EXTRA]
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 CMAKE = {
     "package.xml": """\
@@ -186,6 +187,75 @@ def test_what_does_not_fit_a_package_is_refused(
     assert main([*words, "--add", "message:Status"]) == 0
     capsys.readouterr()
     assert "such as demo_interfaces" in refused(tmp_path / "demo", capsys, "publisher", "talker")
+
+
+@pytest.mark.parametrize("build_type", ["ament_cmake", "ament_python"])
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_an_extra_makes_what_new_makes_with_it(
+    build_type: str, extra: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["new", "demo", *PERSON, "--build-type", build_type, "--add", "publisher:talker"]
+    words += ["--add", "parameters:settings", "--destination-directory"]
+    both, first = tmp_path / "both", tmp_path / "first"
+    assert main([*words, str(both), "--extras", extra]) == 0
+    assert main([*words, str(first)]) == 0
+    assert add(first / "demo", extra) == 0
+    assert read(first / "demo") == read(both / "demo")
+    capsys.readouterr()
+    assert add(first / "demo", extra) == 0
+    assert "nothing was changed" in capsys.readouterr().out
+
+
+def test_the_default_description_follows_the_parts(tmp_path: Path) -> None:
+    words = ["new", "demo", *PERSON, "--destination-directory", str(tmp_path)]
+    assert main([*words, "--node-name", "talker"]) == 0
+    assert add(tmp_path / "demo", "subscriber", "listener") == 0
+    described = "A ROS 2 package with the publisher node talker and the subscriber node listener"
+    assert f"<description>{described}</description>" in (tmp_path / "demo/package.xml").read_text()
+    assert main(["update", str(tmp_path / "demo"), "--diff"]) == 0
+
+
+def test_an_extra_joins_what_its_owner_has_changed(tmp_path: Path) -> None:
+    words = ["new", "demo", *PERSON, "--add", "publisher:talker", "--add", "cpp_program:tool"]
+    assert main([*words, "--destination-directory", str(tmp_path)]) == 0
+    demo = tmp_path / "demo"
+    changed = ("CMakeLists.txt", "README.md", "package.xml")
+    for path in changed:
+        text = (demo / path).read_text()
+        (demo / path).write_text(text.replace("Jazzy", "Kilted").replace("# Find", "# find"))
+    (demo / "package.xml").write_text((demo / "package.xml").read_text() + "<!-- mine -->\n")
+    before = read(demo)
+    assert add(demo, "launch") == 0
+    assert main(["check", str(demo)]) == 0
+    assert "\n    launch\n    config\n" not in (demo / "CMakeLists.txt").read_text()
+    readme = (demo / "README.md").read_text()
+    run = readme.index("ros2 launch demo demo.launch.py")
+    assert readme.index("## Run") < run < readme.index("### talker")
+    lines = {path: before[path].decode().splitlines() for path in changed}
+    assert all(set(lines[path]) <= set((demo / path).read_text().splitlines()) for path in changed)
+    after = read(demo)
+    assert add(demo, "launch") == 0
+    assert read(demo) == after
+    (demo / "launch" / "demo.launch.py").write_text("mine = True\n")
+    assert add(demo, "launch") == 0
+    assert (demo / "launch" / "demo.launch.py").read_text() == "mine = True\n"
+
+
+def test_a_node_joins_the_readme_above_the_programs(tmp_path: Path) -> None:
+    words = ["new", "demo", *PERSON, "--add", "publisher:talker", "--add", "cpp_program:tool"]
+    assert main([*words, "--destination-directory", str(tmp_path)]) == 0
+    demo = tmp_path / "demo"
+    (demo / "package.xml").write_text((demo / "package.xml").read_text() + "<!-- mine -->\n")
+    assert add(demo, "subscriber", "listener") == 0
+    headings = re.findall("^##.*", (demo / "README.md").read_text(), re.MULTILINE)
+    assert headings[2:8] == [
+        "## Run",
+        "### talker",
+        "### listener",
+        "### C++ programs",
+        "## Topics",
+        "## Parameters",
+    ]
 
 
 # -- packages of others
@@ -365,6 +435,187 @@ def test_a_node_name_that_is_taken_is_said(
     )
 
 
+# -- extras of others
+
+NODE = """\
+    #!/usr/bin/env python3
+    import rclpy
+    from rclpy.node import Node
+
+
+    class {cls}(Node):
+        def __init__(self):
+            super().__init__('{name}')
+            self.declare_parameter('gain', 1.0)
+
+
+    def main():
+        rclpy.init()
+        rclpy.spin({cls}())
+
+
+    if __name__ == '__main__':
+        main()
+    """
+
+
+def with_nodes(files: Mapping[str, str], directory: str, *names: str) -> dict[str, str]:
+    """Return a package with a node in each of some programs: ``program=node name``."""
+    found = dict(files)
+    build = "CMakeLists.txt" if "CMakeLists.txt" in files else "setup.py"
+    for word in reversed(names):
+        program, _, name = word.partition("=")
+        found[f"{directory}/{program}.py"] = NODE.format(cls=program.title(), name=name)
+        if build == "setup.py":
+            more = f"'hello = demo.hello:main', '{program} = demo.{program}:main'"
+            found[build] = found[build].replace("'hello = demo.hello:main'", more)
+        else:
+            more = f"scripts/hello.py scripts/{program}.py"
+            found[build] = found[build].replace("scripts/hello.py", more)
+    return found
+
+
+def launched(demo: Path) -> list[str]:
+    """Return what the launch file says of its nodes."""
+    text = (demo / "launch" / "demo.launch.py").read_text()
+    return re.findall(r"(?<= )(?:executable|name|parameters)=.*(?=,)", text)
+
+
+@pytest.mark.parametrize(("files", "directory"), [(CMAKE, "scripts"), (PYTHON, "demo")])
+def test_launch_starts_the_nodes_of_a_package(
+    files: Mapping[str, str], directory: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", with_nodes(files, directory, "first=eye", "other=ear"))
+    write(demo, {"config/ear.yaml": "ear:\n  ros__parameters:\n    gain: 2.0\n"})
+    ending = ".py" if directory == "scripts" else ""
+    before = read(demo)
+    assert add(demo, "launch") == 0
+    assert capsys.readouterr().err == (
+        f"note: launch/demo.launch.py leaves out hello{ending}: not known to be nodes\n"
+    )
+    assert set(launched(demo)) == {
+        f"executable='first{ending}'",
+        f"executable='other{ending}'",
+        "parameters=[config / 'ear.yaml']",
+    }
+    build = "CMakeLists.txt" if ending else "setup.py"
+    for path in ("package.xml", build):
+        lines = (demo / path).read_text().splitlines()
+        assert set(before[path].decode().splitlines()) <= set(lines)
+    for name in ("launch", "launch_ros", "ament_index_python"):
+        assert f"<exec_depend>{name}</exec_depend>" in (demo / "package.xml").read_text()
+    capsys.readouterr()
+    main(["check", str(demo)])
+    said = capsys.readouterr().out
+    assert "/demo/launch/" not in said
+    assert "/demo/config/" not in said
+    after = read(demo)
+    assert add(demo, "launch") == 0
+    assert read(demo) == after
+
+
+def test_nodes_of_one_name_are_started_under_those_of_their_programs(tmp_path: Path) -> None:
+    demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye", "other=eye"))
+    assert add(demo, "launch") == 0
+    assert launched(demo) == [
+        "executable='first.py'",
+        "name='first'",
+        "executable='other.py'",
+        "name='other'",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("files", "directory", "there", "gained"),
+    [
+        (
+            PYTHON,
+            "demo",
+            ("('share/demo', ['package.xml']),", "('share/demo/launch', ['launch/a.launch.py']),"),
+            "('share/demo/launch', ['launch/a.launch.py', 'launch/demo.launch.py']),",
+        ),
+        (
+            PYTHON,
+            "demo",
+            ("('share/demo', ['package.xml']),", "('share/demo', glob('launch/*.xml')),"),
+            "('share/demo/launch', ['launch/demo.launch.py']),",
+        ),
+        (
+            CMAKE,
+            "scripts",
+            ("ament_package", "install(FILES launch/a.launch.py DESTINATION share/demo/launch)\n"),
+            "install(FILES launch/a.launch.py launch/demo.launch.py DESTINATION share/demo/launch)",
+        ),
+    ],
+)
+def test_a_launch_file_joins_those_that_are_installed_one_by_one(
+    files: Mapping[str, str], directory: str, there: tuple[str, str], gained: str, tmp_path: Path
+) -> None:
+    made = with_nodes(files, directory, "first=eye")
+    build = "CMakeLists.txt" if directory == "scripts" else "setup.py"
+    old, new = there
+    both = f"{old}\n        {new}" if build == "setup.py" else f"{new}{old}"
+    glob = "from glob import glob\n" if "glob" in new else ""
+    made[build] = glob + dedent(made[build]).replace(old, both)
+    demo = write(tmp_path / "demo", {**made, "launch/a.launch.py": "", "launch/b.xml": ""})
+    assert add(demo, "launch") == 0
+    lines = [line.strip() for line in (demo / build).read_text().splitlines()]
+    assert gained in lines
+    after = read(demo)
+    assert add(demo, "launch") == 0
+    assert read(demo) == after
+
+
+def test_what_installs_other_launch_files_alone_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made = with_nodes(CMAKE, "scripts", "first=eye")
+    install = 'install(DIRECTORY launch DESTINATION share/demo FILES_MATCHING PATTERN "*.xml")\n'
+    made["CMakeLists.txt"] = dedent(made["CMakeLists.txt"]).replace(
+        "ament_package", f"{install}ament_package"
+    )
+    demo = write(tmp_path / "demo", {**made, "launch/b.xml": "<launch/>\n"})
+    assert add(demo, "launch") == 1
+    assert (
+        "CMakeLists.txt: install(FILES launch/demo.launch.py DESTINATION "
+        "share/${PROJECT_NAME}/launch)\n        because what installs launch/ leaves it out\n"
+    ) in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("extra", sorted({*EXTRAS} - {"launch"}))
+def test_an_extra_of_files_alone_writes_them(
+    extra: str, demo: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = read(demo)
+    assert add(demo, extra, "--dry-run") == 0
+    assert read(demo) == before
+    capsys.readouterr()
+    assert add(demo, extra) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert "colcon" not in said.out
+    after = read(demo)
+    assert before.items() < after.items()
+    assert add(demo, extra) == 0
+    assert read(demo) == after
+
+
+def test_an_extra_does_not_overwrite(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (demo / ".gitignore").write_text("mine\n")
+    said = refused(demo, capsys, "gitignore")
+    assert said == (f".gitignore in {demo} exists already and differs; overwrite it with --force")
+    assert add(demo, "gitignore", "--force") == 0
+    assert "__pycache__/" in (demo / ".gitignore").read_text()
+
+
+def test_a_package_without_nodes_has_nothing_to_launch(
+    demo: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert refused(demo, capsys, "launch") == (
+        f"launch has nothing to write: no node in Python is known that {demo} installs"
+    )
+
+
 # -- refusals
 
 
@@ -434,6 +685,9 @@ def test_a_program_that_is_there_is_not_added_again(
     [
         (("publischer", "x_y"), "did you mean publisher?"),
         (("publisher", "Bad-Name"), "NAME"),
+        (("publisher",), "NAME is needed: what the node is called"),
+        (("launch", "all"), "NAME: of no use with launch, which is for the whole package"),
+        (("lunch",), "did you mean launch?"),
         (("publisher", "talker", "--rate", "fast"), "--rate: 'fast' is not a number"),
         (("message", "Status"), "message needs the build type ament_cmake, not ament_python"),
     ],

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
+from scaffold import __version__, content
 from scaffold.cli.main import main
 from scaffold.errors import InputError
 from scaffold.generate import merge, provenance
@@ -192,10 +192,10 @@ def test_a_package_of_somebody_else(tmp_path: Path, capsys: pytest.CaptureFixtur
         "[",
         "[]",
         "{}",
-        '{"version": "1", "date": "2026-01-01", "answers": {}, "rendered": "!!"}',
-        '{"version": "1", "date": "2026-01-01", "answers": {}, "rendered": "eJwDAAAAAAE="}',
-        '{"version": "1", "date": "yesterday", "answers": {}, "rendered": "eJyrrgUAAXUA+Q=="}',
-        '{"version": "1", "date": "2026-01-01", "answers": 7, "rendered": "eJyrrgUAAXUA+Q=="}',
+        '{"version": "0.1", "date": "2026-01-01", "answers": {}, "rendered": "!!"}',
+        '{"version": "0.1", "date": "2026-01-01", "answers": {}, "rendered": "eJwDAAAAAAE="}',
+        '{"version": "0.1", "date": "yesterday", "answers": {}, "rendered": "eJyrrgUAAXUA+Q=="}',
+        '{"version": "0.1", "date": "2026-01-01", "answers": 7, "rendered": "eJyrrgUAAXUA+Q=="}',
     ],
 )
 def test_damaged_records(text: str) -> None:
@@ -214,6 +214,33 @@ def test_answers_that_nobody_gave(
     for verb in (["update", "talker"], ["add", "timer", "clock", "--package-directory", "talker"]):
         assert main(verb) == 2
         assert "damaged: an entry has the wrong type" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("version", "is_newer"),
+    [("0.1", False), ("0.1.0.dev3", False), ("0.0.9", False), ("0.1.1", True), ("2.0rc1", True)],
+)
+def test_records_of_a_newer_release_are_not_touched(
+    package: Path,
+    version: str,
+    capsys: pytest.CaptureFixture[str],
+    *,
+    is_newer: bool,
+) -> None:
+    path = package / provenance.NAME
+    path.write_text(json.dumps({**json.loads(path.read_text()), "version": version}))
+    before = {file: file.read_bytes() for file in package.rglob("*") if file.is_file()}
+    for verb in (["update", "talker"], ["add", "timer", "clock", "--package-directory", "talker"]):
+        if not is_newer:
+            assert main([*verb, "--dry-run"]) == 0
+            continue
+        assert main(verb) == 2
+        assert capsys.readouterr().err == (
+            "ros2-scaffold: error: talker/.ros2-scaffold.json: written by ros2-scaffold "
+            f"{version}, and this is {__version__}: install {version} or later, such as with "
+            "`pip install --upgrade ros2-scaffold`\n"
+        )
+    assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
 
 
 def test_binary_files_are_not_merged() -> None:

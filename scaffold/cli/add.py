@@ -1,4 +1,4 @@
-"""``ros2-scaffold add KIND NAME``."""
+"""``ros2-scaffold add KIND [NAME]``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from scaffold.check.diagnostic import Diagnostic
+    from scaffold.check.session import Session
     from scaffold.config import Config
     from scaffold.generate.add import Added
+    from scaffold.generate.piece import Target, Wanted
     from scaffold.generate.questions import Given
     from scaffold.generate.template import Question, Template
     from scaffold.model.package import Package
@@ -26,76 +28,93 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.generate import parts, questions, template
 
     templates = template.load(content.roots("templates", config.load().content))
-    kinds = parts.kinds(templates)
+    kinds = parts.addable(templates)
     kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {', '.join(kinds)}")
     kind.completer = lambda **_: kinds  # type: ignore[attr-defined]  # argcomplete
-    parser.add_argument("name", metavar="NAME", help="the name of the node, interface or program")
+    name = parser.add_argument(
+        "name",
+        metavar="NAME",
+        nargs="?",
+        help="the name of the node, interface or program; "
+        f"{', '.join(kinds[len(parts.kinds(templates)) :])} have none",
+    )
+    name.completer = lambda **_: ()  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
         "--package-directory",
         metavar="DIR",
         help="the package (default: the one around the current directory)",
     )
-    questions.add_flags(parser, _asked(templates, kinds))
+    questions.add_flags(parser, _asked(templates))
     flags.add_answers(parser)
     flags.add_looking(parser)
     parser.add_argument(
-        "--force", action="store_true", help="overwrite files of the part that exist and differ"
+        "--force", action="store_true", help="overwrite files to be added that exist and differ"
     )
     flags.add_content(parser, flags.ANSWERED_BY_FILE)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Add a part to a package; return the exit code."""
-    from scaffold import config, content
+    """Add something to a package; return the exit code."""
+    from scaffold import content
     from scaffold.check import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
     from scaffold.cli.main import CLEAN, DEFECT, FOUND
-    from scaffold.generate import add, parts, template
+    from scaffold.generate import add
+    from scaffold.printable import printable
+
+    target, wanted = _order(options)
+    session = Session(registry.load(content.roots("rules")), Selection())
+    before = session.check(target.package)
+    _refuse_broken(target.package, before, force=options.force)
+    added = add.add(target, wanted)
+    plan = _plan(target.package, added, is_named=wanted.name is not None, force=options.force)
+    said = _said(session, before, added)
+    if _is_defect(said, added):
+        _report(target.package, said)
+        return DEFECT
+    if not (options.diff or options.dry_run):
+        plan.write(force=True)
+    for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
+        sys.stderr.write(f"note: {printable(note)}\n")
+    _show(options, target.package, added, plan)
+    return FOUND if any(one.is_needed for one in added.by_hand) else CLEAN
+
+
+def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
+    """Return the package that is meant, and what is to be added to it."""
+    from scaffold import config, content
+    from scaffold.errors import InputError
+    from scaffold.generate import parts, template
     from scaffold.generate.defaults import User
+    from scaffold.generate.piece import Target, Wanted
     from scaffold.generate.questions import choose
+    from scaffold.generate.template import PARTS
     from scaffold.model.package import Package
-    from scaffold.printable import printable, write_lines
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
     templates = template.load(roots)
-    choose(options.kind, parts.kinds(templates), "KIND")
+    chosen = templates[choose(options.kind, parts.addable(templates), "KIND")]
+    is_part = chosen.role in PARTS
+    if is_part and options.name is None:
+        raise InputError(f"NAME is needed: what the {chosen.role.value} is called")
+    if not is_part and options.name is not None:
+        raise InputError(f"NAME: of no use with {chosen.name}, which is for the whole package")
     directory = _directory(options.package_directory)
-    package = Package.at(directory)
-    session = Session(registry.load(content.roots("rules")), Selection())
-    before = session.check(package)
-    _refuse_broken(package, before, force=options.force)
-    given = _given(options, templates, settings)
-    part = (options.kind, options.name)
-    added = add.add(package, part, given, roots, templates, User(directory))
-    plan = _plan(package, added, force=options.force)
-    after = session.check(added.package)
-    said = [one for one in add.new_diagnostics(before, after) if not added.is_expected(one)]
-    if _is_defect(said, added):
-        _report(package, said)
-        return DEFECT
-    if options.diff:
-        write_lines(plan.diff(), sys.stdout)
-    elif not options.dry_run:
-        plan.write(force=True)
-    for note in [*added.remarks, *(_line(package, diagnostic) for diagnostic in said)]:
-        sys.stderr.write(f"note: {printable(note)}\n")
-    if not options.diff:
-        write_lines(f"{_summary(options, package, added, plan)}\n", sys.stdout)
-    for line in _by_hand(package, added):
-        sys.stderr.write(f"{printable(line)}\n")
-    return FOUND if any(one.is_needed for one in added.by_hand) else CLEAN
+    target = Target(Package.at(directory), roots, templates, User(directory))
+    return target, Wanted(chosen, options.name, _given(options, templates, settings))
 
 
-def _asked(templates: Mapping[str, Template], kinds: list[str]) -> list[Question]:
+def _asked(templates: Mapping[str, Template]) -> list[Question]:
     """Return the questions that may be answered; the name is an argument of its own."""
-    from scaffold.generate import questions
+    from scaffold.generate import parts, questions
     from scaffold.generate.own import OF_PACKAGES
     from scaffold.generate.template import BASE
 
-    names = {templates[kind].name_question for kind in kinds}
-    own = [one for one in questions.unique(templates[k] for k in kinds) if one.name not in names]
+    kinds = [templates[kind] for kind in parts.addable(templates)]
+    names = {kind.name_question for kind in kinds}
+    own = [one for one in questions.unique(kinds) if one.name not in names]
     general = [one for one in templates[BASE].questions if one.name in OF_PACKAGES]
     return [*own, *general]
 
@@ -104,10 +123,10 @@ def _given(
     options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
 ) -> dict[str, Given]:
     """Return the user's answers; what the configuration says of packages, these know better."""
-    from scaffold.generate import defaults, parts, questions
+    from scaffold.generate import defaults, questions
     from scaffold.generate.own import OF_PACKAGES
 
-    asked = _asked(templates, parts.kinds(templates))
+    asked = _asked(templates)
     table = questions.from_table(
         defaults.configured(settings), questions.unique(templates.values())
     )
@@ -149,7 +168,15 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
             raise InputError(f"{_line(package, diagnostic)}; mend it first, nothing was changed")
 
 
-def _plan(package: Package, added: Added, *, force: bool) -> WritePlan:
+def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:
+    """Return what the checker says only now, and what nobody expects."""
+    from scaffold.generate import add
+
+    found = add.new_diagnostics(before, session.check(added.package))
+    return [diagnostic for diagnostic in found if not added.is_expected(diagnostic)]
+
+
+def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
     """Compare with what is there; files of others are edited, files of the part are not."""
     from scaffold.errors import ConflictError
     from scaffold.plan import WritePlan
@@ -161,10 +188,10 @@ def _plan(package: Package, added: Added, *, force: bool) -> WritePlan:
         if file.path in added.new and file.before not in {None, file.content}
     ]
     if differing and not force:
-        names = ", ".join(differing)
+        names, what_to_do = ", ".join(differing), "choose another name, or " if is_named else ""
         raise ConflictError(
             f"{names} in {package.directory} exists already and differs; "
-            "choose another name, or overwrite it with --force"
+            f"{what_to_do}overwrite it with --force"
         )
     return plan
 
@@ -204,8 +231,22 @@ def _line(package: Package, diagnostic: Diagnostic) -> str:
     return f"{path}:{at.line}:{at.column}: {diagnostic.code} {diagnostic.message}"
 
 
+def _show(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> None:
+    """Print the diff or the summary, and what is left to the user."""
+    from scaffold.generate.provenance import NAME
+    from scaffold.printable import printable, write_lines
+
+    if options.diff:
+        write_lines(plan.diff(hidden=[NAME]), sys.stdout)
+    else:
+        write_lines(f"{_summary(options, package, added, plan)}\n", sys.stdout)
+    for line in _by_hand(package, added):
+        sys.stderr.write(f"{printable(line)}\n")
+
+
 def _summary(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> str:
     """Return what is written and edited, and the next commands."""
+    from scaffold.generate.provenance import NAME
     from scaffold.plan import State
 
     words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
@@ -219,9 +260,12 @@ def _summary(options: argparse.Namespace, package: Package, added: Added, plan: 
         for path, word, name in rows
     ]
     if options.dry_run:
-        return "\n".join([*lines, "", plan.diff().rstrip("\n"), "Nothing was changed (--dry-run)."])
+        diff = plan.diff(hidden=[NAME]).rstrip("\n")
+        return "\n".join([*lines, "", diff, "Nothing was changed (--dry-run)."])
     if not plan.changes:
         return "\n".join([*lines, "", "All of it was there already: nothing was changed."])
+    if all(path in {*added.new, NAME} for _, _, path in rows) and added.start is None:
+        return "\n".join(lines)
     return "\n".join([*lines, "", *_next_commands(package, added)])
 
 
@@ -241,7 +285,7 @@ def _next_commands(package: Package, added: Added) -> list[str]:
         f"    {build}",
         "    source install/setup.bash",
     ]
-    return [*lines, f"    ros2 run {package.name} {added.program}"] if added.program else lines
+    return [*lines, f"    {added.start}"] if added.start else lines
 
 
 def _by_hand(package: Package, added: Added) -> list[str]:

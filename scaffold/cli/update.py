@@ -34,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.errors import InputError
     from scaffold.generate import template, update
     from scaffold.generate.defaults import User
+    from scaffold.generate.provenance import NAME
     from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
     from scaffold.printable import write_lines
@@ -46,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
     plan = WritePlan.of(directory, updated.files, executable=updated.executable)
     if options.diff:
-        write_lines(plan.diff(), sys.stdout)
+        write_lines(plan.diff(hidden=[NAME]), sys.stdout)
     elif not options.dry_run:
         plan.write(force=True)
     for remark in updated.remarks:

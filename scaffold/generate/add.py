@@ -1,32 +1,27 @@
-"""Adds a part to an existing package: renders its files, edits those that must know of it."""
+"""Adds a part or an extra to an existing package, and edits the files that must know of it."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from datetime import date
-from typing import TYPE_CHECKING, Any, NamedTuple
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.check.fixer import Overlay
 from scaffold.errors import ConflictError, InputError, MissingFileError, ParseError, ViewError
-from scaffold.generate import facts, licenses, own, parts
-from scaffold.generate.context import part_scopes
-from scaffold.generate.defaults import User
-from scaffold.generate.draft import Composed, compose
-from scaffold.generate.edit.addition import Addition, ByHand, Compiled, Program
-from scaffold.generate.edit.edit import README, edit
-from scaffold.generate.edit.layout import Layout, layout_of
-from scaffold.generate.questions import Given
-from scaffold.generate.render import Rendered
-from scaffold.generate.template import BASE, ENDING, PARTS, Role, Template
+from scaffold.generate import own, piece
+from scaffold.generate.edit.addition import ByHand
+from scaffold.generate.edit.edit import edit
+from scaffold.generate.piece import Piece, Target, Wanted
+from scaffold.generate.provenance import Provenance
+from scaffold.generate.template import Role
 from scaffold.model.package import Package
 from scaffold.model.package_programs import programs_of
 
 if TYPE_CHECKING:
     from scaffold.check.diagnostic import Diagnostic
 
-_TESTS = "test"
 _OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
 HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
@@ -39,17 +34,15 @@ class Added(NamedTuple):
     files: Mapping[str, bytes]
     """What is written: new files and those that are edited."""
     new: Sequence[str]
-    """The files of the part; all others are edited."""
+    """The files of what is added; all others are edited."""
     executable: frozenset[str]
     notes: Mapping[str, str]
     """What a new file is for."""
     by_hand: tuple[ByHand, ...]
-    program: str | None
-    """What ``ros2 run`` calls the new program."""
+    start: str | None
+    """The command that starts what is new."""
     package: Package
     """The package as it will be."""
-    answers: Mapping[str, Any]
-    """The part as in an answers file."""
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
     has_header: bool
@@ -63,30 +56,48 @@ class Added(NamedTuple):
         return in_part and not self.has_header and diagnostic.name in HEADER_RULES
 
 
-def add(
-    package: Package,
-    part: tuple[str, str],
-    given: Mapping[str, Given],
-    roots: Sequence[str],
-    templates: Mapping[str, Template],
-    user: User,
-) -> Added:
-    """Add a part to a package in memory.
+def add(target: Target, wanted: Wanted) -> Added:
+    """Add something to a package in memory.
 
     Args:
-        package: The package as it is.
-        part: Its kind and its name.
-        given: The user's answers; the package answers what it has decided.
-        roots: The ``templates`` directories; a later one wins.
-        templates: The templates in them.
-        user: Knows what neither says.
+        target: The package as it is.
+        wanted: A part or an extra.
 
     Raises:
         InputError: the package cannot be parsed or does not fit, or an answer is not acceptable.
         ConflictError: it has a program of that name already.
     """
+    package = target.package
+    with _refusing(package):
+        old = own.provenance_of(package)
+        wanted = wanted._replace(given={**own.remembered(old), **wanted.given})
+        made = piece.make(target, old, wanted)
+        _refuse_taken(package, made)
+        new = _new_files(package, old, made)
+        others, by_hand = _others(target, old, wanted, made)
+    # The files of the part have the date of today, those of the package keep theirs.
+    files = {**others, **new}
+    overlay = Overlay(package.tree)
+    overlay.changed.update(files)
+    overlay.executable.update(made.rendered.executable)
+    return Added(
+        files,
+        tuple(new),
+        made.rendered.executable,
+        made.rendered.notes,
+        by_hand,
+        _start(package, made),
+        Package(overlay, directory=package.directory, workspace=package.known_workspace),
+        tuple(_remarks(package, made)),
+        has_header=bool(made.composed.context["header"]),
+    )
+
+
+@contextmanager
+def _refusing(package: Package) -> Iterator[None]:
+    """Tell the user of a package that cannot be read, and that it stays as it is."""
     try:
-        return _add(package, part, given, roots, templates, user)
+        yield
     except ParseError as error:
         raise InputError(f"{told(package, error)}; nothing was changed") from error
     except MissingFileError as error:
@@ -95,47 +106,37 @@ def add(
         raise InputError(f"{package.directory}: {error}; nothing was changed") from error
 
 
-def _add(
-    package: Package,
-    part: tuple[str, str],
-    given: Mapping[str, Given],
-    roots: Sequence[str],
-    templates: Mapping[str, Template],
-    user: User,
-) -> Added:
-    layout, old = layout_of(package), own.provenance_of(package)
-    answers = {**own.remembered(old), **given}
-    composed = _compose(package, part, answers, roots, templates, user)
-    rendered = _placed(composed, package, layout)
-    addition = _addition(composed, package, layout, rendered)
-    _refuse_taken(package, addition)
-    new = {path: _kept(package, path, text) for path, text in rendered.files.items()}
-    whole = own.as_new(package, old, composed, roots, templates, user) if old else None
-    by_hand: tuple[ByHand, ...] = ()
+def _new_files(package: Package, old: Provenance | None, made: Piece) -> dict[str, bytes]:
+    """Return the files of the piece; an extra that is there already is its owner's."""
+    is_there = made.template.role is Role.EXTRA and old is not None and own.is_noted(old, made)
+    return {
+        path: package.tree.read(path)
+        if is_there and package.has(path)
+        else _kept(package, path, text)
+        for path, text in made.rendered.files.items()
+    }
+
+
+def _others(
+    target: Target, old: Provenance | None, wanted: Wanted, made: Piece
+) -> tuple[dict[str, bytes], tuple[ByHand, ...]]:
+    """Return the other files that change: made anew where that is right, else edited."""
+    whole = own.as_new(target, old, made) if old else None
     if whole is not None:
-        # The files of the part have the date of today, those of the package keep theirs.
-        files = {**{path: text.encode() for path, text in whole.items()}, **new}
-    else:
-        edited = edit(package, addition)
-        files, by_hand = {**new, **edited.files}, edited.by_hand
-        if old is not None:
-            then = _compose(package, part, answers, roots, templates, user, old.date)
-            files |= own.noted(old, composed, _placed(then, package, layout), addition)
-    overlay = Overlay(package.tree)
-    overlay.changed.update(files)
-    overlay.executable.update(rendered.executable)
-    return Added(
-        files,
-        tuple(new),
-        rendered.executable,
-        rendered.notes,
-        by_hand,
-        addition.program.name if addition.program else _built(composed),
-        Package(overlay, directory=package.directory, workspace=package.known_workspace),
-        composed.answers[parts.ADD][0],
-        tuple(_remarks(package, composed, addition.program.path if addition.program else "")),
-        has_header=bool(composed.context["header"]),
-    )
+        return {path: text.encode() for path, text in whole.items()}, ()
+    edited = edit(target.package, made.addition)
+    files = dict(edited.files)
+    if old is not None:
+        files |= own.noted(old, piece.make(target, old, wanted, old.date))
+    return files, edited.by_hand
+
+
+def _start(package: Package, made: Piece) -> str | None:
+    """Return the command that starts what is new."""
+    if made.built is not None:
+        return f"ros2 run {package.name} {made.built}"
+    launch = next((path for path in made.rendered.files if path.startswith(_LAUNCH)), None)
+    return f"ros2 launch {package.name} {launch.rpartition('/')[2]}" if launch else None
 
 
 def told(package: Package, error: ParseError) -> str:
@@ -173,109 +174,33 @@ def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
     return diagnostic.code, diagnostic.location.path, re.sub(r"\d+", "", diagnostic.message)
 
 
-def _compose(
-    package: Package,
-    part: tuple[str, str],
-    given: Mapping[str, Given],
-    roots: Sequence[str],
-    templates: Mapping[str, Template],
-    user: User,
-    day: date | None = None,
-) -> Composed:
-    kind, name = part
-    decided = facts.answers(package, licenses.names(roots))
-    has_license = "license" in {**decided, **given}
-    wanted = Given([{parts.KIND: kind, "name": name}], "NAME")
-    answers = {**decided, **given, parts.ADD: wanted}
-    fixed = {"package": package.name, "build_type": package.build_type}
-    answers["build_type"] = Given(package.build_type, "package.xml")
-    messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
-    composed = compose(roots, templates, answers, user, day=day, fixed=fixed, messages=messages)
-    if not has_license:
-        # Better the header of the author's other files, or none, than one with another licence.
-        composed.context["header"] = facts.own_header(package)
-    return composed
-
-
-def _placed(composed: Composed, package: Package, layout: Layout) -> Rendered:
-    """Render the files of the part alone, at the places where the package has such files."""
-    scopes = [
-        (layer, scope)
-        for layer, scope in part_scopes(composed.layers, composed.context)
-        if layer.role in PARTS
-    ]
-    rendered = composed.renderer.package(scopes)
-
-    def place(path: str) -> str:
-        for old, new in ((package.name, layout.programs), (_TESTS, layout.tests)):
-            if path.startswith(f"{old}/"):
-                return f"{new}/{path.removeprefix(f'{old}/')}"
-        return path
-
-    files = {place(path): _without_gap(text) for path, text in rendered.files.items()}
-    if any(path.startswith(f"{layout.programs}/") for path in files):
-        files |= dict.fromkeys(layout.new_files, "")
-    return Rendered(
-        files,
-        frozenset(map(place, rendered.executable)),
-        {place(path): note for path, note in rendered.notes.items()},
-    )
-
-
-def _without_gap(text: str) -> str:
-    """Take out the blank lines that an empty header leaves at the start of a file."""
-    return re.sub(r"\A(#!.*\n)?\n+", r"\1", text) if re.match(r"(#!.*\n)?\n", text) else text
-
-
-def _addition(composed: Composed, package: Package, layout: Layout, rendered: Rendered) -> Addition:
-    context, renderer = composed.context, composed.renderer
-    scope = next(s for layer, s in part_scopes(composed.layers, context) if layer.role in PARTS)
-    layer = next(layer for layer in composed.layers if layer.role in PARTS)
-    depends = {
-        kind: [name for text in texts for name in renderer.text(text, scope).split()]
-        for kind, texts in layer.depends.items()
-    }
-    tests = [path for path in rendered.files if path.startswith(f"{layout.tests}/test_")]
-    changelog = renderer.file(f"{BASE}/CHANGELOG.rst{ENDING}", context)
-    addition = Addition(
-        package.name,
-        test=tests[0] if tests else None,
-        depends=depends,
-        groups=[renderer.text(text, scope) for text in layer.groups],
-        directories=[renderer.text(text, scope) for text in layer.installs],
-        readme=renderer.file(f"{BASE}/{README}{ENDING}", context),
-        changes=[line for line in changelog.splitlines() if line.startswith("* ")],
-    )
-    if layer.role is Role.NODE:
-        node = scope["node"]
-        path = next(iter(sorted(rendered.executable)))
-        module = f"{layout.module}.{node['module']}" if layout.module else node["module"]
-        return addition._replace(program=Program(path, node["executable"], module))
-    if layer.role is Role.INTERFACE:
-        return addition._replace(
-            interfaces=[scope["interface"]["file"]],
-            interface_depends=[n for n in depends.get("depend", ()) if n != package.name],
-        )
-    name = str(scope["program"]["name"])
-    source = next(path for path in rendered.files if path.startswith("src/"))
-    return addition._replace(compiled=Compiled(name, source))
-
-
-def _built(composed: Composed) -> str | None:
-    """Return the name of a program that is compiled."""
-    return next((str(program["name"]) for program in composed.context["programs"]), None)
-
-
-def _remarks(package: Package, composed: Composed, path: str) -> Iterator[str]:
-    if not composed.context["header"]:
+def _remarks(package: Package, made: Piece) -> Iterator[str]:
+    context = made.composed.context
+    if not context["header"] and any(path.endswith(_WITH_HEADER) for path in made.rendered.files):
         declared = ", ".join(element.text for element in package.manifest.all("license"))
         yield (
             f"the new files have no licence header: the licence of {package.name} is "
             f"{declared or 'none'!r}; --license gives them one"
         )
-    names = [str(node["name"]) for node in composed.context["nodes"]]
+    if made.others:
+        launch = next(path for path in made.rendered.files if path.startswith(_LAUNCH))
+        yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
+    if made.template.role is Role.NODE:
+        yield from _namesakes(package, made)
+
+
+_LAUNCH = "launch/"
+"""The directory of launch files."""
+_WITH_HEADER = (".py", ".cpp")
+"""Files that have the header of a licence."""
+
+
+def _namesakes(package: Package, made: Piece) -> Iterator[str]:
+    """Yield a line for each node of the package that has the name of the new one."""
+    names = [str(node["name"]) for node in made.composed.context["nodes"]]
+    new = made.addition.program.path if made.addition.program is not None else ""
     for module in package.rclpy_files():
-        for node in module.nodes if module.module.path != path else ():
+        for node in module.nodes if module.module.path != new else ():
             if node.node_name in names:
                 at = node.node_name_location
                 yield (
@@ -284,9 +209,9 @@ def _remarks(package: Package, composed: Composed, path: str) -> Iterator[str]:
                 )
 
 
-def _refuse_taken(package: Package, addition: Addition) -> None:
+def _refuse_taken(package: Package, made: Piece) -> None:
     """Raise if ``ros2 run`` knows another program by the name of a new one."""
-    program = addition.program
+    program = made.addition.program
     if program is None:
         return
     sources = programs_of(package).sources

@@ -203,7 +203,8 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
     """Return the parts: those of ``add``, or the one node of ``node_kind``."""
     if parts.ADD not in given:
         node = _template("node_kind", Role.NODE, templates, given)
-        return [Request(node, {}, "--node-kind")]
+        name = node.name_question
+        return [Request(node, {name: given[name]} if name in given else {}, "--node-kind")]
     for name in ("node_kind", "node_name"):
         if name in given and given[name].origin.startswith("--"):
             raise InputError(f"{given[name].origin}: of no use with {questions.flag(parts.ADD)}")

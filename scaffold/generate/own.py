@@ -1,19 +1,18 @@
-"""Adds a part to a package of ours: where nobody has changed it, it becomes what `new` makes."""
+"""Adds to a package of ours: where nobody has changed it, it becomes what `new` makes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Mapping
 from typing import Any
 
 from scaffold.generate import parts, provenance, update
-from scaffold.generate.defaults import User
-from scaffold.generate.draft import Composed, draft
-from scaffold.generate.edit.addition import Addition
+from scaffold.generate.draft import Draft, draft
 from scaffold.generate.edit.edit import edit
+from scaffold.generate.piece import EXTRAS, Piece, Target
 from scaffold.generate.provenance import NAME, Provenance
 from scaffold.generate.questions import Given
-from scaffold.generate.render import Rendered
-from scaffold.generate.template import PARTS, Template
+from scaffold.generate.template import BASE, Role
 from scaffold.model.package import Package
 
 OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
@@ -37,72 +36,94 @@ def remembered(old: Provenance | None) -> dict[str, Given]:
     return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
 
 
-def as_new(
-    package: Package,
-    old: Provenance,
-    composed: Composed,
-    roots: Sequence[str],
-    templates: Mapping[str, Template],
-    user: User,
-) -> dict[str, str] | None:
-    """Return the files that would differ if the package had been made with a part.
+def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | None:
+    """Return the files that would differ if the package had been made with a piece.
 
-    ``None`` where one of them has been changed since, where the templates have, or where the part
+    ``None`` where one of them has been changed since, where the templates have, or where the piece
     is there already: then the files have to be edited.
 
     Args:
-        package: The package as it is.
+        target: The package as it is.
         old: How it was made.
-        composed: The part.
-        roots: The ``templates`` directories; a later one wins.
-        templates: The templates in them.
-        user: Knows what new questions may want.
+        piece: What is added.
 
     Raises:
-        InputError: the part does not fit the others.
+        InputError: the piece does not fit what is there.
     """
-    answers = _with_part(old, composed)
+    answers = _with_piece(old, piece)
     if answers == old.answers:
         return None
-    given = update.recorded(old, templates, package.directory, [])
-    before = draft(roots, templates, given, user, old.date).rendered.files
-    given[parts.ADD] = Given(answers[parts.ADD], NAME)
-    after = draft(roots, templates, given, user, old.date).rendered.files
-    changed = {path: text for path, text in after.items() if before.get(path) != text}
-    in_step = before == old.rendered and before.keys() <= after.keys()
-    if not in_step or not all(_is_as(package, path, before.get(path)) for path in changed):
+    given = update.recorded(old, target.templates, target.package.directory, [])
+    before = _drafted(target, given, old)
+    given |= {name: Given(answers[name], NAME) for name in (parts.ADD, EXTRAS) if name in answers}
+    following = _following(target, given, old)
+    for name in following:
+        del given[name]
+    after = _drafted(target, given, old)
+    answers |= {name: after.answers[name] for name in following}
+    files, wanted = before.rendered.files, after.rendered.files
+    changed = {path: text for path, text in wanted.items() if files.get(path) != text}
+    in_step = files == old.rendered and files.keys() <= wanted.keys()
+    package = target.package
+    if not in_step or not all(_is_as(package, path, files.get(path)) for path in changed):
         return None
-    return {**changed, NAME: old._replace(answers=answers, rendered=after).text()}
+    return {**changed, NAME: old._replace(answers=answers, rendered=wanted).text()}
 
 
-def noted(
-    old: Provenance, composed: Composed, rendered: Rendered, addition: Addition
-) -> dict[str, bytes]:
-    """Return the record of a package whose files are edited, with the part in it.
+def is_noted(old: Provenance, piece: Piece) -> bool:
+    """Tell whether a package was made with a piece, or has got it since."""
+    return _with_piece(old, piece) == old.answers
+
+
+def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
+    """Return the record of a package whose files are edited, with the piece in it.
 
     Args:
         old: How the package was made.
-        composed: The part.
-        rendered: Its files as of the day that the package was made.
-        addition: What is edited.
+        piece: What is added, as of the day that the package was made.
     """
-    answers = _with_part(old, composed)
+    answers = _with_piece(old, piece)
     if answers == old.answers:
         return {}
     base = Package.of({**old.rendered, NAME: ""})
-    files = {**rendered.files, **old.rendered}
-    files |= {path: data.decode() for path, data in edit(base, addition).files.items()}
+    files = {**piece.rendered.files, **old.rendered}
+    files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
     return {NAME: old._replace(answers=answers, rendered=files).text().encode()}
 
 
-def _with_part(old: Provenance, composed: Composed) -> dict[str, Any]:
-    """Return the recorded answers and those for a part, unless it is there already."""
-    part = composed.answers[parts.ADD][0]
-    name = next(layer for layer in composed.layers if layer.role in PARTS).name_question
+def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
+    """Return the recorded answers and those for a piece, unless it is there already."""
+    if piece.template.role is Role.EXTRA:
+        extras = old.answers.get(EXTRAS, [])
+        if piece.template.name in extras:
+            return dict(old.answers)
+        return {**old.answers, EXTRAS: [*extras, piece.template.name]}
+    part = piece.composed.answers[parts.ADD][0]
+    name = piece.template.name_question
     known = old.answers.get(parts.ADD, [])
     if any((one[parts.KIND], one.get(name)) == (part[parts.KIND], part[name]) for one in known):
         return dict(old.answers)
     return {**old.answers, parts.ADD: [*known, part]}
+
+
+def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
+    return draft(target.roots, target.templates, given, target.user, old.date)
+
+
+def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> list[str]:
+    """Return the questions whose answer names the parts, and was the default: it follows them."""
+    questions = [
+        one
+        for one in target.templates[BASE].questions
+        if one.name in given and re.search(r"\bcontents\b", str(one.default))
+    ]
+    names = {question.name for question in questions}
+    if not names:
+        return []
+    asked = {name: one for name, one in given.items() if name not in names}
+    asked[parts.ADD] = Given(old.answers.get(parts.ADD, []), NAME)
+    answers = _drafted(target, asked, old).answers
+    return [name for name in names if answers[name] == old.answers[name]]
 
 
 def _is_as(package: Package, path: str, text: str | None) -> bool:

@@ -81,6 +81,12 @@ def kinds(templates: Mapping[str, Template]) -> list[str]:
     ]
 
 
+def addable(templates: Mapping[str, Template]) -> list[str]:
+    """Return what can be added to a package: the kinds of parts, and the extras."""
+    extras = [name for name, one in sorted(templates.items()) if one.role is Role.EXTRA]
+    return [*kinds(templates), *extras]
+
+
 def refuse_impossible(
     parts: Sequence[Part], package: str, build_type: str, messages: Sequence[str] = ()
 ) -> None:

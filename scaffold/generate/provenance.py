@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import zlib
 from collections.abc import Mapping
 from datetime import date
@@ -66,10 +67,11 @@ def parse(text: str, path: str) -> Provenance:
         path: For messages.
 
     Raises:
-        InputError: it is damaged.
+        InputError: it is damaged, or a newer version of this tool wrote it.
     """
     try:
         entries = json.loads(text)
+        _refuse_newer(str(entries["version"]), path)
         packed = zlib.decompressobj()
         data = packed.decompress(base64.b64decode(entries["rendered"]), _MOST)
         rendered = json.loads(data)
@@ -81,6 +83,24 @@ def parse(text: str, path: str) -> Provenance:
     if not (_are_answers(found.answers) and all(isinstance(one, str) for one in texts)):
         raise InputError(f"{path}: damaged: an entry has the wrong type")
     return found
+
+
+def _refuse_newer(version: str, path: str) -> None:
+    """Raise if a later release wrote a record: this one would take back what that one changed."""
+    if _release(version) > _release(__version__):
+        raise InputError(
+            f"{path}: written by ros2-scaffold {version}, and this is {__version__}: install "
+            f"{version} or later, such as with `pip install --upgrade ros2-scaffold`"
+        )
+
+
+def _release(version: str) -> list[int]:
+    """Return the numbers of a release, those of betas and the like left out."""
+    release = re.match(r"\d+(\.\d+)*", version)
+    numbers = [int(number) for number in release[0].split(".")] if release else []
+    while numbers and not numbers[-1]:
+        numbers.pop()
+    return numbers
 
 
 def _are_answers(answers: object) -> bool:

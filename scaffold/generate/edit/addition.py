@@ -58,10 +58,17 @@ class Addition(NamedTuple):
     """Packages whose types the interfaces use."""
     directories: Sequence[str] = ()
     """Directories that go to ``share/<package>``, their names included."""
+    shared: Sequence[str] = ()
+    """The new files in these directories."""
     readme: str = ""
     """README.md of a package that has nothing but this: its sections are merged."""
     changes: Sequence[str] = ()
     """Lines for the next release in CHANGELOG.rst."""
+
+
+def inside(addition: Addition, directory: str) -> list[str]:
+    """Return the new files that stand in a directory itself."""
+    return [path for path in addition.shared if path.rpartition("/")[0] == directory]
 
 
 class ByHand(NamedTuple):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 
-from scaffold.generate.edit.addition import Addition, ByHand, Outcome, spliced
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome, inside, spliced
 from scaffold.model import cmake_edit
 from scaffold.model.cmake import LAST_CALLS, CMakeLists, Install
 from scaffold.model.cmake_edit import Edits
@@ -42,7 +42,7 @@ def add_to_cmake(source: Source, addition: Addition, *, python_package: bool = F
     if addition.program is not None:
         editor.install_program(addition.program.path)
     for directory in addition.directories:
-        editor.install_directory(directory)
+        editor.install_directory(directory, inside(addition, directory))
     if addition.test is not None:
         editor.add_test(addition.test)
     return Outcome(editor.lists.source, tuple(editor.by_hand))
@@ -102,12 +102,24 @@ class Editor:
         if not installs_program(self.lists, path, self.package):
             self.refuse(line, "no place was safe")
 
-    def install_directory(self, path: str) -> None:
-        """Install a directory, its name included, to ``share/<package>``."""
+    def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
+        """Install a directory, its name included, to ``share/<package>``.
+
+        Where its files are installed one by one, the new ones join them.
+        """
+        share = f"share/{_NAME}"
         if _installs_directory(self.lists, path):
+            for file in files:
+                if not _installs_file(self.lists, file):
+                    line = f"install(FILES {file} DESTINATION {share}/{path})"
+                    self.refuse(line, f"what installs {path}/ leaves it out")
             return
-        line = f"install(DIRECTORY {path} DESTINATION share/{_NAME})"
+        line = f"install(DIRECTORY {path} DESTINATION {share})"
         if self.refused(line):
+            return
+        for file in files:
+            self.edit(_beside(self.lists, file, f"share/{self.package}/{path}"))
+        if files and all(_installs_file(self.lists, file) for file in files):
             return
         for make in (_share_keyword, _share_extension, _share_block):
             self.edit(make(self.lists, path))
@@ -200,6 +212,26 @@ def _installs_directory(lists: CMakeLists, path: str) -> bool:
     )
 
 
+def _installs_file(lists: CMakeLists, path: str) -> bool:
+    """Tell whether a file is installed: by name, by a list, or with a directory around it."""
+    return any(
+        _selects(install, path)
+        if install.kind == "DIRECTORY" and item.path and path.startswith(f"{item.path}/")
+        else item.path == path or (item.path is None and _globs(lists, item.argument, path))
+        for install in lists.installs
+        if install.kind in {"DIRECTORY", "FILES", "PROGRAMS"}
+        for item in install.items
+    )
+
+
+def _selects(install: Install, path: str) -> bool:
+    """Tell whether the patterns of a directory let a file through; in doubt they do."""
+    if not install.command.has("FILES_MATCHING") or install.command.has("REGEX"):
+        return True
+    name = path.rpartition("/")[2]
+    return any(fnmatchcase(name, pattern) for pattern in install.patterns)
+
+
 # -- where things are added
 
 
@@ -259,6 +291,19 @@ def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: 
     if text.startswith(f"{_NAME}/") and new.startswith(project):
         return f"{_NAME}/{new.removeprefix(project)}"
     return cmake_edit.quote(new)
+
+
+def _beside(lists: CMakeLists, path: str, destination: str) -> Edits | None:
+    """Add a file to the install that names files of its directory one by one."""
+    if _installs_file(lists, path):
+        return None
+    neighbours = [
+        install
+        for install in lists.installs
+        if _is_extendable(install, "FILES", destination)
+        and any(_is_beside(item.path, path) for item in install.items)
+    ]
+    return _extension(lists, "FILES", path, destination) if neighbours else None
 
 
 def _share_keyword(lists: CMakeLists, path: str) -> Edits | None:

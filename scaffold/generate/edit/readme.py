@@ -15,6 +15,9 @@ _FRAME = ("Prerequisites", "Build", "Test", "Author", "License")
 """The sections that say nothing of the parts of a package; a README with all is like ours."""
 _FENCE = ("```", "~~~")
 _HEADING = "## "
+_BELOW = "### "
+_OWNER = ("Node",)
+"""The first column of our tables; older ones do not have it."""
 
 
 class Table(NamedTuple):
@@ -54,19 +57,32 @@ def tables(source: Source) -> Iterator[Table]:
 
 def sections(source: Source) -> list[Section]:
     """Return the sections of the second level."""
-    lines = source.lines
-    starts = [number for number in _outside(lines) if lines[number].startswith(_HEADING)]
-    found: list[Section] = []
-    for number, start in enumerate(starts):
-        end = starts[number + 1] if number + 1 < len(starts) else len(lines)
-        first = start + 1
-        while first < end and not lines[first].strip():
-            first += 1
-        while end > first and not lines[end - 1].strip():
-            end -= 1
-        title = lines[start].removeprefix(_HEADING).strip()
-        found.append(Section(title, start, tuple(lines[first:end]), max(end, start + 1)))
-    return found
+    return _split(source.lines, _HEADING, 0, len(source.lines))
+
+
+def _split(lines: Sequence[str], mark: str, first: int, last: int) -> list[Section]:
+    """Return what is below each heading of a level among some lines."""
+    starts = [n for n in _outside(lines) if first <= n < last and lines[n].startswith(mark)]
+    return [
+        _section(lines, lines[start].removeprefix(mark).strip(), start, end)
+        for start, end in zip(starts, [*starts[1:], last], strict=False)
+    ]
+
+
+def _section(lines: Sequence[str], title: str, start: int, end: int) -> Section:
+    first = start + 1
+    while first < end and not lines[first].strip():
+        first += 1
+    while end > first and not lines[end - 1].strip():
+        end -= 1
+    return Section(title, start, tuple(lines[first:end]), max(end, start + 1))
+
+
+def _blocks(lines: Sequence[str], section: Section) -> list[Section]:
+    """Return what is above the headings of the third level, without a title, and below each."""
+    below = _split(lines, _BELOW, section.start + 1, section.end)
+    end = below[0].start if below else section.end
+    return [_section(lines, "", section.start, end), *below]
 
 
 def add_to_readme(source: Source, addition: Addition) -> Outcome:
@@ -78,15 +94,16 @@ def add_to_readme(source: Source, addition: Addition) -> Outcome:
     if {section.title for section in sections(source)}.issuperset(_FRAME):
         for section in sections(part):
             if section.title not in _FRAME:
-                source = _merge(source, section, sections(part))
+                source = _merge(source, part, section)
     for table in tables(part):
         for row in table.rows:
             source = _add_row(source, table.header, row)
     return Outcome(source)
 
 
-def _merge(source: Source, new: Section, order: Sequence[Section]) -> Source:
+def _merge(source: Source, part: Source, new: Section) -> Source:
     """Add a section, or to the section of that title what is not in a table."""
+    order = sections(part)
     there = {section.title: section for section in sections(source)}
     old = there.get(new.title)
     if old is None:
@@ -95,6 +112,36 @@ def _merge(source: Source, new: Section, order: Sequence[Section]) -> Source:
         at = source.offset(behind.start + 1) if behind else len(source.text)
         body = [f"{_HEADING}{new.title}", "", *new.lines, "", ""]
         return spliced(source, [Edit(source.path, at, at, source.newline.join(body))])
+    if _says(old, new):
+        return source
+    for block in _blocks(part.lines, new):
+        if block.title or block.lines:
+            source = _join(source, new.title, block)
+    return source
+
+
+def _join(source: Source, title: str, new: Section) -> Source:
+    """Add a block to a section: to the one of its title, or with its heading."""
+    section = next(one for one in sections(source) if one.title == title)
+    blocks = _blocks(source.lines, section)
+    head = next(filter(_is_row, new.lines), None)
+    home = next((one for one in blocks if one.title == new.title), None)
+    if home is None and head in blocks[0].lines:
+        home = blocks[0]
+    if home is not None:
+        return _extend(source, home, new)
+    lines = [f"{_BELOW}{new.title}", "", *new.lines]
+    behind = [one for one in blocks[1:] if any(map(_is_row, one.lines))]
+    if head is None and behind and behind[-1] is blocks[-1]:
+        # Programs stand in a table below the nodes.
+        at = source.offset(behind[-1].start + 1)
+        text = "".join(f"{line}{source.newline}" for line in [*lines, ""])
+        return spliced(source, [Edit(source.path, at, at, text)])
+    return _insert_below(source, section.end, lines)
+
+
+def _extend(source: Source, old: Section, new: Section) -> Source:
+    """Add to a block what it does not say yet, above its table."""
     if _says(old, new):
         return source
     # What both begin with is said of all parts, and rows of tables are added one by one.
@@ -109,8 +156,13 @@ def _merge(source: Source, new: Section, order: Sequence[Section]) -> Source:
     if not lines:
         return source
     end = old.start + 1 + len(_above_table(source.lines[old.start + 1 : old.end]))
-    at = source.offset(end) + len(source.lines[end - 1])
-    text = "".join(f"{source.newline}{line}" for line in ["", *lines.split("\n")])
+    return _insert_below(source, end, lines.split("\n"))
+
+
+def _insert_below(source: Source, number: int, lines: Sequence[str]) -> Source:
+    """Add a paragraph below a line, by its number from 1."""
+    at = source.offset(number) + len(source.lines[number - 1])
+    text = "".join(f"{source.newline}{line}" for line in ["", *lines])
     return spliced(source, [Edit(source.path, at, at, text)])
 
 
@@ -127,19 +179,22 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
 
 
 def _says(old: Section, new: Section) -> bool:
-    """Tell whether all commands of a section are in another one."""
+    """Tell whether all commands of a section or a block are in another one."""
     commands = [line for line in new.lines if line.startswith("ros2 ")]
     return bool(commands) and set(commands) <= set(old.lines)
 
 
 def _add_row(source: Source, header: tuple[str, ...], row: tuple[str, ...]) -> Source:
     for table in tables(source):
-        if table.header != header:
+        cells = row
+        if header[:1] == _OWNER and table.header == header[1:]:
+            cells = row[1:]
+        elif table.header != header:
             continue
-        if row in table.rows:
+        if cells in table.rows:
             return source
         at = source.offset(table.end) + len(source.lines[table.end - 1])
-        text = f"{source.newline}| {' | '.join(row)} |"
+        text = f"{source.newline}| {' | '.join(cells)} |"
         return spliced(source, [Edit(source.path, at, at, text)])
     return source
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fnmatch import fnmatchcase
 
 from scaffold.check.diagnostic import Edit
-from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
+from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, inside, spliced
 from scaffold.model import setup_edit, setup_keywords
 from scaffold.model.python_module import PythonModule
-from scaffold.model.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_files import matches
+from scaffold.model.setup_py import DataFile, FindPackages, SetupPy
 from scaffold.model.source import Source
+from scaffold.model.values import UNKNOWN, Glob
 
 PYTEST = "python3-pytest"
 """The rosdep key of pytest."""
@@ -38,7 +40,7 @@ def add_to_setup(
         if entry_point:
             editor.add_entry_point(addition.program)
     for directory in addition.directories:
-        editor.install_directory(directory)
+        editor.install_directory(directory, inside(addition, directory))
     if extra and addition.test is not None:
         editor.add_extra()
     return Outcome(editor.setup.module.source, tuple(editor.by_hand))
@@ -58,6 +60,23 @@ def installs_package(setup: SetupPy, name: str) -> bool | None:
     if any(point.module.rpartition(".")[0] == name for point in setup.console_scripts):
         return True  # the author's programs of that package are installed somehow
     return False if isinstance(packages, list | tuple) else None
+
+
+def _is_for(data: DataFile, path: str, share: str) -> bool:
+    """Tell whether an entry of data_files is for a directory."""
+    return str(data.destination).rstrip("/") == share or any(
+        str(source.pattern if isinstance(source, Glob) else source).startswith(f"{path}/")
+        for source in data.sources
+    )
+
+
+def _installs(data: DataFile, path: str) -> bool:
+    """Tell whether an entry of data_files installs a file; in doubt it does."""
+    return not data.complete or any(
+        source is UNKNOWN
+        or (bool(matches(source, [path])) if isinstance(source, Glob) else source == path)
+        for source in data.sources
+    )
 
 
 class _Editor:
@@ -94,22 +113,27 @@ class _Editor:
         if not self._has(program):
             self._refuse(line, "the list of console_scripts is not written out in setup()")
 
-    def install_directory(self, path: str) -> None:
+    def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
+        """Install the files of a directory to ``share/<package>``, with its name."""
         share = f"share/{self.package}/{path}"
-        if any(
-            str(data.destination).rstrip("/") == share
-            or any(str(source).startswith(f"{path}/") for source in data.sources)
-            for data in self.setup.data_files
-        ):
+        if not self._data_of(path, share):
+            self._add_glob(path, share)
             return
-        name = self._expression(self.package)
-        literal = name.startswith("'")
-        where = f"'{share}'" if literal else f"'share/' + {name} + '/{path}'"
+        for file in files:
+            if not any(_installs(data, file) for data in self._data_of(path, share)):
+                self._add_file(file, path, share)
+
+    def _data_of(self, path: str, share: str) -> list[DataFile]:
+        """Return the entries of data_files that are for a directory."""
+        return [data for data in self.setup.data_files if _is_for(data, path, share)]
+
+    def _add_glob(self, path: str, share: str) -> None:
         imports_module = any(
             alias.name == "glob" and alias.asname is None
             for node in self.setup.module.walk(ast.Import)
             for alias in node.names
         )
+        where = self._destination(path, share)
         files = f"{'glob.glob' if imports_module else 'glob'}('{path}/*')"
         before = self.setup
         self._edit(lambda setup: setup_edit.add_data_files(setup, where, files))
@@ -117,6 +141,28 @@ class _Editor:
             self._refuse(f"({where}, {files}),", "the list of data_files is not written out")
         elif not imports_module:
             self._edit(lambda s: setup_edit.add_import(s.module, "from glob import glob"))
+
+    def _add_file(self, file: str, path: str, share: str) -> None:
+        """Install a file that the entries for its directory leave out."""
+        where, before = self._destination(path, share), self.setup
+        lists = [
+            data.node.elts[1]
+            for data in self._data_of(path, share)
+            if str(data.destination).rstrip("/") == share and not data.conditional
+            if isinstance(data.node, ast.Tuple) and isinstance(data.node.elts[1], ast.List)
+        ]
+        if lists:
+            files, elements = lists[0], lists[0].elts
+            self._edit(lambda s: setup_edit.append_item(s.module, files, elements, f"'{file}'"))
+        else:
+            self._edit(lambda setup: setup_edit.add_data_files(setup, where, f"['{file}']"))
+        if self.setup is before:
+            self._refuse(f"({where}, ['{file}']),", "the list of data_files is not written out")
+
+    def _destination(self, path: str, share: str) -> str:
+        """Return the expression for a directory below ``share``."""
+        name = self._expression(self.package)
+        return f"'{share}'" if name.startswith("'") else f"'share/' + {name} + '/{path}'"
 
     def add_extra(self) -> None:
         known = any(self.setup.keyword(name) for name in ("extras_require", "tests_require"))
