@@ -17,6 +17,8 @@ import pytest
 from scaffold import __version__, content
 from scaffold.check import registry
 from scaffold.check.session import all_rules
+from scaffold.cli.main import VERBS
+from scaffold.generate import template
 from tests.oracles import system_environment
 
 ROOT = Path(__file__).parent.parent
@@ -127,3 +129,11 @@ def only(directory: Path, pattern: str) -> Path:
     """Return the one path that matches."""
     (found,) = directory.glob(pattern)
     return found
+
+
+def test_pre_commit_accepts_the_hook() -> None:
+    run(sys.executable, "-m", "pre_commit", "validate-manifest", ROOT / ".pre-commit-hooks.yaml")
+    (hook,) = template.read_yaml(str(ROOT / ".pre-commit-hooks.yaml"))
+    command, verb = hook["entry"].split()
+    assert command == hook["id"] == "ros2-scaffold"
+    assert verb in VERBS
