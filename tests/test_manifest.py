@@ -81,8 +81,7 @@ def test_what_is_not_there_is_empty() -> None:
     manifest = read("<package/>")
     assert (manifest.name, manifest.version, manifest.description) == ("", "", "")
     assert manifest.build_type is None
-    assert manifest.xml_model is None
-    assert manifest.xml_declaration is None
+    assert manifest.xml_models == []
     assert manifest.one("name") is None
     assert manifest.all("license") == []
 
@@ -114,9 +113,7 @@ def test_places_over_several_lines() -> None:
 
 def test_places_around_the_root() -> None:
     manifest = read(TALKER)
-    assert manifest.xml_declaration == Location("package.xml", 1, 1, 1, 22)
-    model = manifest.xml_model
-    assert model is not None
+    (model,) = manifest.xml_models
     assert model.href == "http://download.ros.org/schema/package_format3.xsd"
     assert place(model.location) == (2, 1, 2, 89)
     assert [place(comment.location) for comment in manifest.comments] == [

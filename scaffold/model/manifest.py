@@ -258,17 +258,6 @@ class Manifest:
             if instruction.target == "xml-model"
         ]
 
-    @property
-    def xml_model(self) -> XmlModel | None:
-        """The first ``<?xml-model …?>`` line."""
-        return self.xml_models[0] if self.xml_models else None
-
-    @property
-    def xml_declaration(self) -> Location | None:
-        """The place of ``<?xml …?>``."""
-        span = self.document.declaration
-        return self.source.location(*span) if span else None
-
     # -- edits
 
     def insert(self, tag: str, text: str, attributes: Mapping[str, str] | None = None) -> Edit:

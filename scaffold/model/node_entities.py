@@ -281,13 +281,6 @@ class RclpyCall(NamedTuple):
         """Whether Ctrl-C does not end in a traceback."""
         return not self.handlers.isdisjoint({"KeyboardInterrupt", "BaseException"})
 
-    @property
-    def catches_external_shutdown(self) -> bool:
-        """Whether SIGTERM does not end in a traceback."""
-        return not self.handlers.isdisjoint(
-            {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
-        )
-
 
 _SCALARS: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
 

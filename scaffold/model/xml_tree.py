@@ -237,8 +237,6 @@ class Document(NamedTuple):
     root: Element
     comments: list[Comment]
     instructions: list[Instruction]
-    declaration: tuple[int, int] | None
-    """The offsets of ``<?xml …?>``."""
     declared_encoding: str | None
 
 
@@ -315,7 +313,6 @@ class _Reader:
         self.current: Element | None = None
         self.comments: list[Comment] = []
         self.instructions: list[Instruction] = []
-        self.declaration: tuple[int, int] | None = None
         self.declared_encoding: str | None = None
         self.prefixed = False
 
@@ -337,7 +334,6 @@ class _Reader:
             self.root,
             self.comments,
             self.instructions,
-            self.declaration,
             self.declared_encoding,
         )
 
@@ -405,7 +401,6 @@ class _Reader:
         self.instructions.append(Instruction(target, text, at, start, end))
 
     def _declare(self, _version: str, encoding: str | None, _standalone: int) -> None:
-        self.declaration = self._span("?>")
         self.declared_encoding = encoding
 
     def _doctype(self, *_: object) -> None:
