@@ -268,7 +268,6 @@ class RclpyCall(NamedTuple):
     handlers: frozenset[str]
     """Full names of the exceptions that are caught around it in the same function."""
     in_finally: bool
-    in_handler: bool
     asks_ok: bool
     """Under ``if rclpy.ok():``."""
     in_with: bool

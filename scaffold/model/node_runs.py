@@ -62,7 +62,7 @@ def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
 
 
 def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
-    in_finally = in_handler = asks_ok = in_with = False
+    in_finally = asks_ok = in_with = False
     child: ast.AST = call
     for parent in facts.module.parents(call):
         match parent:
@@ -70,8 +70,6 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) 
                 break
             case ast.Try() if child in parent.finalbody:
                 in_finally = True
-            case ast.ExceptHandler():
-                in_handler = True
             case ast.If(test=test):
                 asks_ok = asks_ok or _asks_ok(facts, test)
             case ast.With(items=items):
@@ -84,7 +82,6 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) 
         facts.module.enclosing_function(call),
         frozenset(_handlers_around(facts, call)),
         in_finally,
-        in_handler,
         asks_ok,
         in_with,
         outside.around(call),
