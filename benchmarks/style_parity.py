@@ -62,7 +62,7 @@ def ament_pep257(executable: str, directory: Path) -> set[Finding]:
             capture_output=True,
             check=False,
         )
-        cases = ET.parse(report).iter("testcase")  # noqa: S314 - written by the linter
+        cases = ET.parse(report).iter("testcase")  # noqa: S314  written by the linter
         found = set()
         for case in cases:
             match = PEP257_CASE.match(case.get("name", ""))

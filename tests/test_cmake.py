@@ -445,7 +445,7 @@ def test_project_name() -> None:
         ("if(BUILD_TESTING)\nendif()\nuse()", False),
     ],
 )
-def test_guarded_by_testing(text: str, guarded: bool) -> None:  # noqa: FBT001 - a table
+def test_guarded_by_testing(text: str, guarded: bool) -> None:
     lists = read(text)
     assert lists.guarded_by_testing(lists.find("use")[0]) is guarded
 

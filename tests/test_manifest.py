@@ -280,7 +280,7 @@ def test_build_type_that_holds_on_jazzy() -> None:
         ("$UNKNOWN == ''", True),
     ],
 )
-def test_condition(condition: str, value: bool) -> None:  # noqa: FBT001 - a table of results
+def test_condition(condition: str, value: bool) -> None:
     assert holds(condition) is value
 
 
@@ -464,7 +464,7 @@ def is_well_formed(text: str) -> bool:
     if "<!DOCTYPE" in text:
         return False
     try:
-        ET.fromstring(text.encode("utf-8", "surrogatepass"))  # noqa: S314 - no DOCTYPE, no harm
+        ET.fromstring(text.encode("utf-8", "surrogatepass"))  # noqa: S314  no DOCTYPE, no harm
     except ET.ParseError:
         return False
     return True
@@ -578,7 +578,7 @@ def test_remove() -> None:
     st.sampled_from(["a", "m", "rclpy", "zzz"]),
     st.booleans(),
 )
-def test_remove_undoes_insert(tag: str, text: str, windows: bool) -> None:  # noqa: FBT001
+def test_remove_undoes_insert(tag: str, text: str, windows: bool) -> None:
     before = TALKER.replace("\n", "\r\n") if windows else TALKER
     edit = read(before).insert(tag, text)
     manifest = read(apply(before, edit))

@@ -175,7 +175,7 @@ def test_node_of_another_module() -> None:
     ],
     ids=["also at the start", "before spin", "after spin"],
 )  # fmt: skip
-def test_start_and_end(init: str, main: str, rate: float | None, certain: bool) -> None:  # noqa: FBT001
+def test_start_and_end(init: str, main: str, rate: float | None, certain: bool) -> None:
     one = expectations(node(init, TICK, main))["run"].publications[0]
     assert (one.rate_hz, one.certain, one.never) == (rate, certain, False)
 
@@ -202,7 +202,7 @@ def test_program_without_rclpy_is_no_node() -> None:
 
 
 @pytest.mark.parametrize(("guard", "runs_nothing"), [(True, False), (False, True)])
-def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:  # noqa: FBT001
+def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:
     source = talker("/words")
     script = source if guard else source.partition("\n\nif __name__")[0] + "\n"
     package = Package.of(

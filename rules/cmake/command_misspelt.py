@@ -31,7 +31,7 @@ _BUILT_IN = frozenset(
     target_compile_options target_include_directories target_link_directories target_link_libraries
     target_link_options target_precompile_headers target_sources try_compile try_run unset
     use_mangled_mesa utility_source variable_requires variable_watch while write_file
-    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 _OF_ROS = frozenset(
     """
@@ -45,7 +45,7 @@ _OF_ROS = frozenset(
     ament_auto_find_build_dependencies rosidl_generate_interfaces rosidl_get_typesupport_target
     rclcpp_components_register_node rclcpp_components_register_nodes add_launch_test
     add_ros_test pluginlib_export_plugin_description_file
-    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 _OF_ROS1 = {
     "add_action_files": "rosidl_generate_interfaces",

@@ -15,7 +15,7 @@ _PURE = frozenset(
     ros2bag ros2cli ros2launch ros2node ros2param ros2pkg ros2run ros2service ros2topic
     rosidl_runtime_py sensor_msgs_py setuptools teleop_twist_keyboard tf2_ros_py
     tf_transformations topic_monitor yaml
-    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 

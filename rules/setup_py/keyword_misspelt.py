@@ -18,7 +18,7 @@ _KNOWN = frozenset(
     platforms project_urls provides py_modules python_requires requires script_args script_name
     scripts setup_requires test_loader test_suite tests_require url use_2to3 use_scm_version
     version zip_safe
-    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 _GROUP = "console_scripts"
 _WRONG_GROUPS = frozenset(

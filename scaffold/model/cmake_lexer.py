@@ -282,6 +282,6 @@ KNOWN_COMMANDS = frozenset(
     set_target_properties string target_compile_definitions target_compile_features
     target_compile_options target_include_directories target_link_libraries target_sources unset
     while
-    """.split()  # noqa: SIM905 - a hundred quoted names would hide them
+    """.split()  # noqa: SIM905  a hundred quoted names would hide them
 )
 """Names that, at the start of a line and before ``(``, begin a command even after an error."""

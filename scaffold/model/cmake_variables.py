@@ -33,7 +33,7 @@ _HARMLESS = frozenset(
     ament_export_dependencies ament_export_include_directories ament_export_libraries
     ament_export_targets ament_package ament_python_install_package
     ament_python_install_module ament_target_dependencies rosidl_generate_interfaces
-    """.split()  # noqa: SIM905 - fifty quoted names would hide them
+    """.split()  # noqa: SIM905  fifty quoted names would hide them
 )
 _GNU_DIRECTORIES = {
     "CMAKE_INSTALL_BINDIR": "bin",

@@ -9,13 +9,13 @@ _C_KEYWORDS = frozenset(
     if inline int long mutable namespace new noexcept not nullptr operator or private protected
     public register return short signed sizeof static struct switch template this throw true try
     typedef typeid typename union unsigned using virtual void volatile while xor
-    """.split()  # noqa: SIM905 - eighty quoted names would hide them
+    """.split()  # noqa: SIM905  eighty quoted names would hide them
 )
 _PYTHON_KEYWORDS = frozenset(
     """
     as assert async await def del elif except finally from global import in is lambda nonlocal
     pass raise with yield
-    """.split()  # noqa: SIM905 - likewise
+    """.split()  # noqa: SIM905  likewise
 )
 
 

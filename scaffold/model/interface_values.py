@@ -147,16 +147,16 @@ def _element_type(text: str, package: str) -> FieldType:
 
 
 def _interface_type(text: str, package: str) -> FieldType:
-    parts = text.split("/")
-    if len(parts) == 3 and parts[1] == "msg":  # noqa: PLR2004  package, kind and name
-        raise TypeSpellingError(
-            f"in a definition the type {text!r} is written '{parts[0]}/{parts[2]}'"
-        )
-    if len(parts) > 2:  # noqa: PLR2004  package and name
-        raise TypeSpellingError(f"{text!r} is no type: at most 'package/Name'")
-    own, name = (parts[0], parts[1]) if len(parts) == 2 else (package, text)  # noqa: PLR2004
-    if len(parts) == 2 and not is_field_name(own):  # noqa: PLR2004
-        raise TypeSpellingError(f"{own!r} in {text!r} is no name of a package")
+    match text.split("/"):
+        case [name]:
+            own = package
+        case [own, name]:
+            if not is_field_name(own):
+                raise TypeSpellingError(f"{own!r} in {text!r} is no name of a package")
+        case [own, "msg", name]:
+            raise TypeSpellingError(f"in a definition the type {text!r} is written '{own}/{name}'")
+        case _:
+            raise TypeSpellingError(f"{text!r} is no type: at most 'package/Name'")
     if not is_type_name(name):
         raise TypeSpellingError(
             f"{text!r} is no type: neither a primitive one nor the name of an interface, "

@@ -171,7 +171,8 @@ def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:
             return False
         uses = [name for name in module.walk(ast.Name) if name.id == target.id]
         loads = [name for name in uses if isinstance(name.ctx, ast.Load)]
-        return len(uses) == len(loads) + 1 == 2 and _is_entity(launch, loads[0])  # noqa: PLR2004
+        # Set once and used once.
+        return len(uses) - 1 == len(loads) == 1 and _is_entity(launch, loads[0])
     return _is_entity(launch, call)
 
 

@@ -95,7 +95,7 @@ def _follow(types: MessageTypes, made: ast.Call, sent: ast.expr) -> bool:
     Returns:
         Whether its frame is set.
     """
-    if len(made.args) > 2 or any(isinstance(arg, ast.Starred) for arg in made.args):  # noqa: PLR2004
+    if made.args[2:] or any(isinstance(arg, ast.Starred) for arg in made.args):
         raise _Doubt
     headers = [word.value for word in made.keywords if word.arg in {"header", None}]
     frames = [_expect_plain_header(types, value) for value in headers]

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 ROOT = "/<source>/"
 """In front of paths that are relative to the root of the package."""
+_DEEPEST = 50
+"""Directories above a file of a package; a longer path is not written by hand."""
 _MENTIONS = ("__file__", "resources", "get_data", "pkg_resources")
 _SAME = frozenset({"resolve", "absolute", "expanduser"})
 _READERS = frozenset(
@@ -52,7 +54,7 @@ class _FileEvaluator(Evaluator):
         if not isinstance(path, PathValue):
             return UNKNOWN
         parents: list[PathValue] = []
-        while "/" in path.text.removeprefix(ROOT) and len(parents) < 50:  # noqa: PLR2004
+        while "/" in path.text.removeprefix(ROOT) and len(parents) < _DEEPEST:
             path = PathValue(_dirname(path.text))
             parents.append(path)
         if node.attr == "parents":

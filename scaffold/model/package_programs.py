@@ -28,7 +28,7 @@ _PLAIN_COMMANDS = frozenset(
     rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
     set_property set_target_properties string target_compile_definitions target_compile_features
     target_compile_options target_include_directories target_link_libraries
-    """.split()  # noqa: SIM905 - a column of quoted names would hide them
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 """Commands that make no programs, or such whose names are plain to see."""
 

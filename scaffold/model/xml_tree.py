@@ -328,7 +328,7 @@ class _Reader:
         self._run(parser)
         if self.prefixed:
             self._run(expat.ParserCreate("utf-8", " "))
-        assert self.root is not None, "expat demands a root element"  # noqa: S101 - for mypy
+        assert self.root is not None, "expat demands a root element"  # noqa: S101  for mypy
         return Document(
             self.source,
             self.root,
@@ -339,7 +339,7 @@ class _Reader:
 
     def _run(self, parser: expat.XMLParserType) -> None:
         try:
-            parser.Parse(self.data, True)  # noqa: FBT003 - the C function takes no keyword
+            parser.Parse(self.data, True)  # noqa: FBT003  the C function takes no keyword
         except expat.ExpatError as error:
             from scaffold.model.xml_error import explain
 
