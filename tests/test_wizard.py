@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
+import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from scaffold.cli.main import main
+from scaffold.cli.wizard import quoted
 
 pexpect = pytest.importorskip("pexpect")
-ENTER, DOWN, SPACE = "\r", "\x1b[B", " "
+ENTER, DOWN = "\r", "\x1b[B"
+SHELLS = ("bash", "zsh", "fish")
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +28,6 @@ def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    monkeypatch.setenv("PROMPT_TOOLKIT_NO_CPR", "1")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent.parent))
     monkeypatch.chdir(tmp_path)
@@ -33,13 +36,14 @@ def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 class Terminal:
     """`new` on a terminal, and somebody who types."""
 
-    def __init__(self) -> None:
+    def __init__(self, *arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> None:
         self.child = pexpect.spawn(
             sys.executable,
-            ["-m", "scaffold", "new"],
+            ["-m", "scaffold", "new", *arguments],
             encoding="utf-8",
             timeout=30,
-            dimensions=(40, 100),
+            dimensions=size,
+            env={**os.environ, **more},
         )
 
     def answer(self, question: str, text: str) -> None:
@@ -59,11 +63,23 @@ class Terminal:
 
 
 @pytest.fixture
-def terminal() -> Iterator[Terminal]:
-    """Start `new`, and end it."""
-    one = Terminal()
-    yield one
-    one.child.close(force=True)
+def start() -> Iterator[Callable[..., Terminal]]:
+    """Start `new` with arguments, on a terminal of some size; end it."""
+    started: list[Terminal] = []
+
+    def begin(*arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> Terminal:
+        started.append(Terminal(*arguments, size=size, **more))
+        return started[-1]
+
+    yield begin
+    for one in started:
+        one.child.close(force=True)
+
+
+@pytest.fixture
+def terminal(start: Callable[..., Terminal]) -> Terminal:
+    """Start `new` without arguments."""
+    return start()
 
 
 def through_the_publisher(terminal: Terminal) -> None:
@@ -137,12 +153,165 @@ def test_message_types_are_completed(terminal: Terminal) -> None:
     terminal.says("sensor_msgs/msg/LaserScan")
 
 
-def test_interrupted_nothing_is_written(terminal: Terminal, tmp_path: Path) -> None:
-    terminal.answer("Name of the new package:", "talker" + ENTER)
-    terminal.answer("Build system:", "\x03")
-    terminal.says("interrupted")
-    assert terminal.end()[1] == 130
+@pytest.mark.parametrize("key", ["\x03", "\x04"], ids=["interrupted", "closed"])
+@pytest.mark.parametrize("questions", [0, 1, 8])
+def test_interrupted_nothing_is_written(
+    terminal: Terminal, tmp_path: Path, questions: int, key: str
+) -> None:
+    asked = ["new package:", "Build system:", "What is in", "Name of the node", "Topic to"]
+    asked += ["What to publish", "Messages per", "Quality of", "What else", "add besides"]
+    for question, text in zip(asked[:questions], ["talker", *[""] * questions], strict=False):
+        terminal.answer(question, text + ENTER)
+    terminal.answer(asked[questions], key)
+    terminal.says("ros2-scaffold: interrupted")
+    assert terminal.end() == ("\n", 130)
     assert not (tmp_path / "talker").exists()
+
+
+@pytest.mark.parametrize("size", [(10, 40), (24, 60)])
+def test_what_is_wrong_is_said_in_full(
+    start: Callable[..., Terminal], size: tuple[int, int]
+) -> None:
+    terminal = start(size=size)
+    terminal.answer("new package:", "Talker" + ENTER)
+    lines: list[str] = []
+    while not lines or not lines[-1].endswith("talker"):
+        terminal.child.expect_exact("\n")
+        line = re.sub(r"\x1b\[[\d;?]*[a-zA-Z]", "", terminal.child.before).replace("\r", "")
+        lines += [line] if line.startswith("  ") else []
+    assert max(map(len, lines)) < size[1]
+    assert " ".join(map(str.strip, lines)) == (
+        "the package name 'Talker' must be lower-case words of letters and digits joined by single "
+        "underscores, starting with a letter, such as talker"
+    )
+
+
+def test_what_matches_nothing_chooses_nothing(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", "pyton")
+    terminal.answer("nothing has 'pyton' in it", ENTER + "\x15setuptools" + ENTER)
+    terminal.says("Build system: ament_python")
+
+
+def test_a_name_that_is_typed_in_full_comes_first(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker_msgs" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "service" + ENTER)
+    terminal.says("Name of the new type")
+
+
+def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: Path) -> None:
+    (tmp_path / "talker").mkdir()
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("talker exists already", "\x15speaker" + ENTER)
+    terminal.says("Build system:")
+
+
+def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to subscribe to:", "\x15chatter" + ENTER)
+    terminal.answer("Topic to publish on:", "\x15chatter" + ENTER)
+    terminal.answer("What to publish:", ENTER)
+    terminal.answer("What to receive (default: the same as what is published):", ENTER)
+    terminal.answer("Quality of service", ENTER)
+    terminal.says("both '/chatter'")
+    terminal.answer("What is in the package?", "timer" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("How often", ENTER)
+    terminal.answer("What else is in the package?", "timer" + ENTER)
+    terminal.answer("minimal_timer_2", "\x15minimal_timer" + ENTER)
+    terminal.says("the package has minimal_timer already")
+
+
+def test_pasted_lines_are_one_answer(terminal: Terminal) -> None:
+    terminal.answer("new package:", "\x1b[200~tal\nker\n\x1b[201~" + ENTER)
+    terminal.says("'tal ker'")
+
+
+def test_without_a_cursor_choices_are_answered_by_name(
+    start: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    terminal = start(TERM="dumb")
+    terminal.answer("new package:", "talker\n")
+    terminal.answer("Build system: [ament_cmake]", "setuptools\n")
+    terminal.answer("'setuptools' is no name in the list above", "ament_python\n")
+    terminal.answer("What is in the package? [publisher]", "timer\n")
+    terminal.answer("executable: [minimal_timer]", "\n")
+    terminal.answer("per second: [2.0]", "\n")
+    terminal.answer("What else is in the package? [nothing more]", "\n")
+    terminal.answer("What to add besides", "launch gitignore\n")
+    terminal.answer("What the package is for", "\n")
+    terminal.answer("Licence of the package: [Apache-2.0]", "MIT\n")
+    terminal.answer("Who maintains the package:", "Ada\n")
+    terminal.answer("Mail address:", "ada@example.com\n")
+    said, code = terminal.end()
+    assert code == 0, said
+    assert "\x1b" not in said
+    assert "--extras gitignore launch --license MIT" in said
+    assert (tmp_path / "talker" / "launch" / "talker.launch.py").exists()
+
+
+def test_the_command_has_what_was_given_before(
+    start: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    terminal = start("--destination-directory", "a b", "--license", "MIT", "--qos", "latched")
+    through_the_publisher(terminal)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What the package is for", "-x `y` $z \"a\" 'b' \\\\ !" + ENTER)
+    terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
+    terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    command = said.rpartition("The same without questions:\n")[2].strip()
+    made = tmp_path / "a b" / "talker"
+    asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
+    (tmp_path / "bin").mkdir()
+    program = tmp_path / "bin" / "ros2-scaffold"
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m scaffold "$@"\n')
+    program.chmod(0o755)
+    path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
+    for shell in filter(shutil.which, SHELLS):
+        shutil.rmtree(made)
+        subprocess.run([shell, "-c", command], check=True, env={**os.environ, "PATH": path})
+        assert {one.relative_to(made): one.read_bytes() for one in made.rglob("*.*")} == asked
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_shells_read_quoted_words_as_they_are(shell: str) -> None:
+    if shutil.which(shell) is None:
+        pytest.skip(f"{shell} is not installed")
+    words = [
+        "",
+        "a b",
+        "'",
+        "\\",
+        "\\\\'",
+        "it's \\' $HOME `id` $(id)",
+        "~/x",
+        "=ls",
+        "a\nb",
+        "{a,b}",
+    ]
+    words += [
+        "*",
+        "%self",
+        "!!",
+        "#x",
+        '"',
+        "é\u202f日",
+        "a;b&c|d<e>f",
+        "-n",
+        "~",
+        "[x]",
+        "^a",
+        "--x=~",
+    ]
+    command = "printf '%s\\0' " + " ".join(map(quoted, words))
+    done = subprocess.run([shell, "-c", command], capture_output=True, check=True)
+    assert done.stdout.decode().split("\0")[:-1] == words
 
 
 def test_without_a_terminal_the_name_is_needed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,8 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from scaffold.check.diagnostic import Diagnostic
     from scaffold.cli.wizard import Asked
     from scaffold.config import Config
@@ -45,6 +47,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold import config, content
     from scaffold.check import registry
     from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.errors import ScaffoldError
     from scaffold.generate import draft, place, template
     from scaffold.generate.defaults import User
     from scaffold.printable import write_lines
@@ -55,10 +58,15 @@ def run(options: argparse.Namespace) -> int:
     given = _given(options, templates, settings)
     command = None
     if "package" not in given:
-        given, command = _ask(options, templates, given)
-    made = draft.draft(roots, templates, given, User(options.destination_directory))
-    place.check(options.destination_directory, made.name)
-    plan = _plan(options, made)
+        given, command = _ask(options, roots, templates, given)
+    try:
+        made = draft.draft(roots, templates, given, User(options.destination_directory))
+        place.check(options.destination_directory, made.name)
+        plan = _plan(options, made)
+    except ScaffoldError:
+        if command is not None:
+            sys.stderr.write(f"Your answers as a command, to be mended:\n    {command}\n")
+        raise
     end_check = draft.begin_check(made)
     defects = end_check(registry.load(content.roots("rules")))
     if defects:
@@ -78,7 +86,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _ask(
-    options: argparse.Namespace, templates: dict[str, Template], given: dict[str, Given]
+    options: argparse.Namespace,
+    roots: list[str],
+    templates: dict[str, Template],
+    given: dict[str, Given],
 ) -> Asked:
     """Ask on a terminal what a command line would say.
 
@@ -86,13 +97,36 @@ def _ask(
         InputError: there is no terminal.
     """
     from scaffold.errors import InputError
+    from scaffold.generate import draft, place
     from scaffold.generate.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise InputError("PACKAGE is needed: the name of the new package; see `new --help`")
     from scaffold.cli import wizard
 
-    return wizard.ask(templates, given, User(options.destination_directory))
+    user = User(options.destination_directory)
+
+    def try_name(name: str) -> None:
+        place.check(options.destination_directory, name)
+        _refuse_existing(options, name)
+
+    def try_package(answers: Mapping[str, Given]) -> None:
+        draft.compose(roots, templates, answers, User(options.destination_directory))
+
+    trial = wizard.Trial(try_name, try_package)
+    return wizard.ask(templates, given, user, trial, _besides_answers(options))
+
+
+def _besides_answers(options: argparse.Namespace) -> list[str]:
+    """Return the options of this verb that answer no question, as on a command line."""
+    words: list[str] = []
+    if options.destination_directory != ".":
+        words += ["--destination-directory", options.destination_directory]
+    if options.answers:
+        words += ["--answers", options.answers]
+    for directory in options.content:
+        words += ["--content", directory]
+    return [*words, "--force"] if options.force else words
 
 
 def _in_order(templates: dict[str, Template]) -> list[Template]:
@@ -115,18 +149,25 @@ def _given(
 
 def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     """Compare with what is there; an existing package is left alone without ``--force``."""
-    from scaffold.errors import ConflictError
     from scaffold.generate import provenance
     from scaffold.plan import WritePlan
 
-    directory = os.path.normpath(os.path.join(options.destination_directory, made.name))
+    directory = _refuse_existing(options, made.name)
+    files = {**made.rendered.files, provenance.NAME: provenance.Provenance.of(made).text()}
+    return WritePlan.of(directory, files, executable=made.rendered.executable)
+
+
+def _refuse_existing(options: argparse.Namespace, name: str) -> str:
+    """Return the directory of a package; raise if it is there and may not be overwritten."""
+    from scaffold.errors import ConflictError
+
+    directory = os.path.normpath(os.path.join(options.destination_directory, name))
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} exists already; {hint}")
-    files = {**made.rendered.files, provenance.NAME: provenance.Provenance.of(made).text()}
-    return WritePlan.of(directory, files, executable=made.rendered.executable)
+    return directory
 
 
 def _report_defects(defects: list[Diagnostic]) -> None:

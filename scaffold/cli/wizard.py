@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Callable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
+from itertools import chain, count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import questionary
-
-from scaffold.errors import InputError
+from scaffold.cli import prompts
+from scaffold.cli.prompts import Choice
+from scaffold.errors import ScaffoldError
 from scaffold.generate import parts, questions
 from scaffold.generate.defaults import LOGIN, User
 from scaffold.generate.questions import INTERFACES, SEVERAL, Given
@@ -21,6 +22,12 @@ ORIGIN = "your answer"
 _DONE = "nothing more"
 _TOGETHER = {"fields": ";", "dependencies": " "}
 """What separates several values in one line, by the type of the answer."""
+_ANYBODY = {
+    "package": Given("package_to_be", ORIGIN),
+    "maintainer_name": Given("Ada", ORIGIN),
+    "maintainer_email": Given("ada@example.com", ORIGIN),
+}
+"""Answers to try others with, before they are asked."""
 
 
 class Asked(NamedTuple):
@@ -31,179 +38,249 @@ class Asked(NamedTuple):
     """The command that does the same without questions."""
 
 
-def ask(templates: Mapping[str, Template], given: Mapping[str, Given], user: User) -> Asked:
+class Trial(NamedTuple):
+    """Whether answers can be used; each raises a `ScaffoldError` if not."""
+
+    name: Callable[[str], None]
+    """For the name of the package alone."""
+    package: Callable[[Mapping[str, Given]], None]
+    """For all answers that there are."""
+
+
+def ask(
+    templates: Mapping[str, Template],
+    given: Mapping[str, Given],
+    user: User,
+    trial: Trial,
+    options: list[str],
+) -> Asked:
     """Ask what is not given yet.
 
     Args:
         templates: All templates.
         given: What flags, an answers file and the configuration say.
-        user: Knows the maintainer.
+        user: Knows the maintainer, and where the package is to be.
+        trial: Judges answers together.
+        options: What the command line says besides answers.
 
     Raises:
         KeyboardInterrupt: the user wants no more questions.
     """
-    base = {question.name: question for question in templates[BASE].questions}
-    answers: dict[str, Any] = {}
-
-    def settle(name: str, default: object = None) -> None:
-        if name in base and name not in given:
-            value = _ask(base[name], templates, default)
-            if value not in (None, "", []):
-                answers[name] = value
-
-    settle("package")
-    settle("build_type")
-    build_type = str(answers.get("build_type") or given["build_type"].value)
-    if not given.keys() & {parts.ADD, "node_kind", "node_name"}:
-        answers[parts.ADD] = list(_parts(templates, build_type))
-    settle("extras")
-    settle("description")
-    settle("license")
-    for name in ("maintainer_name", "maintainer_email"):
-        known = user.answer(name)
-        if known is None or known.origin == LOGIN:
-            settle(name, known.value if known else None)
+    try:
+        with prompts.terminal():
+            answers = _Interview(templates, given, user, trial).answers()
+    except EOFError:
+        raise KeyboardInterrupt from None
     found = {name: Given(value, f"{ORIGIN}: {name}") for name, value in answers.items()}
-    return Asked({**given, **found}, _command(answers, base, templates))
+    base = {question.name: question for question in templates[BASE].questions}
+    said = {name: one.value for name, one in given.items() if one.origin.startswith("--")}
+    words = _words({**said, **answers}, base, templates)
+    return Asked({**given, **found}, " ".join(quoted(word) for word in [*words, *options]))
 
 
-def _parts(templates: Mapping[str, Template], build_type: str) -> Iterator[dict[str, Any]]:
-    """Ask for one part after the other, with the questions of its kind."""
-    definitions = _definitions()
-    taken: set[str] = set()
-    while True:
+class _Interview:
+    """One question after the other."""
+
+    def __init__(
+        self,
+        templates: Mapping[str, Template],
+        given: Mapping[str, Given],
+        user: User,
+        trial: Trial,
+    ) -> None:
+        self._templates = templates
+        self._given = given
+        self._user = user
+        self._trial = trial
+        self._base = {question.name: question for question in templates[BASE].questions}
+        self._answers: dict[str, Any] = {}
+
+    def answers(self) -> dict[str, Any]:
+        """Ask what is not given; return the answers that are no defaults of nobody."""
+        self._settle("package")
+        self._settle("build_type")
+        if not self._given.keys() & {parts.ADD, "node_kind", "node_name"}:
+            self._ask_parts()
+        for name in ("extras", "description", "license"):
+            self._settle(name)
+        for name in ("maintainer_name", "maintainer_email"):
+            known = self._user.answer(name)
+            if known is None or known.origin == LOGIN or self._wrong(name, known):
+                self._settle(name, known.value if known else None)
+        return self._answers
+
+    def _settle(self, name: str, default: object = None) -> None:
+        if name in self._base and name not in self._given:
+            value = self._ask(self._base[name], default)
+            if value not in (None, "", []):
+                self._answers[name] = value
+
+    def _wrong(self, name: str, known: Given) -> bool:
+        """Tell whether what git says of the user cannot stand in a package."""
+        return name in self._base and self._fault(self._base[name], known.value) is not None
+
+    @property
+    def _build_type(self) -> str:
+        return str(self._answers.get("build_type") or self._given["build_type"].value)
+
+    def _ask_parts(self) -> None:
+        """Ask for one part after the other, until they are all."""
+        entries: list[dict[str, Any]] = []
+        definitions = _definitions(self._user.directory)
+        while (kind := self._kind(is_first=not entries)) != _DONE:
+            entry = self._part(kind, entries, definitions)
+            fault = self._contradiction([*entries, entry])
+            if fault is None:
+                entries.append(entry)
+            else:
+                prompts.say(f"{fault}; asked again")
+        self._answers[parts.ADD] = entries
+
+    def _kind(self, *, is_first: bool) -> str:
         choices = [
-            questionary.Choice(f"{name:20} {templates[name].summary}", value=name)
-            for name in parts.kinds(templates)
-            if not templates[name].build_types or build_type in templates[name].build_types
+            Choice(name, self._templates[name].summary)
+            for name in parts.kinds(self._templates)
+            if not self._templates[name].build_types
+            or self._build_type in self._templates[name].build_types
         ]
-        if taken:
-            choices.insert(0, questionary.Choice(_DONE, value=""))
-        kind = _select(
-            "What else is in the package?" if taken else "What is in the package?", choices
-        )
-        if not kind:
-            return
-        template, entry = templates[kind], {parts.KIND: kind}
+        if is_first:
+            usual = self._base["node_kind"].default if "node_kind" in self._base else None
+            return prompts.one("What is in the package?", choices, usual)
+        choices.insert(0, Choice(_DONE, is_last=True))
+        return prompts.one("What else is in the package?", choices, _DONE)
+
+    def _contradiction(self, entries: list[dict[str, Any]]) -> str | None:
+        answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
+        together = {**_ANYBODY, **self._given, **answered, parts.ADD: Given(entries, ORIGIN)}
+        try:
+            self._trial.package(together)
+        except ScaffoldError as error:
+            return str(error).removeprefix(f"{ORIGIN}: ")
+        return None
+
+    def _part(
+        self, kind: str, entries: list[dict[str, Any]], definitions: Definitions
+    ) -> dict[str, Any]:
+        """Ask the questions of a kind of part."""
+        template, entry = self._templates[kind], {parts.KIND: kind}
+        taken = [str(one[self._templates[one[parts.KIND]].name_question]) for one in entries]
         for question in template.questions:
-            refused = taken if question.name == template.name_question else set()
-            value = _ask(question, templates, None, definitions, refused)
             if question.name == template.name_question:
-                entry[question.name] = value or question.default
-                taken.add(entry[question.name])
-            elif not _is_default(question, value):
+                free = _free(str(question.default), taken)
+                entry[question.name] = self._ask(question, free, refused=taken)
+                continue
+            value = self._ask(question, definitions=definitions)
+            if not _is_default(question, value):
                 entry[question.name] = value
-        yield entry
+        return entry
+
+    def _ask(
+        self,
+        question: Question,
+        default: object = None,
+        *,
+        definitions: Definitions | None = None,
+        refused: Iterable[str] = (),
+    ) -> Any:  # noqa: ANN401  as the question wants
+        """Ask one question until the answer is acceptable; an empty one takes the default."""
+        text, _, more = question.help.partition(" (")
+        text = text[0].upper() + text[1:]
+        known = question.default if default is None else default
+        if question.type == SEVERAL:
+            choices = [self._choice(name) for name in question.choices]
+            return prompts.several(text, choices) if choices else []
+        if question.choices:
+            return prompts.one(text, [self._choice(name) for name in question.choices], str(known))
+        names: list[str] = []
+        if definitions is not None and question.type in INTERFACES:
+            middle = f"/{INTERFACES[question.type]}/"
+            names = [name for name in definitions.all_names() if middle in name]
+        shown = _shown(question, known)
+
+        def judge(answer: str) -> str | None:
+            if not answer and known is not None:
+                return None if shown not in refused else f"the package has {shown} already"
+            if answer in refused:
+                return f"the package has {answer} already"
+            return self._fault(question, _split(question, answer))
+
+        made = more.rstrip(")") or "default: made of the other answers"
+        hint = made if known is not None and not shown else ""
+        answer = prompts.line(text, shown, judge, hint=hint, completions=names)
+        if not answer and shown:
+            prompts.say(f"taken: {shown}")
+        return _split(question, answer or shown)
+
+    def _fault(self, question: Question, value: object) -> str | None:
+        """Return what is wrong with an answer."""
+        try:
+            questions.parse(question, Given(value, ""), self._user.directory)
+            if question.name == "package":
+                self._trial.name(str(value))
+        except ScaffoldError as error:
+            return str(error).removeprefix(": ")
+        return None
+
+    def _choice(self, name: str) -> Choice:
+        return Choice(name, self._templates[name].summary if name in self._templates else "")
 
 
-def _ask(
-    question: Question,
-    templates: Mapping[str, Template],
-    default: object = None,
-    definitions: Definitions | None = None,
-    refused: set[str] = frozenset(),  # type: ignore[assignment]  # an empty one is never changed
-) -> Any:  # noqa: ANN401  as the question wants
-    """Ask one question until the answer is acceptable; an empty one takes the default."""
-    text = f"{question.help[0].upper()}{question.help[1:].partition(' (')[0]}:"
-    known = question.default if default is None else default
-    if question.type == SEVERAL:
-        return _several(text, question, templates)
-    if question.choices:
-        return _select(text, [_choice(name, templates) for name in question.choices], known)
-    if question.type == "flag":
-        return questionary.confirm(text, default=bool(known)).unsafe_ask()
-    shown = _shown(question, known)
-    check = _validator(question, refused)
-    if definitions is not None and question.type in INTERFACES:
-        middle = f"/{INTERFACES[question.type]}/"
-        names = [name for name in definitions.all_names() if middle in name]
-        return questionary.autocomplete(
-            text, choices=names, default=shown, validate=check, match_middle=True
-        ).unsafe_ask()
-    answer = questionary.text(text, default=shown, validate=check).unsafe_ask()
-    return _split(question, answer)
-
-
-def _select(text: str, choices: list[questionary.Choice], default: object = None) -> str:
-    """Ask for one of some choices; typing leaves those that hold what is typed."""
-    chosen: str = questionary.select(
-        text,
-        choices=choices,
-        default=next((one for one in choices if one.value == default), None),
-        use_search_filter=True,
-        use_jk_keys=False,
-        instruction="(arrow keys, or type to search)",
-    ).unsafe_ask()
-    return chosen
-
-
-def _several(text: str, question: Question, templates: Mapping[str, Template]) -> list[str]:
-    if not question.choices:
-        return []
-    choices = [_choice(name, templates) for name in question.choices]
-    chosen: list[str] = questionary.checkbox(text, choices=choices).unsafe_ask()
-    return chosen
-
-
-def _choice(name: str, templates: Mapping[str, Template]) -> questionary.Choice:
-    summary = templates[name].summary if name in templates else ""
-    return questionary.Choice(f"{name:20} {summary}".rstrip(), value=name)
+def _free(name: str, taken: Iterable[str]) -> str:
+    """Return a name, with a number if another part has it."""
+    joint = "" if name[:1].isupper() else "_"
+    numbered = (f"{name}{joint}{number}" for number in count(2))
+    return next(one for one in chain([name], numbered) if one not in taken)
 
 
 def _shown(question: Question, known: object) -> str:
     """Return the default as text to edit; one that is made of other answers is not shown."""
+    if isinstance(known, bool):
+        return "yes" if known else "no"
     if isinstance(known, list | tuple):
         return f"{_TOGETHER.get(question.type, ' ')} ".join(map(str, known)).replace("  ", " ")
     return "" if known is None or "{" in str(known) else str(known)
 
 
 def _is_default(question: Question, value: object) -> bool:
-    return value in ("", [], question.default, _split(question, _shown(question, question.default)))
+    shown = _split(question, _shown(question, question.default))
+    return value in ("", [], question.default, shown)
 
 
 def _split(question: Question, answer: str) -> Any:  # noqa: ANN401  a text or several
     separator = _TOGETHER.get(question.type)
     if separator is None:
         return answer
-    return [word.strip() for word in answer.split(separator) if word.strip()]
+    words = [word.strip() for word in answer.split(separator) if word.strip()]
+    return words[0] if len(words) == 1 else words
 
 
-def _validator(question: Question, refused: set[str]) -> Callable[[str], bool | str]:
-    """Return what judges an answer while it is typed."""
-
-    def judge(answer: str) -> bool | str:
-        if not answer and question.default is not None:
-            return True
-        if answer in refused:
-            return f"the package has {answer} already"
-        try:
-            questions.parse(question, Given(_split(question, answer), ""))
-        except InputError as error:
-            return str(error).removeprefix(": ")
-        return True
-
-    return judge
-
-
-def _definitions() -> Definitions:
+def _definitions(directory: str) -> Definitions:
     from scaffold.generate import payload
 
-    return payload.definitions()
+    return payload.definitions(directory)
 
 
-def _command(
+def _words(
     answers: Mapping[str, Any], base: Mapping[str, Question], templates: Mapping[str, Template]
-) -> str:
+) -> list[str]:
     """Return the command with what differs from the defaults."""
-    words = ["ros2-scaffold", "new", str(answers.get("package", ""))]
+    words = ["ros2-scaffold", "new", str(answers["package"])]
     for name, value in answers.items():
         if name == parts.ADD:
             for entry in value:
-                words += ["--add", _written(entry, templates)]
-        elif name != "package" and not _is_default(base[name], value):
-            listed = value if isinstance(value, list) else [value]
-            words += [questions.flag(name), *map(str, listed)]
-    return shlex.join(word for word in words if word)
+                part = entry if isinstance(entry, str) else _written(entry, templates)
+                words += ["--add", part]
+        elif name != "package" and not (name in base and _is_default(base[name], value)):
+            words += _flag(name, value)
+    return words
+
+
+def _flag(name: str, value: object) -> list[str]:
+    flag = questions.flag(name)
+    if isinstance(value, list):
+        return [flag, *map(str, value)]
+    # With a dash in front it would be taken for a flag.
+    return [f"{flag}={value}"] if str(value).startswith("-") else [flag, str(value)]
 
 
 def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
@@ -214,4 +291,22 @@ def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str
     for name, value in entry.items():
         if name not in {parts.KIND, asked}:
             words += [f"{name}={one}" for one in (value if isinstance(value, list) else [value])]
-    return shlex.join(words)
+    return " ".join(_quoted_inside(word) for word in words)
+
+
+def _quoted_inside(word: str) -> str:
+    """Return a word for `shlex.split`, in quotes that need no others around it if possible."""
+    if not re.search(r"[\s'\"\\]", word):
+        return word
+    return quoted(word) if re.search(r'["\\]', word) else f'"{word}"'
+
+
+def quoted(word: str) -> str:
+    """Return a word as bash, zsh and fish read it.
+
+    In single quotes all is as it is written, but for the backslash in fish and the quote itself.
+    """
+    if re.fullmatch(r"[\w@+=:,./-]+", word, re.ASCII) and word[0] != "=":
+        return word
+    pieces = re.findall(r"[\\']|[^\\']+", word)
+    return "".join(f"\\{one}" if one in "\\'" else f"'{one}'" for one in pieces) or "''"
