@@ -435,6 +435,45 @@ def test_a_node_name_that_is_taken_is_said(
     )
 
 
+def test_nodes_that_do_not_connect_are_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", CMAKE)
+    assert add(demo, "publisher", "talker", "--topic", "chatter") == 0
+    assert add(demo, "publisher", "other", "--topic", "chatter") == 0
+    assert capsys.readouterr().err == ""
+    assert add(demo, "action_server", "counter", "--action", "count") == 0
+    text = (demo / "scripts" / "talker.py").read_text()
+    line = text.partition("self.create_publisher")[0].count("\n") + 1
+    capsys.readouterr()
+    words = ["--topic", "/chatter", "--message-type", "std_msgs/msg/Int32"]
+    assert add(demo, "subscriber", "listener", *words) == 0
+    assert capsys.readouterr().err == (
+        "note: the topic /chatter is std_msgs/msg/Int32 in listener, but std_msgs/msg/String in "
+        f"other, scripts/other.py:{line}: they do not connect; give both the same type, or "
+        "another name to one\n"
+    )
+    words = ["--action", "count", "--action-type", "tf2_msgs/action/LookupTransform"]
+    assert add(demo, "action_client", "asker", *words) == 0
+    assert "the action /count is tf2_msgs/action/LookupTransform in asker, but " in (
+        capsys.readouterr().err
+    )
+
+
+def test_a_package_of_ours_refuses_services_of_two_types(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["new", "demo", *PERSON, "--node-kind", "service_server", "--node-name", "server"]
+    assert main([*words, "--destination-directory", str(tmp_path)]) == 0
+    capsys.readouterr()
+    words = ["--service", "add_two_ints", "--service-type", "std_srvs/srv/Trigger"]
+    assert refused(tmp_path / "demo", capsys, "service_client", "asker", *words) == (
+        "the service /add_two_ints is example_interfaces/srv/AddTwoInts in server, but "
+        "std_srvs/srv/Trigger in asker: they do not connect; give both the same type, or another "
+        "name to one"
+    )
+
+
 # -- extras of others
 
 NODE = """\

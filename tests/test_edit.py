@@ -816,6 +816,48 @@ def test_other_tables_and_code_are_left_alone() -> None:
     assert readme.add_to_readme(before, Addition("demo", readme=PART)).source.text == text
 
 
+def ours(run: str, tables: str = "") -> str:
+    return (
+        f"# demo\n\n## Prerequisites\n\n## Build\n\n## Run\n\n{run}\n\n{tables}"
+        "## Test\n\n## Author\n\n## License\n"
+    )
+
+
+def test_a_readme_of_an_older_release_gets_its_row_and_a_heading() -> None:
+    table = "## Topics\n\n| Topic | Type |\n| --- | --- |\n| `/a` | `B` |\n\n"
+    before = Source("README.md", ours("```bash\nros2 run demo a\n```", table))
+    part = (
+        "## Run\n\n### talker\n\n```bash\nros2 run demo talker\n```\n\n## Topics\n\n"
+        "| Node | Topic | Type |\n| --- | --- | --- |\n| `talker` | `/talk` | `String` |\n"
+    )
+    after = readme.add_to_readme(before, Addition("demo", readme=part)).source
+    assert added(before, after) == (
+        "### talker\n\n```bash\nros2 run demo talker\n```\n\n| `/talk` | `String` |\n"
+    )
+    assert readme.add_to_readme(after, Addition("demo", readme=part)).source.text == after.text
+
+
+@pytest.mark.parametrize("programs", ["", "### C++ programs\n\n"])
+def test_a_program_joins_the_table_of_programs(programs: str) -> None:
+    table = "| Program | What it does |\n| --- | --- |\n| `{0}` | X |"
+    text = programs + "```bash\nros2 run demo {0}\n```\n\n" + table
+    before = Source("README.md", ours(text.format("one")))
+    part = "## Run\n\n### C++ programs\n\n" + text.removeprefix(programs).format("two") + "\n"
+    after = readme.add_to_readme(before, Addition("demo", readme=part)).source
+    assert added(before, after) == "```bash\nros2 run demo two\n```\n\n| `two` | X |\n"
+    assert after.text.count("###") == programs.count("###")
+
+
+def test_what_is_said_of_all_nodes_stands_above_them() -> None:
+    before = Source("README.md", ours("### talker\n\n```bash\nros2 run demo talker\n```"))
+    part = "## Run\n\nAll nodes:\n\n```bash\nros2 launch demo demo.launch.py\n```\n"
+    after = readme.add_to_readme(before, Addition("demo", readme=part)).source
+    assert "## Run\n\nAll nodes:\n\n```bash\nros2 launch demo demo.launch.py\n```\n\n### talk" in (
+        after.text
+    )
+    assert readme.add_to_readme(after, Addition("demo", readme=part)).source.text == after.text
+
+
 def test_sections_of_a_readme_like_ours_are_merged() -> None:
     before = Source(
         "README.md",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.check.fixer import Overlay
 from scaffold.errors import ConflictError, InputError, MissingFileError, ParseError, ViewError
-from scaffold.generate import own, piece
+from scaffold.generate import neighbours, own, piece
 from scaffold.generate.edit.addition import ByHand
 from scaffold.generate.edit.edit import edit
 from scaffold.generate.piece import Piece, Target, Wanted
@@ -80,6 +80,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     overlay = Overlay(package.tree)
     overlay.changed.update(files)
     overlay.executable.update(made.rendered.executable)
+    after = Package(overlay, directory=package.directory, workspace=package.known_workspace)
     return Added(
         files,
         tuple(new),
@@ -87,8 +88,8 @@ def add(target: Target, wanted: Wanted) -> Added:
         made.rendered.notes,
         by_hand,
         _start(package, made),
-        Package(overlay, directory=package.directory, workspace=package.known_workspace),
-        tuple(_remarks(package, made)),
+        after,
+        tuple(_remarks(after, made)),
         has_header=bool(made.composed.context["header"]),
     )
 
@@ -185,28 +186,14 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
     if made.others:
         launch = next(path for path in made.rendered.files if path.startswith(_LAUNCH))
         yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
-    if made.template.role is Role.NODE:
-        yield from _namesakes(package, made)
+    if made.addition.program is not None:
+        yield from neighbours.remarks(package, made.addition.program.path)
 
 
 _LAUNCH = "launch/"
 """The directory of launch files."""
 _WITH_HEADER = (".py", ".cpp")
 """Files that have the header of a licence."""
-
-
-def _namesakes(package: Package, made: Piece) -> Iterator[str]:
-    """Yield a line for each node of the package that has the name of the new one."""
-    names = [str(node["name"]) for node in made.composed.context["nodes"]]
-    new = made.addition.program.path if made.addition.program is not None else ""
-    for module in package.rclpy_files():
-        for node in module.nodes if module.module.path != new else ():
-            if node.node_name in names:
-                at = node.node_name_location
-                yield (
-                    f"{at.path}:{at.line} makes a node with the name {node.node_name!r}, too: "
-                    "nodes that run together need names of their own"
-                )
 
 
 def _refuse_taken(package: Package, made: Piece) -> None:
