@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,11 @@ import pytest
 from scaffold import content
 from scaffold.check import docs, registry
 from scaffold.check.session import all_rules
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ROOT = Path(__file__).parent.parent
 PAGES = [
@@ -43,3 +49,13 @@ def test_links_and_paths_lead_somewhere(page: str) -> None:
     paths = re.findall(r"`((?:benchmarks|docs|scaffold|scripts|templates|tests)/[\w./]+)`", text)
     named = [*((ROOT / page).parent / link for link in links), *(ROOT / path for path in paths)]
     assert [str(path) for path in named if not path.exists()] == []
+
+
+def test_news_fragments_have_a_type() -> None:
+    configured = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["towncrier"]
+    types = [one["directory"] for one in configured["type"]]
+    directory = ROOT / configured["directory"]
+    assert re.findall(r"\n\| `(\w+)` \|", (directory / "README.md").read_text()) == types
+    names = sorted(path.name for path in directory.iterdir() if path.name != "README.md")
+    known = rf"(\d+|\+[\w-]+)\.({'|'.join(types)})\.md"
+    assert [name for name in names if not re.fullmatch(known, name)] == []
