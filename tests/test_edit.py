@@ -639,6 +639,30 @@ def test_a_directory_becomes_data(head: str, lines: str) -> None:
     assert added(Source("setup.py", text), outcome.source) == lines
 
 
+LAUNCH_DATA = '\n        (f"share/{name}/launch", ["launch/demo.launch.py"]'
+
+
+@pytest.mark.parametrize(
+    ("entry", "expected"),
+    [
+        ('glob("launch/*_launch.py")', 'glob("launch/*_launch.py")),' + LAUNCH_DATA),
+        ('["launch/a.launch.py"]', '["launch/a.launch.py", "launch/demo.launch.py"]'),
+        ('glob("launch/*")', 'glob("launch/*")'),
+        ("found()", "found()"),
+    ],
+)
+def test_a_file_joins_the_data_of_its_directory(entry: str, expected: str) -> None:
+    text = (
+        "from glob import glob\n\nfrom setuptools import setup\n\n"
+        f'name = "demo"\n\nsetup(\n    name=name,\n    version="1",\n    data_files=[\n'
+        f'        (f"share/{{name}}/launch", {entry}),\n    ],\n)\n'
+    )
+    addition = Addition("demo", directories=["launch"], shared=["launch/demo.launch.py"])
+    outcome = setup_edit(text, addition)
+    assert outcome.source.text == text.replace(entry, expected)
+    assert setup_edit(outcome.source.text, addition).source.text == outcome.source.text
+
+
 def test_pytest_is_named_where_nothing_names_it() -> None:
     addition = Addition("demo", test="test/test_a.py")
     assert setup_edit(SETUP, addition, extra=True).source.text == dedent(SETUP)

@@ -27,7 +27,7 @@ def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
         return None
     if any(point.name == name for point in setup.console_scripts):
         return None
-    quote = _quote_of(setup)
+    quote = quote_of(setup)
     texts = [point.text for point in setup.console_scripts if "=" in point.text]
     equals = "=" if texts and not any(" = " in text for text in texts) else " = "
     entry = f"{quote}{name}{equals}{target}{quote}"
@@ -129,7 +129,7 @@ def _render(item: str | Block, indent: str, newline: str) -> str:
     return item if isinstance(item, str) else item.render(indent, newline)
 
 
-def _quote_of(setup: SetupPy) -> str:
+def quote_of(setup: SetupPy) -> str:
     """Return the quote that the entry points, else the other strings, are written with."""
     nodes = [point.node for point in setup.entry_points]
     nodes += [word.node for word in setup.keywords.values()]

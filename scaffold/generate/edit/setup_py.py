@@ -134,7 +134,7 @@ class _Editor:
             for alias in node.names
         )
         where = self._destination(path, share)
-        files = f"{'glob.glob' if imports_module else 'glob'}('{path}/*')"
+        files = f"{'glob.glob' if imports_module else 'glob'}({self._quoted(f'{path}/*')})"
         before = self.setup
         self._edit(lambda setup: setup_edit.add_data_files(setup, where, files))
         if self.setup is before:
@@ -144,25 +144,35 @@ class _Editor:
 
     def _add_file(self, file: str, path: str, share: str) -> None:
         """Install a file that the entries for its directory leave out."""
-        where, before = self._destination(path, share), self.setup
-        lists = [
-            data.node.elts[1]
+        before, module = self.setup, self.setup.module
+        where, written = self._destination(path, share), self._quoted(file)
+        written_out = [
+            data.node.elts
             for data in self._data_of(path, share)
             if str(data.destination).rstrip("/") == share and not data.conditional
-            if isinstance(data.node, ast.Tuple) and isinstance(data.node.elts[1], ast.List)
+            if isinstance(data.node, ast.Tuple)
         ]
+        lists = [files for _, files in written_out if isinstance(files, ast.List)]
         if lists:
-            files, elements = lists[0], lists[0].elts
-            self._edit(lambda s: setup_edit.append_item(s.module, files, elements, f"'{file}'"))
+            files = lists[0]
+            self._edit(lambda s: setup_edit.append_item(s.module, files, files.elts, written))
         else:
-            self._edit(lambda setup: setup_edit.add_data_files(setup, where, f"['{file}']"))
+            where = module.text(written_out[0][0]) if written_out else where
+            self._edit(lambda setup: setup_edit.add_data_files(setup, where, f"[{written}]"))
         if self.setup is before:
-            self._refuse(f"({where}, ['{file}']),", "the list of data_files is not written out")
+            self._refuse(f"({where}, [{written}]),", "the list of data_files is not written out")
 
     def _destination(self, path: str, share: str) -> str:
         """Return the expression for a directory below ``share``."""
-        name = self._expression(self.package)
-        return f"'{share}'" if name.startswith("'") else f"'share/' + {name} + '/{path}'"
+        name = setup_edit.package_expression(self.setup, self.package)
+        if name is None:
+            return self._quoted(share)
+        return f"{self._quoted('share/')} + {name} + {self._quoted(f'/{path}')}"
+
+    def _quoted(self, text: str) -> str:
+        """Return a literal with the quotes that setup.py prefers."""
+        quote = setup_edit.quote_of(self.setup)
+        return f"{quote}{text}{quote}"
 
     def add_extra(self) -> None:
         known = any(self.setup.keyword(name) for name in ("extras_require", "tests_require"))
@@ -181,7 +191,7 @@ class _Editor:
 
     def _expression(self, name: str) -> str:
         """Return a name as setup.py writes it: in a variable, if it has one."""
-        return setup_edit.package_expression(self.setup, name) or f"'{name}'"
+        return setup_edit.package_expression(self.setup, name) or self._quoted(name)
 
     def _edit(self, make: Callable[[SetupPy], Edit | None]) -> None:
         edit = make(self.setup)
