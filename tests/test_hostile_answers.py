@@ -228,6 +228,7 @@ INTERFACES = (
         "Type",
     ),
     *("URL", "HTTPServer", "X1", "A_B", "lower", "Ä", "", "Header", "Class", "Robot", "SetMode"),
+    *("NULL", "EOF", "NAN", "SIGINT", "EAGAIN", "INT8", "False", "Vector", "Builder", "Metaclass"),
     *("GetTypeDescription", "X_Request", "DriveGoal", "DriveSendGoal", "SetModeRequest", "Event"),
 )
 TOPICS = (
@@ -525,6 +526,8 @@ FIELDS = (
         "int32[<=18446744073709551616] h",
         "float32 f .5",
     ),
+    *("int32 a  # b\\", "int32 a  # */ ??/", "string s 'a\\\\#'  # c", "string<=4294967296 s"),
+    *("int32 a  # \u202e", "# \u2066 x", "int32[4294967296] a", 'int32 a  # """ @(x) $'),
 )
 PACKAGES = (
     *(
@@ -769,6 +772,37 @@ def test_answers_together(kind: str, data: st.DataObject) -> None:
             "'HTTPServer' and 'HttpServer' are too alike: .* http_server.hpp",
         ),
         ({"copyright_holder": "Ada coding: latin-1"}, "would tell Python the encoding"),
+        ({"maintainer_name": "\u202eAda"}, r"holds the character U\+202E, which turns text around"),
+        ({"add": [{"kind": "message", "name": "True"}]}, "'True' is a keyword of Python"),
+        ({"add": [{"kind": "message", "name": "NULL"}]}, "'NULL' is a macro of C"),
+        (
+            {"add": [{"kind": "message", "fields": "int32 a  # C:\\new"}]},
+            "rosidl takes a backslash for the start of an escape",
+        ),
+        (
+            {"add": [{"kind": "message", "fields": "string s 'a # b'"}]},
+            "the text is not closed; a '#' in it starts a comment",
+        ),
+        (
+            {"add": [{"kind": "message", "fields": "int32[<=4294967296] a"}]},
+            "4294967296 is too large; the limit is 4294967295",
+        ),
+        (
+            {
+                "node_kind": "publisher",
+                "message_type": "builtin_interfaces/msg/Duration",
+                "qos": "lifespan=2",
+            },
+            "--qos: Duration of rclpy.duration and Duration of builtin_interfaces.msg",
+        ),
+        (
+            {
+                "node_kind": "publisher_subscriber",
+                "message_type": "std_msgs/msg/String",
+                "input_type": "example_interfaces/msg/String",
+            },
+            "--input-type: String of example_interfaces.msg and String of std_msgs.msg",
+        ),
         (
             {"add": [{"kind": "service_server", "name": "a", "service": "/a/get_parameters"}]},
             "--service: '/a/get_parameters' is a service that ROS gives the node itself",

@@ -121,6 +121,7 @@ def _node(
         raise InputError(
             f"--node-name: {name!r} is the name of the package, its script would hide it"
         )
+    _refuse_two_classes(part)
     taken = [one for value in part.answers.values() for one in getattr(value, "class_names", ())]
     node |= {"module": name, "class_name": names.class_name(name, taken)}
     flags: dict[tuple[str, str], str] = {}
@@ -141,6 +142,24 @@ def _node(
     node["parameter_file"] = renderer.text(part.template.parameter_file, scope)
     node["has_parameters"] = renderer.has(f"{part.template.name}/{PARAMETERS}")
     return node
+
+
+def _refuse_two_classes(part: Part) -> None:
+    """Raise if two answers bring different classes of one name into the node's module.
+
+    ``Duration`` is a message, and what the settings of a quality of service are written with.
+    """
+    origins: dict[str, tuple[str, str]] = {}
+    for name, value in part.answers.items():
+        for line in getattr(value, "imports", ()):
+            module, _, classes = line.removeprefix("from ").partition(" import ")
+            for one in classes.split(", "):
+                first, other = origins.setdefault(one, (module, name))
+                if first != module:
+                    raise InputError(
+                        f"{flag(name)}: {one} of {module} and {one} of {first} (for "
+                        f"{flag(other)}) cannot be in one module; choose something else for one"
+                    )
 
 
 _GRAPH_NAMES = frozenset({"topic", "service_name", "action_name"})

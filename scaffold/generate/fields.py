@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.model.generated_code import reserved
 from scaffold.model.interface_syntax import parse
+from scaffold.model.interface_values import FieldType
 from scaffold.model.source import Source
 
 _OWN = "own_package"
 """Stands for the package of the new interface, whose name does not matter here."""
+_MOST = 2**32 - 1
+"""Elements of an array or characters of a text that generated code can count everywhere."""
+_TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+"""Characters that turn the direction of text, of which compilers warn."""
 
 
 class Fields(NamedTuple):
@@ -38,6 +44,8 @@ def fields(given: object, where: str = ".") -> Fields:
     lines = tuple(
         line for text in _texts(given) for line in map(str.strip, text.splitlines()) if line
     )
+    refuse_turning("".join(lines))
+    _refuse_garbled(lines)
     definition = parse(Source("fields", "\n".join(lines)), _OWN, "msg", "Fields")
     for problem in definition.problems:
         raise InputError(f"{lines[problem.location.line - 1]!r}: {problem.message}")
@@ -46,6 +54,7 @@ def fields(given: object, where: str = ".") -> Fields:
             if reserved(field.name):
                 line = lines[field.location.line - 1]
                 raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
+            _refuse_large(field.type, lines[field.location.line - 1])
     types = [one.type.element for section in definition.sections for one in section.fields]
     used = {one.full_name for one in types if not one.is_primitive}
     own = {name for name in used if name.startswith(f"{_OWN}/")}
@@ -55,6 +64,36 @@ def fields(given: object, where: str = ".") -> Fields:
         packages=tuple(sorted({name.partition("/")[0] for name in used - own})),
         own_types=tuple(sorted(name.rpartition("/")[2] for name in own)),
     )
+
+
+def refuse_turning(text: str) -> None:
+    """Raise if a text can make code look like other code.
+
+    Raises:
+        InputError: with the character.
+    """
+    found = next((one for one in text if one in _TURNING), None)
+    if found is not None:
+        raise InputError(f"holds the character U+{ord(found):04X}, which turns text around")
+
+
+def _refuse_garbled(lines: Iterable[str]) -> None:
+    """Raise if the generated code would hold something else than the line, or no code at all."""
+    for line in lines:
+        code = line.partition("#")[0]
+        value = re.sub(r"^\s*\S+\s+\w+[\s=]*", "", code).strip()
+        if "\\" in line:
+            raise InputError(f"{line!r}: rosidl takes a backslash for the start of an escape")
+        if value[:1] in {'"', "'"} and (len(value) == 1 or value[-1] != value[0]):
+            raise InputError(f"{line!r}: the text is not closed; a '#' in it starts a comment")
+        if trigraph := re.search(r"\?\?[=/'()!<>-]", line):
+            raise InputError(f"{line!r}: {trigraph[0]!r} is another character in C")
+
+
+def _refuse_large(type_: FieldType, line: str) -> None:
+    for number in (type_.array_size, type_.text_bound):
+        if number is not None and number > _MOST:
+            raise InputError(f"{line!r}: {number} is too large; the limit is {_MOST}")
 
 
 def refuse_missing(found: Fields, messages: Iterable[str]) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import builtins
+import errno
 import os
 import re
+import signal
 import sys
 from collections.abc import Sequence
 from keyword import iskeyword
@@ -43,6 +45,8 @@ _IMPORTED_CLASSES = frozenset(
     | {"SetParametersResult", "SignalHandlerOptions", "TransitionCallbackReturn"}
 )
 """What the modules of nodes import by name."""
+_C_MACROS = frozenset({"BUFSIZ", "EOF", "INFINITY", "NAN", "NULL"})
+"""Of the headers that generated code includes, besides the names of errors and signals."""
 _RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
 
 
@@ -139,6 +143,10 @@ def interface_name(text: str) -> str:
         InputError: the parsers of ROS refuse it.
     """
     if re.fullmatch(r"[A-Z][A-Za-z0-9]*", text) and len(text) <= MAX_LENGTH:
+        if iskeyword(text):
+            raise InputError(f"the interface name {text!r} is a keyword of Python")
+        if text in _C_MACROS or hasattr(errno, text) or hasattr(signal.Signals, text):
+            raise InputError(f"the interface name {text!r} is a macro of C; choose another one")
         return text
     better = "".join(word[:1].upper() + word[1:] for word in re.findall("[A-Za-z0-9]+", text))
     hint = f", such as {better}" if re.fullmatch(r"[A-Z][A-Za-z0-9]{0,47}", better) else ""

@@ -10,7 +10,7 @@ from typing import Any
 
 from scaffold.errors import InputError
 from scaffold.generate import names
-from scaffold.generate.fields import fields
+from scaffold.generate.fields import fields, refuse_turning
 from scaffold.generate.payload import (
     ActionPayload,
     Payload,
@@ -52,6 +52,7 @@ def text(given: object) -> str:
     for character in folded:
         if unicodedata.category(character) in {"Cc", "Cs"} or character in "\ufffe\uffff":
             raise InputError(f"holds the character U+{ord(character):04X}, which XML forbids")
+    refuse_turning(folded)
     if is_placeholder(folded):
         raise InputError(f"{_short(folded)!r} is a placeholder; say it, or leave it out")
     return folded
