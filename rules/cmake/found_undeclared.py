@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Rule
 from scaffold.model import needs
-from scaffold.model.known import ROS_PACKAGES, provided_by
+from scaffold.model.brought_along import provided_by
+from scaffold.model.known import ROS_PACKAGES
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"

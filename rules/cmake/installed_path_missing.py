@@ -7,6 +7,8 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake import Install, InstallItem
+from scaffold.model.cmake_parser import Command
+from scaffold.model.left_out import is_left_out
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 
@@ -65,6 +67,8 @@ class InstalledPathMissing(Rule):
         path = item.path
         if not path or not self._is_own(path) or self._is_made(package, path):
             return None
+        if _is_asked_for(install.command) or is_left_out(package, path):
+            return None
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
         if package.has(path):
@@ -97,4 +101,22 @@ class InstalledPathMissing(Rule):
             "fetchcontent_declare",
             "generate_parameter_library",
         )
-        return any(name in argument.value for maker in makers for argument in maker.arguments)
+        if any(name in argument.value for maker in makers for argument in maker.arguments):
+            return True
+        # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
+        makers = [*package.cmake.find("set")] if makers else []
+        return any(f"/{path}/" in argument.value for one in makers for argument in one.arguments)
+
+
+def _is_asked_for(command: Command) -> bool:
+    """Tell whether a command runs only where a file is: ``if(EXISTS ...)``."""
+    at = command
+    while at.parent is not None and at.branch is not None:
+        if "EXISTS" in at.branch.values or (at.branch.name == "else" and _asks(at.parent)):
+            return True
+        at = at.parent
+    return False
+
+
+def _asks(opening: Command) -> bool:
+    return "EXISTS" in opening.values

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.model.brought_along import provided_by
 from scaffold.model.cmake import CMakeLists
 from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.model.cmake_interfaces import generations
 from scaffold.model.interfaces import KINDS
-from scaffold.model.known import provided_by
 
 _TOOLS = ("ament_cmake", "ament_lint", "rosidl_", "Python3", "Eigen3")
 """What brings no interfaces along, except for those that all interfaces use."""
@@ -89,9 +89,11 @@ def _there(package: Package, found: set[str] | None) -> set[str] | None:
     pending = sorted(found)
     while pending:
         name = pending.pop()
-        if name in there or name.startswith(_TOOLS):
+        if name in there:
             continue
         there.add(name)
+        if name.startswith(_TOOLS):
+            continue
         pending += sorted(provided_by({name}))
         known = [(kind, definitions.names(name, kind)) for kind in KINDS]
         if name in found and not any(names for _, names in known):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety, Severity, ViewError
 from scaffold.model.cmake_facts import has_unknown_commands, uses_ament
 from scaffold.model.cmake_interfaces import Generation, generations
-from scaffold.model.interface_files import standing
+from scaffold.model.interface_files import is_commented_out, standing
 
+_USERS = (".py", ".cpp", ".hpp", ".cc", ".h", ".msg", ".srv", ".action")
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 
 
@@ -16,7 +18,7 @@ class InterfaceNotGenerated(Rule):
     """A .msg, .srv or .action file is there, but nothing is generated from it.
 
     **Why.** The build succeeds; ``ros2 interface show`` and every import say that there is no
-    such type.
+    such type. A warning where nothing in the workspace names the type.
 
     **Fix.** Add the file to ``rosidl_generate_interfaces``. Packages of the build type
     ament_python cannot generate interfaces: move the file to a package of ament_cmake.
@@ -85,13 +87,28 @@ class InterfaceNotGenerated(Rule):
                 yield self.report(project.name_location, message)
             return
         listed = {file.path for call in calls for file in call.files}
-        comments = "\n".join(package.cmake.text(token) for token in package.cmake.comments)
         for path in files:
-            if path in listed or path.rpartition("/")[2] in comments:
+            if path in listed or is_commented_out(package, path):
                 continue
             name = path.rpartition("/")[2].rpartition(".")[0]
             message = f"{path} is not among the files: nobody can use {name}"
-            yield self.report(calls[0].command.name_location, message, _add(calls[0], path))
+            found = self.report(calls[0].command.name_location, message, _add(calls[0], path))
+            wanted = _is_wanted(package, name)
+            yield found if wanted else found._replace(severity=Severity.WARNING)
+
+
+def _is_wanted(package: Package, name: str) -> bool:
+    """Tell whether code or another interface of the workspace names a type."""
+    for other in package.workspace:
+        for path in other.files:
+            if not path.endswith(_USERS) or path.rpartition("/")[2].startswith(f"{name}."):
+                continue
+            try:
+                if re.search(rf"\b{name}\b", other.source(path).text):
+                    return True
+            except ViewError:
+                continue
+    return False
 
 
 def _is_elsewhere(package: Package) -> bool:

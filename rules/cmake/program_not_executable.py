@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Rule
-from scaffold.model.cmake_facts import programs
+from scaffold.model.cmake_facts import is_only_imported, programs
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _NODE = "#!/usr/bin/env python3\n"
@@ -31,6 +31,10 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py",),
         ),
         Example(
+            "a module that other scripts import",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
+        ),
+        Example(
             "not executable",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
             at=("talker/node.py:1",),
@@ -51,6 +55,7 @@ class ProgramNotExecutable(Rule):
                 package.is_executable(path)
                 or not path.endswith(".py")
                 or path.endswith("__init__.py")
+                or is_only_imported(package, path)
             ):
                 continue
             line = program.location.line

@@ -43,6 +43,15 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
+            "started by an installed script",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                "talker/node.py": "#!/usr/bin/env python3\n"
+                "from talker.other import main\n\nmain()\n",
+                "talker/other.py": _NODE,
+            },
+        ),
+        Example(
             "a CMakeLists.txt that colcon does not read",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n  <export>\n'
@@ -73,8 +82,11 @@ class ProgramNotInstalled(Rule):
             return
         known = {program.path for program in programs(package)}
         at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
+        used = _imported_by(package, known)
         for module in package.modules():
             if module.path in known or not self._is_started(module):
+                continue
+            if f"/{module.path}".endswith(used):
                 continue
             if self._is_named(package, module.path) or self._is_misspelt(package, module.path):
                 continue
@@ -113,3 +125,10 @@ class ProgramNotInstalled(Rule):
         name = path.rpartition("/")[2].removesuffix(".py")
         others = [command for command in package.cmake.commands if command.name != "install"]
         return any(name in one.value for command in others for one in command.arguments)
+
+
+def _imported_by(package: Package, paths: set[str]) -> tuple[str, ...]:
+    """Return the ends of the paths of all modules that some files import."""
+    modules = [package.module(path) for path in sorted(paths & set(package.python_files))]
+    names = {one.module for module in modules for one in module.imports}
+    return tuple(f"/{name.replace('.', '/')}.py" for name in sorted(names) if name)

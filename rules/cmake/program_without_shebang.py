@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
-from scaffold.model.cmake_facts import programs
+from scaffold.model.cmake_facts import is_only_imported, programs
 
 SHEBANG = "#!/usr/bin/env python3"
 ENV_WORDS = 2
@@ -30,6 +30,10 @@ class ProgramWithoutShebang(Rule):
     examples = (
         Example("with", {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\nimport rclpy\n"}),
         Example(
+            "a module that other scripts import",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
+        ),
+        Example(
             "without",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
             at=("talker/node.py:1",),
@@ -52,6 +56,8 @@ class ProgramWithoutShebang(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for path in sorted({program.path for program in programs(package)}):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
+                continue
+            if is_only_imported(package, path):
                 continue
             source = package.editable(path)
             line = source.lines[0]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.launch_configurations import may_be_set_elsewhere, set_names
-from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch_py import LaunchCall, LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
@@ -46,6 +47,14 @@ class ConfigurationUndeclared(Rule):
             },
         ),
         Example(
+            "never used",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", "'talk'").replace(
+                    "    return", "    node = LaunchConfiguration('node')\n    return"
+                )
+            },
+        ),
+        Example(
             "declared nowhere; declared under another name",
             {
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
@@ -67,9 +76,22 @@ class ConfigurationUndeclared(Rule):
                     continue
                 if "default" in call.given or call.is_open:
                     continue
+                if _is_unused(launch, call):
+                    continue
                 seen.add(name)
                 if may_be_set_elsewhere(package, launch, name):
                     continue
                 have = ", ".join(sorted(set(launch.declared))) or "nothing"
                 message = f"nothing sets the launch configuration {name!r}; declared here is {have}"
                 yield self.report(launch.location(call.call), message)
+
+
+def _is_unused(launch: LaunchFile, call: LaunchCall) -> bool:
+    """Tell whether a substitution is stored in a variable that nothing reads."""
+    holder = launch.module.parent(call.call)
+    if not isinstance(holder, ast.Assign) or len(holder.targets) != 1:
+        return False
+    target = holder.targets[0]
+    return isinstance(target, ast.Name) and not any(
+        isinstance(use.ctx, ast.Load) for use in launch.module.index.names(target.id)
+    )

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+
+_COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
+"""Directories of code of others."""
 
 
 class NestedPackage(Rule):
@@ -23,6 +26,14 @@ class NestedPackage(Rule):
     examples = (
         Example("one package", {"package.xml": "<package/>\n", "msgs/readme.txt": ""}),
         Example(
+            "a library that the outer package builds",
+            {
+                "package.xml": "<package/>\n",
+                "CMakeLists.txt": "project(robot)\nadd_subdirectory(lib/karto)\n",
+                "lib/karto/package.xml": "<package/>\n",
+            },
+        ),
+        Example(
             "a package of messages inside the package that uses them",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
             at=("robot_msgs/package.xml:1",),
@@ -32,5 +43,19 @@ class NestedPackage(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         outer = package.name or "the package above it"
         for directory in package.tree.nested:
+            if _is_built(package, directory):
+                continue
             at = package.start_of(f"{directory}/package.xml")
             yield self.report(at, f"lies inside the package {outer!r}: colcon never builds it")
+
+
+def _is_built(package: Package, directory: str) -> bool:
+    """Tell whether the outer package builds a directory: its CMake goes there, or it is a copy."""
+    if not _COPIES.isdisjoint(directory.split("/")):
+        return True
+    try:
+        commands = package.cmake.find("add_subdirectory", "set", "include", "include_directories")
+    except ViewError:
+        return False
+    values = {value.rpartition("}/")[2].strip("/") for one in commands for value in one.values}
+    return any(f"{directory}/".startswith(f"{value}/") for value in values - {"", "."})

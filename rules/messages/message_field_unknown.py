@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_for_ros1
 from scaffold.model.interfaces import nearest_word
 from scaffold.model.message_types import PARTS, MessageClass, MessageTypes
 
@@ -66,7 +67,7 @@ class MessageFieldUnknown(Rule):
         for types in MessageTypes.of_package(package):
             for node in types.module.walk(ast.Attribute):
                 said = _flaw(types, node)
-                if said and not types.is_tolerated(node):
+                if said and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
                     start, end = types.module.span(node)
                     at = types.module.source.location(max(start, end - len(node.attr)), end)
                     yield self.report(at, said)

@@ -81,7 +81,8 @@ class OwnImportMissing(Rule):
             path = _file_of(package, name)
             if not path:
                 if not _is_made(package, name):
-                    near = get_close_matches(name, _modules(package, root), 1, 0.6)
+                    modules = [one for one in _modules(package, root) if "__init__" not in one]
+                    near = get_close_matches(name, modules, 1, 0.6)
                     hint = f"; {near[0]!r} is meant" if near else ""
                     yield self.report(one, f"the package has no module {name!r}{hint}")
                 return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_asked_about
 from scaffold.model.ros_names import topic_problem
 
 _NODE = (
@@ -30,6 +31,16 @@ class TopicNameInvalid(Rule):
     name = "topic-name-invalid"
     examples = (
         Example("accepted", {"talker.py": _NODE.format("~/scan_2d/front")}),
+        Example(
+            "a parameter that somebody sets",
+            {
+                "talker.py": _NODE.replace("'{}'", "topic").replace(
+                    "        self.create",
+                    "        topic = self.declare_parameter('topic', '').value\n"
+                    "        self.create",
+                )
+            },
+        ),
         Example("a dash", {"talker.py": _NODE.format("front-scan")}, at=("talker.py:8",)),
         Example("a digit first", {"talker.py": _NODE.format("scan/2d")}, at=("talker.py:8",)),
     )
@@ -39,6 +50,12 @@ class TopicNameInvalid(Rule):
             for entity in facts.endpoints:
                 argument = entity.name_argument
                 if argument is None or not isinstance(entity.name, str):
+                    continue
+                # An empty default is there to be replaced.
+                if not entity.name and (
+                    entity.from_parameter
+                    or is_asked_about(facts.module, entity.call, argument.node)
+                ):
                     continue
                 problem = topic_problem(entity.name)
                 if problem:

@@ -67,13 +67,16 @@ class AttributeOfNodeUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         bases = package.remember("names_of_bases", lambda: _names_of_bases(package))
+        given = package.remember("attributes_given", lambda: _given(package))
         for facts in package.rclpy_files():
             for node in facts.classes:
                 if node.name not in bases and _is_plain(node):
-                    yield from self._check(facts, node)
+                    yield from self._check(facts, node, given)
 
-    def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
-        known = _defined(node)
+    def _check(
+        self, facts: NodeFacts, node: NodeClass, given: frozenset[str]
+    ) -> Iterator[Diagnostic]:
+        known = _defined(node) | given
         for attribute in facts.module.walk(ast.Attribute):
             name = attribute.attr
             if name in known or has(NODE, name) or not _is_own(facts, node, attribute):
@@ -124,6 +127,18 @@ def _names_of_bases(package: Package) -> frozenset[str]:
         for class_ in module.walk(ast.ClassDef)
         for base in class_.bases
         if isinstance(base, ast.Attribute | ast.Name)
+    )
+
+
+def _given(package: Package) -> frozenset[str]:
+    """Return the attributes that code of the package sets on other objects than ``self``."""
+    return frozenset(
+        node.attr
+        for module in package.modules()
+        for node in module.walk(ast.Attribute)
+        if isinstance(node.ctx, ast.Store)
+        and isinstance(node.value, ast.Name)
+        and node.value.id != "self"
     )
 
 

@@ -54,7 +54,8 @@ class CallbackArity(Rule):
                     continue
                 least, most = takes.start, takes.stop - 1
                 has = str(least) if least == most else f"{least} to {most}"
-                message = f"{callback.name or 'the callback'} takes {has} arguments; {given[1]}"
+                noun = "argument" if has == "1" else "arguments"
+                message = f"{callback.name or 'the callback'} takes {has} {noun}; {given[1]}"
                 yield self.report(callback, message)
 
 

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.scopes import FunctionNode
 
@@ -57,7 +58,7 @@ class FutureReadTooEarly(Rule):
                     if _waits(function):
                         continue
                     for call in facts.calls_in(function):
-                        if self._reads(facts, call, name):
+                        if self._reads(facts, call, name) and not _is_asked(facts, call, name):
                             at = facts.module.location(call)
                             message = f"{name} is not done here: its result is None"
                             yield self.report(at, message)
@@ -80,6 +81,11 @@ class FutureReadTooEarly(Rule):
             and inner.func.value.id == parameter
             for inner in facts.calls_in(function)
         )
+
+
+def _is_asked(facts: NodeFacts, call: ast.Call, name: str) -> bool:
+    """Tell whether a call is reached only if the future is done, as a condition says."""
+    return is_asked_about(facts.module, call, ast.Name(id=name))
 
 
 def _futures(function: FunctionNode) -> list[str]:

@@ -51,6 +51,8 @@ class QosMissing(Rule):
     def _problem(self, entity: Publisher | Subscription) -> str | None:
         if entity.has_unknown_arguments:
             return None
+        if entity.owner is None and entity.name_argument is None:
+            return None  # a method of this name that is not rclpy's
         if entity.argument("qos_profile") is None:
             what = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
             return f"{what}() wants a depth or a QoS profile as well"

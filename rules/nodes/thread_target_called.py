@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
 
 _NODE = (
@@ -46,6 +47,14 @@ class ThreadTargetCalled(Rule):
             },
         ),
         Example(
+            "made only where there is a period",
+            {
+                "talker.py": _NODE.format("", "self.lag", "await ")
+                .replace("        self.create", "        self.lag = 0.0\n        self.create")
+                .replace("        self.create", "        if self.lag:\n            self.create")
+            },
+        ),
+        Example(
             "called, zero, dropped",
             {"talker.py": _NODE.format("()", "0.0", "")},
             at=("talker.py:9", "talker.py:10", "talker.py:19"),
@@ -61,7 +70,9 @@ class ThreadTargetCalled(Rule):
                 argument = timer.argument("timer_period_sec")
                 value, notes = facts.evaluator.trace(argument.node if argument else None)
                 # Zero as the default of a parameter is there to be replaced.
-                if argument is not None and value in (0, 0.0) and not notes:
+                if argument is None or value not in (0, 0.0) or notes:
+                    continue
+                if not is_asked_about(facts.module, timer.call, argument.node):
                     yield self.report(argument, "a period of 0 takes all of the processor")
 
 

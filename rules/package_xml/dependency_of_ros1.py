@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.known import ROS1_PACKAGES
 
+_CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
+
 
 class DependencyOfRos1(Rule):
     """A dependency is a package of ROS 1.
@@ -49,4 +51,6 @@ class DependencyOfRos1(Rule):
             name = dependency.name
             heir = ROS1_PACKAGES.get(name)
             if heir and dependency.active and package.workspace.get(name) is None:
-                yield self.report(dependency, f"{name!r} is of ROS 1; ROS 2 has {heir} instead")
+                which = "Gazebo classic, which Jazzy lacks" if name in _CLASSIC else "ROS 1"
+                message = f"{name!r} is of {which}; ROS 2 has {heir} instead"
+                yield self.report(dependency, message)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
 
 COVERED = ("build_depend", "build_export_depend", "exec_depend")
 
@@ -13,7 +13,8 @@ class DependencyRedundant(Rule):
     """``<depend>`` and a narrower tag name the same package, or a tag names it twice.
 
     **Why.** catkin_pkg, and with it colcon, refuses the manifest: ``The generic dependency on
-    'std_msgs' is redundant with: exec_depend``.
+    'std_msgs' is redundant with: exec_depend``. So it is with two ``<depend>``; another tag twice
+    is a line too many and nothing worse: a warning.
 
     **Fix.** Keep ``<depend>``, which covers building and running, and drop the other.
 
@@ -45,6 +46,20 @@ class DependencyRedundant(Rule):
                 "package.xml": '<package format="3">\n  <depend>std_msgs</depend>\n</package>\n'
             },
         ),
+        Example(
+            "exec_depend twice",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <exec_depend>std_msgs</exec_depend>\n"
+                "  <exec_depend>std_msgs</exec_depend>\n"
+                "</package>\n"
+            },
+            at=("package.xml:3",),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <exec_depend>std_msgs</exec_depend>\n</package>\n"
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -68,4 +83,6 @@ class DependencyRedundant(Rule):
             else:
                 continue
             fix = Fix("remove it", (manifest.remove(dependency.element),))
-            yield self.report(dependency, message, fix)
+            is_refused = kind == "depend" or other is not None
+            severity = Severity.ERROR if is_refused else Severity.WARNING
+            yield self.report(dependency, message, fix)._replace(severity=severity)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
-from scaffold.model.known import provided_by, similar_package
+from scaffold.model.brought_along import provided_by
+from scaffold.model.known import similar_package
 from scaffold.model.needs import declared, needs
 
 _INTERFACES = ("_msgs", "_srvs")

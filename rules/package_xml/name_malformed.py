@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.manifest_structure import structure
 from scaffold.model.manifest_values import NAME, fits
 
@@ -12,8 +12,9 @@ from scaffold.model.manifest_values import NAME, fits
 class NameMalformed(Rule):
     """The name of the package has characters that a name may not have.
 
-    **Why.** ``ament_xmllint`` fails under ``colcon test``. Names with a capital or a dash cannot
-    be released, and interfaces of such a package cannot be generated.
+    **Why.** ``ament_xmllint`` fails under ``colcon test``. Names with a capital cannot be released,
+    and interfaces of such a package cannot be generated. A dash alone is a warning: packages of
+    such a name have been released.
 
     **Fix.** Use lower-case letters, digits and single underscores between them, a letter first.
     No automatic fix: the name stands in other files, too.
@@ -40,7 +41,9 @@ class NameMalformed(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element, name in structure(package).values("name"):
             if not fits(NAME, name):
-                yield self.report(element.text_location, f"the name {name!r} {_reason(name)}")
+                found = self.report(element.text_location, f"the name {name!r} {_reason(name)}")
+                is_plain = fits(NAME, name.replace("-", "_")) and not package.glob("msg/*.msg")
+                yield found._replace(severity=Severity.WARNING) if is_plain else found
 
 
 def _reason(name: str) -> str:

@@ -7,9 +7,9 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.declared_parameters import Declared, declared_by
-from scaffold.model.launch_nodes import started_nodes
+from scaffold.model.launch_nodes import StartedNode, started_nodes
 from scaffold.model.parameter_files import parameter_file, parameter_paths
-from scaffold.model.parameter_use import nodes_for
+from scaffold.model.parameter_use import is_loaded, nodes_for, use_of
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -65,6 +65,10 @@ class ParameterUndeclared(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._in_files(package)
+        yield from self._in_launch_files(package)
+
+    def _in_files(self, package: Package) -> Iterator[Diagnostic]:
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
@@ -72,23 +76,39 @@ class ParameterUndeclared(Rule):
                 known = [declared_by(owner, package) for owner in owners]
                 if not known or not all(one.complete for one in known):
                     continue
+                if not use_of(package, path).nodes and is_loaded(package, path):
+                    continue
                 for entry in section.entries:
                     if not any(one.has(entry.name) for one in known):
-                        message = _message(entry.name, known, str(owners[0].node_name))
+                        message = _message(entry.name, known, owners[0].node_name)
                         yield self.report(entry, message)
+
+    def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
             owner = node.owner
             declared = declared_by(owner, package) if owner is not None else None
             if declared is None or not declared.complete:
                 continue
             for name, key, _ in node.parameter_dicts:
-                if not declared.has(name):
-                    message = _message(name, [declared], str(node.name))
+                if not declared.has(name) and not _is_shared(package, node, name):
+                    message = _message(name, [declared], node.name)
                     yield self.report(node.launch.location(key), message)
 
 
-def _message(name: str, known: list[Declared], node: str) -> str:
+def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
+    """Tell whether the other program that runs under a name takes the parameter."""
+    return any(
+        other.launch is node.launch
+        and other.name == node.name
+        and other.executable != node.executable
+        and any(given == name for given, _, _ in other.parameter_dicts)
+        for other in started_nodes(package)
+    )
+
+
+def _message(name: str, known: list[Declared], node: object) -> str:
     names = sorted({one for declared in known for one in declared.types})
     near = get_close_matches(name, names, 1, 0.6)
     hint = f"{near[0]!r} is meant" if near else f"it has {', '.join(names) or 'none'}"
-    return f"the node {node} declares no parameter {name!r}; {hint}"
+    who = f"the node {node}" if isinstance(node, str) else "this node"
+    return f"{who} declares no parameter {name!r}; {hint}"

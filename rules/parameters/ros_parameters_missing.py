@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.parameter_files import KEY, Misplaced, parameter_file, parameter_paths
-from scaffold.model.parameter_use import use_of
+from scaffold.model.parameter_use import is_loaded, use_of
 
 _FILE = "talker:\n  {}:\n    rate: 2.0\n"
 
@@ -58,7 +58,8 @@ class RosParametersMissing(Rule):
             file = parameter_file(package, path)
             if file is None or not file.misplaced:
                 continue
-            is_read = bool(file.sections or use_of(package, path).nodes)
+            is_given = bool(use_of(package, path).nodes)
+            is_read = is_given or bool(file.sections and not is_loaded(package, path))
             for one in file.misplaced[:1]:
                 if one.near is not None and (is_read or self._is_meant(file.misplaced)):
                     edit = Edit(path, one.near.start, one.near.end, KEY)

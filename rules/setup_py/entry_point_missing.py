@@ -50,6 +50,8 @@ class EntryPointMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py there
         for entry in package.setup_py.console_scripts:
             if entry.malformed or not entry.module or not entry.function:
                 continue

@@ -64,6 +64,8 @@ class ModuleNotPacked(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py there
         if setup.call is None or setup.has_unknown_keywords or _is_configured(package, setup):
             return
         keyword = setup.keyword("packages")

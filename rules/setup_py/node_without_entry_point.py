@@ -16,7 +16,11 @@ _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\nclass Talker(Node):\n    pass\n\n\n"
     "def main():\n    rclpy.init()\n\n\nif __name__ == '__main__':\n    main()\n"
 )
-_FILES = {"talker/__init__.py": "", "talker/node.py": _NODE, "talker/other.py": _NODE}
+_FILES = {
+    "talker/__init__.py": "",
+    "talker/node.py": _NODE,
+    "talker/other.py": _NODE.replace("Talker", "Listener"),
+}
 
 
 class NodeWithoutEntryPoint(Rule):
@@ -37,6 +41,15 @@ class NodeWithoutEntryPoint(Rule):
         Example(
             "both",
             {"setup.py": _SETUP.format("        'other = talker.other:main',\n"), **_FILES},
+        ),
+        Example(
+            "a copy, kept beside the node",
+            {
+                "setup.py": _SETUP.format(""),
+                **_FILES,
+                "talker/other.py": "",
+                "talker/node_old.py": _NODE,
+            },
         ),
         Example("one", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:6",)),
         Example(
@@ -60,10 +73,13 @@ class NodeWithoutEntryPoint(Rule):
             return
         started = {entry.module for entry in entries}
         used = _imported(package)
+        copied = _started_classes(package, started)
         for facts in package.rclpy_files():
             module = facts.module
             name = module.path.removesuffix(".py").replace("/", ".")
             if name in started or name in used or not facts.classes or not _is_program(module):
+                continue
+            if copied.issuperset(node.name for node in facts.classes) or not _is_module(name):
                 continue
             root = module.path.partition("/")[0]
             if module.path.count("/") == 1 and root in {one.partition(".")[0] for one in started}:
@@ -77,6 +93,21 @@ class NodeWithoutEntryPoint(Rule):
 
 def _is_program(module: PythonModule) -> bool:
     return module.has_main_guard and "main" in module.functions
+
+
+def _is_module(name: str) -> bool:
+    """Tell whether Python can import a file: not ``node.sync-conflict-1.py``."""
+    return all(part.isidentifier() for part in name.split("."))
+
+
+def _started_classes(package: Package, started: set[str]) -> set[str]:
+    """Return the names of the nodes that entry points start; others of the name are copies."""
+    return {
+        node.name
+        for facts in package.rclpy_files()
+        if facts.module.path.removesuffix(".py").replace("/", ".") in started
+        for node in facts.classes
+    }
 
 
 def _is_complete(package: Package, setup: SetupPy) -> bool:

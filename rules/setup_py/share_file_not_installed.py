@@ -72,8 +72,9 @@ class ShareFileNotInstalled(Rule):
         if package.build_type != "ament_python" or installed is None:
             return
         at = package.setup_py.keywords.get("data_files", package.setup_py)
+        stems = tuple(path.removesuffix(".py") for path in installed if path.endswith(".py"))
         for path in launch_files(package):
-            if path not in installed:
+            if path not in installed and not _is_copy(path, stems):
                 message = f"data_files does not install {path}: `ros2 launch` does not find it"
                 yield self.report(at, message)
         for directory in DATA_DIRECTORIES:
@@ -81,3 +82,8 @@ class ShareFileNotInstalled(Rule):
             if files and not installed.intersection(files):
                 message = f"data_files installs nothing of {directory}/, for instance {files[0]}"
                 yield self.report(at, message)
+
+
+def _is_copy(path: str, stems: tuple[str, ...]) -> bool:
+    """Tell whether a file is kept beside an installed one: ``talk.launch_old.py``."""
+    return not path.endswith((".launch.py", "_launch.py")) and path.startswith(stems)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from typing import TYPE_CHECKING
 
+from scaffold.errors import ViewError
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -52,6 +54,32 @@ _SAFE = frozenset({"find_package", "ament_package", "ament_python_install_packag
 
 def _definitions(cmake: CMakeLists) -> list[Command]:
     return [command for command in cmake.find("macro", "function") if command.arguments]
+
+
+def is_only_imported(package: Package, path: str) -> bool:
+    """Tell whether an installed Python file only defines things: others import it."""
+    try:
+        module = package.module(path)
+    except ViewError:
+        return False
+    if module.has_main_guard or not (module.functions or module.classes):
+        return False
+    return all(_only_defines(statement) for statement in module.tree.body)
+
+
+def _only_defines(statement: ast.stmt) -> bool:
+    if isinstance(statement, ast.Expr):
+        return isinstance(statement.value, ast.Constant)
+    return isinstance(
+        statement,
+        ast.Import
+        | ast.ImportFrom
+        | ast.FunctionDef
+        | ast.AsyncFunctionDef
+        | ast.ClassDef
+        | ast.Assign
+        | ast.AnnAssign,
+    )
 
 
 def programs(package: Package) -> list[Program]:

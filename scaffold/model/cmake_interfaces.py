@@ -73,7 +73,8 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
                 collecting = str(value) if value in _WITH_VALUES else ""
             elif collecting == "DEPENDENCIES":
                 known = dependencies is not None and value is not None
-                dependencies = [*(dependencies or ()), str(value)] if known else None
+                # A quoted list falls apart where rosidl takes it.
+                dependencies = [*(dependencies or ()), *str(value).split(";")] if known else None
             elif collecting:
                 collecting = ""
             elif value is None or ":" in value or value.startswith("/") or "$" in value:

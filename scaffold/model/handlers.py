@@ -1,4 +1,4 @@
-"""Whether an exception goes unnoticed: the code expects it, or never runs."""
+"""Whether an exception goes unnoticed: the code expects it, asks first, or never runs."""
 
 from __future__ import annotations
 
@@ -30,6 +30,49 @@ def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
             return False
         child = parent
     return False
+
+
+def is_asked_about(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
+    """Tell whether a node runs only if a condition on a value holds: ``if self.topic:``.
+
+    Args:
+        module: The file.
+        node: What runs.
+        value: The expression; a condition asks about it when it holds the same words.
+    """
+    words = ast.unparse(value)
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.If | ast.IfExp | ast.While) and child is not parent.test:
+            kinds = (ast.Name, ast.Attribute)
+            if any(
+                isinstance(one, kinds) and ast.unparse(one) == words
+                for one in ast.walk(parent.test)
+            ):
+                return True
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            return False
+        child = parent
+    return False
+
+
+def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a node runs with ROS 1 only: ``if ROS_VERSION == 1:``."""
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.If) and child is not parent.test:
+            version = _asks_for_version(parent.test)
+            if version is not None and version == ("1" if child in parent.body else "2"):
+                return True
+        child = parent
+    return False
+
+
+def _asks_for_version(test: ast.expr) -> str | None:
+    match test:
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=value)]):
+            return str(value) if "ROS_VERSION" in ast.unparse(left) else None
+    return None
 
 
 def _is_passed_over(parent: ast.AST, child: ast.AST) -> bool:

@@ -35,6 +35,13 @@ def standing(package: Package) -> list[str]:
     ]
 
 
+def is_commented_out(package: Package, path: str) -> bool:
+    """Tell whether a comment of CMakeLists.txt names a file: it is left out on purpose."""
+    cmake = package.cmake
+    name = path.rpartition("/")[2]
+    return any(name in cmake.text(token) for token in cmake.comments)
+
+
 def interface_files(package: Package) -> list[InterfaceFile]:
     """Return the files that ``rosidl_generate_interfaces`` reads, or is meant to.
 
@@ -50,6 +57,8 @@ def _read(package: Package) -> Iterator[InterfaceFile]:
     listed = {file.path for call in calls for file in call.files}
     standard = {path for path in standing(package) if not is_test_data(path)}
     for path in sorted(listed | standard):
+        if path not in listed and is_commented_out(package, path):
+            continue
         stem, _, kind = path.rpartition("/")[2].rpartition(".")
         if kind in SECTIONS and package.has(path):
             try:

@@ -186,67 +186,6 @@ _OTHER_MODULES = {
     "zmq": "python3-zmq",
 }
 
-PROVIDES = {
-    "launch_ros": "launch ament_index_python rclpy composition_interfaces lifecycle_msgs "
-    "osrf_pycommon python3-yaml",
-    "launch_testing": "launch ament_index_python osrf_pycommon python3-pytest",
-    "launch_testing_ament_cmake": "launch_testing launch python3-pytest ament_cmake_test",
-    "launch_testing_ros": "launch_ros launch launch_testing ament_index_python rclpy "
-    "python3-pytest",
-    "launch_xml": "launch",
-    "launch_yaml": "launch",
-    "launch_pytest": "launch launch_testing osrf_pycommon python3-pytest",
-    "rclpy": "ament_index_python builtin_interfaces rcl_interfaces action_msgs service_msgs "
-    "lifecycle_msgs rosgraph_msgs rpyutils unique_identifier_msgs type_description_interfaces "
-    "python3-yaml",
-    "common_interfaces": "actionlib_msgs builtin_interfaces diagnostic_msgs geometry_msgs nav_msgs "
-    "sensor_msgs shape_msgs std_msgs std_srvs stereo_msgs trajectory_msgs visualization_msgs",
-    "ament_cmake": "ament_cmake_core ament_cmake_python ament_cmake_test ament_cmake_version",
-    "rclcpp": "ament_index_cpp builtin_interfaces libstatistics_collector rcl rcl_interfaces "
-    "rcl_yaml_param_parser rcpputils rcutils rmw rosgraph_msgs statistics_msgs tracetools",
-    "rclcpp_action": "action_msgs rcl rcl_action rclcpp rcpputils",
-    "rclcpp_components": "ament_index_cpp class_loader composition_interfaces rclcpp",
-    "rclcpp_lifecycle": "lifecycle_msgs rcl rcl_interfaces rcl_lifecycle rclcpp rcutils rmw",
-    "tf2_eigen": "geometry_msgs tf2 tf2_ros",
-    "tf2_geometry_msgs": "geometry_msgs python3-numpy tf2 tf2_ros tf2_ros_py",
-    "tf2_sensor_msgs": "geometry_msgs python3-numpy sensor_msgs sensor_msgs_py std_msgs tf2 "
-    "tf2_ros tf2_ros_py",
-    "std_msgs": "builtin_interfaces",
-    "geometry_msgs": "std_msgs builtin_interfaces",
-    "sensor_msgs": "std_msgs geometry_msgs builtin_interfaces",
-    "nav_msgs": "std_msgs geometry_msgs builtin_interfaces",
-    "visualization_msgs": "std_msgs geometry_msgs sensor_msgs builtin_interfaces",
-    "trajectory_msgs": "std_msgs geometry_msgs builtin_interfaces",
-    "diagnostic_msgs": "std_msgs geometry_msgs builtin_interfaces",
-    "ros2cli": "rclpy ament_index_python python3-argcomplete python3-packaging python3-psutil",
-    "ros2launch": "launch launch_ros launch_xml launch_yaml ros2cli ros2pkg ament_index_python",
-    "ros2pkg": "ament_index_python ros2cli",
-    "ros_testing": "launch_testing launch_testing_ament_cmake launch_testing_ros ros2test",
-    "ament_cmake_ros": "ament_cmake ament_cmake_gtest ament_cmake_gmock ament_cmake_pytest "
-    "domain_coordinator",
-    "ament_cmake_auto": "ament_cmake ament_cmake_gtest ament_cmake_gmock ament_cmake_python",
-    "ament_cmake_pytest": "python3-pytest",
-    "autoware_cmake": "ament_cmake ament_cmake_auto ament_lint_auto ament_cmake_python",
-    "ament_lint_common": "ament_cmake_copyright ament_cmake_cppcheck ament_cmake_cpplint "
-    "ament_cmake_flake8 ament_cmake_lint_cmake ament_cmake_pep257 ament_cmake_uncrustify "
-    "ament_cmake_xmllint ament_copyright ament_flake8 ament_pep257 ament_xmllint",
-    "ament_cmake_copyright": "ament_copyright",
-    "ament_cmake_flake8": "ament_flake8",
-    "ament_cmake_pep257": "ament_pep257",
-    "ament_cmake_mypy": "ament_mypy",
-    "ament_cmake_xmllint": "ament_xmllint",
-    "tf2_ros": "tf2_ros_py tf2 tf2_py tf2_msgs geometry_msgs builtin_interfaces message_filters "
-    "rclcpp rclcpp_action rclcpp_components rclpy std_msgs",
-    "tf2_ros_py": "tf2_py tf2_msgs geometry_msgs builtin_interfaces rclpy sensor_msgs std_msgs",
-    "cv_bridge": "sensor_msgs python3-numpy python3-opencv",
-    "sensor_msgs_py": "sensor_msgs python3-numpy",
-    "nav2_simple_commander": "rclpy geometry_msgs nav2_msgs action_msgs lifecycle_msgs",
-    "nav2_common": "launch launch_ros python3-yaml",
-    "moveit_configs_utils": "launch launch_ros launch_param_builder ament_index_python",
-}
-"""What a declared package declares itself (``exec_depend`` or ``depend``), from their manifests:
-a dependency that comes along this way is missing in the manifest, yet present on every robot."""
-
 ROS1_PACKAGES = {
     "actionlib": "rclpy or rclcpp_action",
     "catkin": "ament_cmake",
@@ -328,18 +267,6 @@ _INDEX_NAMES = {
     "yaml": "PyYAML",
     "zmq": "pyzmq",
 }
-
-
-def provided_by(keys: set[str]) -> set[str]:
-    """Return what declared packages bring along, over any number of steps."""
-    found: set[str] = set()
-    pending = list(keys)
-    while pending:
-        for key in PROVIDES.get(pending.pop(), "").split():
-            if key not in found:
-                found.add(key)
-                pending.append(key)
-    return found
 
 
 def is_near(name: str, other: str) -> bool:

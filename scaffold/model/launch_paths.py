@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import posixpath
 from collections.abc import Iterator
 from difflib import get_close_matches
@@ -30,12 +31,26 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
     """Yield the paths below share directories that launch files of a package name."""
     for launch in LaunchFile.of_package(package):
         for found in launch.share_paths:
-            if not launch.is_optional(found.node):
+            if not launch.is_optional(found.node) and not _is_written(launch, found.node):
                 yield NamedPath(found.package, found.path, found.location)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
                 yield NamedPath(path.package, path.path, path.location)
+
+
+def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a launch file makes the file itself: ``open(path, 'w')``."""
+    holder = launch.module.parent(node)
+    targets = holder.targets if isinstance(holder, ast.Assign) else ()
+    names = {target.id for target in targets if isinstance(target, ast.Name)}
+    for call in launch.module.walk(ast.Call) if names else ():
+        match call:
+            case ast.Call(
+                func=ast.Name(id="open"), args=[ast.Name(id=name), ast.Constant(value=mode), *_]
+            ) if name in names and str(mode)[:1] in "wax":
+                return True
+    return False
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:

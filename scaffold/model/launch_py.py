@@ -174,7 +174,28 @@ class LaunchFile:
     def calls(self) -> Sequence[LaunchCall]:
         """All calls of launch, in the order of the text."""
         found = (launch_call(self.module, call) for call in self.module.walk(ast.Call))
-        return [call for call in found if call is not None]
+        calls = [call for call in found if call is not None]
+        replaced = self._replaced
+        if not replaced:
+            return calls
+        return [
+            call
+            for call in calls
+            if not any(parent in replaced for parent in self.module.parents(call.call))
+        ]
+
+    @cached_property
+    def _replaced(self) -> set[ast.stmt]:
+        """The functions of the module that a later one of the same name takes the place of."""
+        last: dict[str, ast.stmt] = {}
+        found: set[ast.stmt] = set()
+        for statement in self.module.tree.body:
+            if isinstance(statement, ast.FunctionDef):
+                earlier = last.get(statement.name)
+                if earlier is not None:
+                    found.add(earlier)
+                last[statement.name] = statement
+        return found
 
     def find(self, *kinds: str) -> list[LaunchCall]:
         """Return the calls of some kinds, in the order of the text."""

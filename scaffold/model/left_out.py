@@ -1,4 +1,4 @@
-"""Files that git leaves out: each machine makes its own, such as a calibration."""
+"""Files that git leaves out: each machine makes its own, or they are of another repository."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _FILE = ".gitignore"
+_SUBMODULES = ".gitmodules"
 
 
 def is_left_out(package: Package, path: str) -> bool:
@@ -20,12 +21,27 @@ def is_left_out(package: Package, path: str) -> bool:
     """
     from fnmatch import fnmatchcase  # few packages name a file that is not there
 
+    if _is_of_submodule(package, path):
+        return True
     name = path.rpartition("/")[2]
     for text in _texts(package):
         for line in text.splitlines():
             pattern = line.strip()
             if pattern and pattern[0] not in "#!" and fnmatchcase(name, pattern):
                 return True
+    return False
+
+
+def _is_of_submodule(package: Package, path: str) -> bool:
+    """Tell whether a path lies in a directory of the package that git fetches from elsewhere."""
+    try:
+        text = package.tree.read(_SUBMODULES).decode(errors="replace")
+    except OSError:
+        return False
+    for line in text.splitlines():
+        key, _, directory = line.partition("=")
+        if key.strip() == "path" and f"{path}/".startswith(f"{directory.strip()}/"):
+            return True
     return False
 
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
-from scaffold.model.known import ROS1_PACKAGES, keys_of_module, provided_by
+from scaffold.model.brought_along import provided_by
+from scaffold.model.known import ROS1_PACKAGES, keys_of_module
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ def declared(package: Package, *, for_tests: bool) -> Declared:
     """Return what is there when the package runs, or when its tests run."""
     manifest = package.manifest
     direct = set(manifest.run_names)
+    # What generates code while the package is built stands among its modules, too.
+    direct |= {one.name for one in manifest.dependencies if one.kind.startswith("buildtool")}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
     along = provided_by(direct)

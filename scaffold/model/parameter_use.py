@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
@@ -33,12 +34,15 @@ def use_of(package: Package, path: str) -> FileUse:
     """Return who reads a parameter file, as far as the package itself says."""
     installed = share_of(package).files
     found: list[StartedNode] = []
+    named_by: list[tuple[StartedNode, ast.expr]] = []
     for node in consumers(package):
-        for named, _ in node.parameter_files:
+        for named, expression in node.parameter_files:
             if installed.get(named, named) == path:
                 found.append(node)
+                named_by.append((node, expression))
     known = {node.launch.path for node in found}
-    return FileUse(found, not _is_mentioned(package, path, known))
+    passed = any(_is_handed_on(node, expression) for node, expression in named_by)
+    return FileUse(found, not passed and not _is_mentioned(package, path, known))
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
@@ -60,6 +64,32 @@ def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
     return list(dict.fromkeys(found)) if len(found) == len(owners) else []
 
 
+def is_loaded(package: Package, path: str) -> bool:
+    """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
+
+    Then it may hold what is for that code alone.
+    """
+
+    def find() -> list[str]:
+        return [
+            other.source(name).text
+            for other in package.workspace
+            for name in other.python_files
+            if b"yaml.safe_load" in other.tree.read(name) and not _is_unreadable(other, name)
+        ]
+
+    name = path.rpartition("/")[2]
+    return any(name in text for text in package.remember("code_loading_yaml", find))
+
+
+def _is_unreadable(package: Package, path: str) -> bool:
+    try:
+        package.source(path)
+    except ViewError:
+        return True
+    return False
+
+
 def node_names(package: Package) -> set[str]:
     """Return all names of nodes that the package mentions: in its code, in its launch files."""
     names = {str(node.node_name) for node in own_nodes(package)[0]}
@@ -74,6 +104,16 @@ def is_alike(name: str, other: str) -> bool:
     if one in {two + "node", "node" + two} or two in {one + "node", "node" + one}:
         return True
     return SequenceMatcher(None, one, two).ratio() >= _ALIKE
+
+
+def _is_handed_on(node: StartedNode, expression: ast.expr) -> bool:
+    """Tell whether a launch file gives a parameter file to a file that it includes, too."""
+    text = node.launch.module.text(expression)
+    return any(
+        text in node.launch.module.text(given)
+        for call in node.launch.find("IncludeLaunchDescription")
+        if (given := call.given.get("launch_arguments")) is not None
+    )
 
 
 def _is_mentioned(package: Package, path: str, known: set[str]) -> bool:
