@@ -45,7 +45,12 @@ def offered(line: str) -> list[str]:
         ),
         ("ros2-scaffold new talker --message-type LaserS", ["LaserScan"]),
         ("ros2-scaffold new talker --qos sensor", ["sensor_data"]),
-        ("ros2-scaffold new talker --add cpp_dequ", ["cpp_deque"]),
+        ("ros2-scaffold new talker --add cpp_dequ", ["cpp_deque:"]),
+        ("ros2-scaffold new talker --add 'timer:x r", ["timer:x rate="]),
+        (
+            "ros2-scaffold new talker --add 'publisher:x rate=5 message_type=LaserS",
+            ["publisher:x rate=5 message_type=LaserScan"],
+        ),
         ("ros2-scaffold new talker --extras lau", ["launch"]),
         ("ros2-scaffold add cpp_dequ", ["cpp_deque"]),
         ("ros2-scaffold interfaces std_srvs/srv/Tri", ["std_srvs/srv/Trigger"]),

@@ -27,7 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
     templates = template.load(content.roots("templates", config.load().content))
     parser.set_defaults(templates=templates)
-    questions.add_flags(parser, questions.shared(_in_order(templates)), parts.kinds(templates))
+    kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
+    questions.add_flags(parser, questions.shared(_in_order(templates)), kinds)
     parser.add_argument(
         "--destination-directory",
         metavar="DIR",

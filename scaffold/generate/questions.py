@@ -56,7 +56,9 @@ def shared(templates: Iterable[Template]) -> list[Question]:
 
 
 def add_flags(
-    parser: argparse.ArgumentParser, questions: Iterable[Question], kinds: Sequence[str] = ()
+    parser: argparse.ArgumentParser,
+    questions: Iterable[Question],
+    kinds: Mapping[str, Sequence[Question]] | None = None,
 ) -> None:
     """Define a flag, or a positional argument, for each question.
 
@@ -65,7 +67,7 @@ def add_flags(
     Args:
         parser: Of the verb.
         questions: Each becomes a flag.
-        kinds: The kinds of parts, for tab completion.
+        kinds: The kinds of parts and their questions, for tab completion.
     """
     for question in questions:
         options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
@@ -77,7 +79,8 @@ def add_flags(
             parser.add_argument(question.name, nargs="?", **options)
             continue
         action = parser.add_argument(flag(question.name), **options)
-        offer = completer(question) if question.type != "parts" else (lambda **_: kinds)
+        is_part = question.type == "parts"
+        offer = _part_completer(kinds or {}) if is_part else completer(question)
         action.completer = offer  # type: ignore[attr-defined]  # argcomplete
 
 
@@ -114,6 +117,24 @@ def completer(question: Question) -> Callable[..., Sequence[str]] | None:
     if question.type == "qos":
         return lambda **_: NAMES
     return None if question.type in {"text", "person", "address"} else lambda **_: ()
+
+
+def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Sequence[str]]:
+    """Return what offers kinds for ``--add``, and behind a name the questions and answers."""
+
+    def offer(prefix: str, **_: object) -> list[str]:
+        before, blank, word = prefix.rpartition(" ")
+        asked = kinds.get(before.partition(":")[0], ())
+        name, equals, answer = word.partition("=")
+        if not blank:
+            return [f"{kind}:" for kind in kinds]
+        if not equals:
+            return [f"{before} {one.name}=" for one in asked if not one.name.endswith("_name")]
+        offers = [completer(one) for one in asked if one.name == name]
+        values = [value for one in offers if one is not None for value in one(prefix=answer)]
+        return [f"{before} {name}={value}" for value in values]
+
+    return offer
 
 
 def _interfaces(kind: str, prefix: str) -> list[str]:
