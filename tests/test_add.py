@@ -419,6 +419,18 @@ def test_what_is_found_in_other_files_is_said_and_does_not_matter(
     assert (demo / "scripts" / "talker.py").exists()
 
 
+def test_what_was_found_before_may_name_what_is_new(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    setup = PYTHON["setup.py"].replace("demo.hello:main", "demo.hallo:main")
+    demo = write(tmp_path / "demo", {**PYTHON, "setup.py": setup})
+    (demo / "demo" / "hello.py").unlink()
+    assert add(demo, "publisher", "talker") == 0
+    assert "SP001" not in capsys.readouterr().err
+    main(["check", str(demo)])
+    assert "there is no demo/hallo.py; demo/talker.py is near" in capsys.readouterr().out
+
+
 def test_a_node_name_that_is_taken_is_said(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -165,7 +165,10 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
         if (diagnostic.code == UnparsableFile.code or diagnostic.code.startswith("E9")) and not (
             force
         ):
-            raise InputError(f"{_line(package, diagnostic)}; mend it first, nothing was changed")
+            raise InputError(
+                f"{_line(package, diagnostic)}; mend it first, or go on without it with --force; "
+                "nothing was changed"
+            )
 
 
 def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:

@@ -150,8 +150,8 @@ def told(package: Package, error: ParseError) -> str:
 def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Return what the checker says of a package only now.
 
-    Lines may have moved; and a line that is added to a file follows the style of that file, so
-    what is found of style there already is not new.
+    Lines may have moved, and a message may name what is new; and a line that is added to a file
+    follows the style of that file, so what is found of style there already is not new.
     """
     from scaffold.check.diagnostic import Severity
     from scaffold.style.codes import CODES
@@ -162,11 +162,19 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
         for one in before
         if one.code in CODES or one.severity is not Severity.ERROR
     }
-    found: list[Diagnostic] = []
+    left: list[Diagnostic] = []
     for diagnostic in after:
         if known[_said(diagnostic)]:
             known[_said(diagnostic)] -= 1
         elif (diagnostic.code, diagnostic.location.path) not in styles:
+            left.append(diagnostic)
+    reworded = Counter((code, path) for code, path, _ in known.elements())
+    found: list[Diagnostic] = []
+    for diagnostic in left:
+        place = diagnostic.code, diagnostic.location.path
+        if reworded[place]:
+            reworded[place] -= 1
+        else:
             found.append(diagnostic)
     return found
 
