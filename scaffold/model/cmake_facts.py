@@ -62,7 +62,9 @@ def is_only_imported(package: Package, path: str) -> bool:
         module = package.module(path)
     except ViewError:
         return False
-    if module.has_main_guard or not (module.functions or module.classes):
+    if module.has_main_guard or "main" in module.functions:
+        return False  # a main that nothing calls is meant to be started
+    if not module.functions and not module.classes:
         return False
     return all(_only_defines(statement) for statement in module.tree.body)
 
