@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import compiled, memory, registry
+from scaffold import cache
+from scaffold.check import compiled, registry
 from scaffold.errors import ContentError
 
 RULE = '''
@@ -27,7 +28,7 @@ class A(Rule):
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.delenv(memory.SWITCH, raising=False)
+    monkeypatch.delenv(cache.SWITCH, raising=False)
     root = tmp_path / "rules"
     (root / "cmake").mkdir(parents=True)
     write(root, "first", 1)
@@ -97,7 +98,7 @@ def test_a_damaged_file_is_ignored(root: Path) -> None:
 
 
 def test_without_a_cache(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(memory.SWITCH, "1")
+    monkeypatch.setenv(cache.SWITCH, "1")
     assert codes(root) == ["CM001"]
     assert not (root.parent / "cache").exists()
 

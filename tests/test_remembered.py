@@ -8,9 +8,11 @@ import shutil
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
+from scaffold import cache
 from scaffold.check import memory, registry
 from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.session import Session
@@ -124,7 +126,7 @@ def runs(
 ) -> Runs:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
-    monkeypatch.delenv(memory.SWITCH, raising=False)
+    monkeypatch.delenv(cache.SWITCH, raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     # Somebody may edit the tool while its tests run; what that does, one of them shows.
     tool = memory.tool()
@@ -260,7 +262,7 @@ def test_a_change_is_seen(
     change(package)
     told = runs(".")
     assert runs.checked != []
-    monkeypatch.setenv(memory.SWITCH, "1")
+    monkeypatch.setenv(cache.SWITCH, "1")
     assert runs(".") == told
 
 
@@ -428,7 +430,7 @@ def test_a_partial_run_says_what_a_whole_one_says(
         change(workspace / one)
         told = runs(".")
         with monkeypatch.context() as context:
-            context.setenv(memory.SWITCH, "1")
+            context.setenv(cache.SWITCH, "1")
             assert runs(".") == told
         assert runs(".") == told
 
@@ -446,7 +448,7 @@ def test_packages_around_the_given_ones_are_seen(
         change(workspace / "called")
         told = runs(*given)
         with monkeypatch.context() as context:
-            context.setenv(memory.SWITCH, "1")
+            context.setenv(cache.SWITCH, "1")
             assert runs(*given) == told
 
 
@@ -519,7 +521,7 @@ def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
 def test_the_switch_reads_and_writes_nothing(
     runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(memory.SWITCH, "1")
+    monkeypatch.setenv(cache.SWITCH, "1")
     for _ in range(2):
         runs(".")
         assert runs.checked == ["talker"]
@@ -534,12 +536,19 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
         assert runs.checked == ["talker"]
 
 
-@pytest.mark.parametrize(("limit", "value"), [("MAX_RUNS", 4), ("MOST_BYTES", 5000)])
+@pytest.mark.parametrize(
+    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MOST_BYTES", 5000)]
+)
 @pytest.mark.usefixtures("package")
 def test_old_runs_are_dropped(
-    runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int
+    runs: Runs,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    module: ModuleType,
+    limit: str,
+    value: int,
 ) -> None:
-    monkeypatch.setattr(memory, limit, value)
+    monkeypatch.setattr(module, limit, value)
     for code in ("PX", "SP", "LY", "NM", "ND"):
         runs(".", "--select", code)
     kept = tmp_path / "cache" / "ros2-scaffold" / "runs"

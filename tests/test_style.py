@@ -13,13 +13,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from scaffold import cache
 from scaffold.check import fixer
 from scaffold.check.diagnostic import Diagnostic, Severity
 from scaffold.errors import EnvironmentMissingError
 from scaffold.model.package import Package
 from scaffold.style import (
     StyleCheck,
-    cache,
     codes,
     docstrings,
     fstrings,

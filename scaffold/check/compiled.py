@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from types import CodeType
 
-from scaffold.check import memory
+from scaffold import cache
 from scaffold.model.disk import digest, stamp
 
 MAX_ROOTS = 16
@@ -29,17 +29,17 @@ def codes(
         paths: The files.
         compile_one: Returns the code of a file, from wherever Python finds it.
     """
-    kept = memory.directory("rules")
+    kept = cache.directory("rules")
     if kept is None:
         return [compile_one(path) for path in paths]
     place = os.path.join(kept, digest(os.path.abspath(root).encode("utf-8", "surrogateescape")))
     stamps = "\n".join([sys.version, *(f"{path} {stamp(path)}" for path in paths)])
     head = _MAGIC + digest(stamps.encode("utf-8", "surrogateescape")).encode()
-    data = memory.read_sealed(place, head)
+    data = cache.read_sealed(place, head)
     if data is not None:
         found: list[CodeType] = marshal.loads(data)  # noqa: S302  own files
         return found
     made = [compile_one(path) for path in paths]
-    if memory.write_sealed(place, head, marshal.dumps(made)):
-        memory.trim(kept, MAX_ROOTS)
+    if cache.write_sealed(place, head, marshal.dumps(made)):
+        cache.trim(kept, MAX_ROOTS)
     return made

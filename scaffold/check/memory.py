@@ -11,6 +11,7 @@ import marshal
 import os
 import sys
 
+from scaffold import cache
 from scaffold.content import built_in
 from scaffold.model.disk import digest, holds, stamp
 
@@ -23,12 +24,9 @@ if TYPE_CHECKING:
 
     Seen = Mapping[Question, Answer]
 
-SWITCH = "SCAFFOLD_NO_CACHE"
 MAX_RUNS = 400
 MAX_BYTES = 50_000_000
 """Of one run; 800 packages with 30,000 findings take 18 MB."""
-MOST_BYTES = 200_000_000
-"""Of all runs."""
 ENVIRONMENT = (
     "AMENT_PREFIX_PATH",
     "HOME",
@@ -41,7 +39,6 @@ ENVIRONMENT = (
 """The variables that a verdict, or how it is shown, depends on."""
 
 _MAGIC = b"scaffold-run-1\n"
-_SEAL = len(digest(b""))
 
 
 class Run:
@@ -88,14 +85,6 @@ class Run:
         return self._asked[at]
 
 
-def directory(kind: str) -> str | None:
-    """Return where the user's cache keeps things of a kind, ``None`` if it is switched off."""
-    if os.environ.get(SWITCH):
-        return None
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return os.path.join(home, "ros2-scaffold", kind) if os.path.isabs(home) else None
-
-
 class Slot:
     """Where a run is remembered: one place for each command line, directory and environment.
 
@@ -111,13 +100,13 @@ class Slot:
         key = marshal.dumps((list(words), where, variables, sys.stdout.isatty()))
         self._path = os.path.join(kept, digest(key))
         self._head = _MAGIC + tool().encode()
-        data = read_sealed(self._path, self._head)
+        data = cache.read_sealed(self._path, self._head)
         self.last = None if data is None else Run(*marshal.loads(data))  # noqa: S302  own files
 
     @classmethod
     def of(cls, words: Sequence[str]) -> Slot | None:
         """Return the place for a command line, ``None`` if nothing is to be remembered."""
-        kept = directory("runs")
+        kept = cache.directory("runs")
         try:
             return cls(kept, words) if kept is not None else None
         except (OSError, ValueError):
@@ -127,52 +116,8 @@ class Slot:
         """Store a run."""
         everything: Any = (run.outside, run.trees, run.results, run.code, run.output)
         data = marshal.dumps(everything)
-        if len(data) <= MAX_BYTES and write_sealed(self._path, self._head, data):
-            trim(os.path.dirname(self._path), MAX_RUNS)
-
-
-def read_sealed(path: str, head: bytes) -> bytes | None:
-    """Return what was written under a head, ``None`` if it is not there, other or damaged."""
-    try:
-        with open(path, "rb", buffering=0) as file:
-            stored = file.read()
-    except OSError:
-        return None
-    start = len(head) + _SEAL
-    data = stored[start:]
-    return data if stored[:start] == head + digest(data).encode() else None
-
-
-def write_sealed(path: str, head: bytes, data: bytes) -> bool:
-    """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
-    aside = f"{path}.{os.getpid()}"
-    try:
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(aside, "wb") as file:
-            file.write(head + digest(data).encode() + data)
-        os.replace(aside, path)
-    except OSError:
-        return False
-    return True
-
-
-def trim(kept: str, most: int) -> None:
-    """Drop the files that were not renewed for longest when they are too many or too large."""
-    files: list[tuple[float, int, str]] = []
-    try:
-        with os.scandir(kept) as entries:
-            for entry in entries:
-                status = entry.stat()
-                files.append((status.st_mtime, status.st_size, entry.path))
-        if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
-            return
-        count = total = 0
-        for _, size, path in sorted(files, reverse=True):
-            count, total = count + 1, total + size
-            if count > 1 and (count > most // 4 * 3 or total > MOST_BYTES // 4 * 3):
-                os.unlink(path)
-    except OSError:
-        return  # another process tidies up
+        if len(data) <= MAX_BYTES and cache.write_sealed(self._path, self._head, data):
+            cache.trim(os.path.dirname(self._path), MAX_RUNS)
 
 
 def tool() -> str:

@@ -6,7 +6,6 @@ import atexit
 import gc
 import os
 import sys
-from importlib import import_module
 
 from scaffold import __version__
 from scaffold.check import memory
@@ -79,6 +78,8 @@ def _run(given: list[str]) -> int:
         # Before argparse: laying out the flags takes longer than looking at a small package.
         sys.stdout.write(last.output)
         return last.code
+    from importlib import import_module
+
     from scaffold.cli.parser import build_parser
 
     options = build_parser(verb).parse_args(given)

@@ -7,7 +7,7 @@ import os
 from jinja2 import BytecodeCache
 from jinja2.bccache import Bucket
 
-from scaffold.check import memory
+from scaffold import cache
 
 _HEAD = b"scaffold-template-2\n"
 _MOST = 500
@@ -24,12 +24,12 @@ class Compiled(BytecodeCache):
     """
 
     def __init__(self, form: str) -> None:
-        self._kept = memory.directory(f"templates_{form}")
+        self._kept = cache.directory(f"templates_{form}")
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """Fill a bucket, if its code is there."""
         data = (
-            memory.read_sealed(os.path.join(self._kept, bucket.key), _HEAD) if self._kept else None
+            cache.read_sealed(os.path.join(self._kept, bucket.key), _HEAD) if self._kept else None
         )
         if data is not None:
             bucket.bytecode_from_string(data)
@@ -39,5 +39,5 @@ class Compiled(BytecodeCache):
         if self._kept is None:
             return
         place = os.path.join(self._kept, bucket.key)
-        if memory.write_sealed(place, _HEAD, bucket.bytecode_to_string()):
-            memory.trim(self._kept, _MOST)
+        if cache.write_sealed(place, _HEAD, bucket.bytecode_to_string()):
+            cache.trim(self._kept, _MOST)

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import Any
 
-from scaffold.check import memory
+from scaffold import cache
 from scaffold.errors import ContentError
 from scaffold.generate import licenses
 from scaffold.model.disk import digest, stamp
@@ -162,9 +162,9 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
     paths = [os.path.join(directory, MANIFEST) for directory in directories]
     stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
     head = b"scaffold-manifests-1\n" + digest(os.fsencode(stamps)).encode()
-    kept = memory.directory("manifests")
+    kept = cache.directory("manifests")
     place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
-    data = memory.read_sealed(place, head) if kept else None
+    data = cache.read_sealed(place, head) if kept else None
     if data is not None:
         found: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
         return found
@@ -173,8 +173,8 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
         data = marshal.dumps(made)
     except ValueError:  # a date, which YAML knows and marshal does not
         return made
-    if kept and memory.write_sealed(place, head, data):
-        memory.trim(kept, _MOST_KEPT)
+    if kept and cache.write_sealed(place, head, data):
+        cache.trim(kept, _MOST_KEPT)
     return made
 
 

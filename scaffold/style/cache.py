@@ -10,9 +10,10 @@ import marshal
 import os
 from collections.abc import Callable, Sequence
 
+from scaffold import cache
+from scaffold.model.disk import digest
 from scaffold.style.finding import Finding
 
-SWITCH = "SCAFFOLD_NO_CACHE"
 MAX_ENTRIES = 20_000
 KEPT_ENTRIES = 15_000
 _MAGIC = b"scaffold-style-1\n"
@@ -28,40 +29,22 @@ class Cache:
     @classmethod
     def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
         """Return the user's cache, unless it is switched off or there is no home for it."""
-        if os.environ.get(SWITCH):
-            return None
-        home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-        if not os.path.isabs(home):
-            return None
-        return cls(os.path.join(home, "ros2-scaffold", "style"), depends_on())
+        kept = cache.directory("style")
+        return None if kept is None else cls(kept, depends_on())
 
     def key(self, name: str, linters: int, data: bytes) -> str:
         """Return the key of a file: of its bytes and of what else rules look at."""
         kind = "init" if name == "__init__.py" else "module"
-        return _digest(b"%s\0%s %d\0%s" % (self._salt, kind.encode(), linters, data))
+        return digest(b"%s\0%s %d\0%s" % (self._salt, kind.encode(), linters, data))
 
     def get(self, key: str) -> list[Finding] | None:
         """Return the findings stored under a key."""
-        try:
-            with open(self._path(key), "rb") as file:
-                stored = file.read()
-            if not stored.startswith(_MAGIC):
-                return None
-            return [Finding(*one) for one in marshal.loads(stored[len(_MAGIC) :])]  # noqa: S302  own files
-        except (OSError, ValueError, EOFError, TypeError):
-            return None
+        data = cache.read_sealed(self._path(key), _MAGIC)
+        return None if data is None else [Finding(*one) for one in marshal.loads(data)]  # noqa: S302  own files
 
     def put(self, key: str, findings: Sequence[Finding]) -> None:
-        """Store findings; written aside and renamed, so that no reader sees half of it."""
-        path = self._path(key)
-        aside = f"{path}.{os.getpid()}"
-        try:
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            with open(aside, "wb") as file:
-                file.write(_MAGIC + marshal.dumps([tuple(one) for one in findings]))
-            os.replace(aside, path)
-        except (OSError, ValueError):
-            return
+        """Store findings."""
+        cache.write_sealed(self._path(key), _MAGIC, marshal.dumps([*map(tuple, findings)]))
 
     def trim(self) -> None:
         """Drop the oldest entries when there are too many."""
@@ -79,12 +62,3 @@ class Cache:
 
     def _path(self, key: str) -> str:
         return os.path.join(self._directory, key[:2], key[2:])
-
-
-def _digest(data: bytes) -> str:
-    try:
-        # The import of hashlib takes longer than hashing a package.
-        from _blake2 import blake2b
-    except ImportError:
-        from hashlib import blake2b
-    return blake2b(data, digest_size=20).hexdigest()

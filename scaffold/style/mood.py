@@ -48,13 +48,13 @@ def _imperatives() -> dict[str, set[str]]:
     """Return the words of the list by their stems, from the user's cache after the first time."""
     import marshal
 
-    from scaffold.check import memory
+    from scaffold import cache
     from scaffold.model.disk import stamp
 
-    kept = memory.directory("words")
+    kept = cache.directory("words")
     place = os.path.join(kept, "imperatives") if kept else ""
     head = b"scaffold-words-1\n" + stamp(os.path.join(_data(), "imperatives.txt")).encode()
-    data = memory.read_sealed(place, head) if kept else None
+    data = cache.read_sealed(place, head) if kept else None
     if data is not None:
         known: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
         return known
@@ -62,7 +62,7 @@ def _imperatives() -> dict[str, set[str]]:
     for word in _known():
         found.setdefault(_stem(word), set()).add(word)
     if kept:
-        memory.write_sealed(place, head, marshal.dumps(found))
+        cache.write_sealed(place, head, marshal.dumps(found))
     return found
 
 

@@ -1,0 +1,71 @@
+"""The user's cache: files that may be dropped at any time, and that nothing damaged is read from.
+
+A file is sealed: it starts with a head, which says who wrote it and of what, and with a digest of
+its data. One that has another head or that is damaged is as good as none. This module is imported
+by every start and imports next to nothing.
+"""
+
+from __future__ import annotations
+
+import os
+
+from scaffold.model.disk import digest
+
+SWITCH = "SCAFFOLD_NO_CACHE"
+"""The variable that switches the cache off."""
+MOST_BYTES = 200_000_000
+"""Of all files of a kind."""
+
+_SEAL = len(digest(b""))
+
+
+def directory(kind: str) -> str | None:
+    """Return where the user's cache keeps things of a kind, ``None`` if it is switched off."""
+    if os.environ.get(SWITCH):
+        return None
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return os.path.join(home, "ros2-scaffold", kind) if os.path.isabs(home) else None
+
+
+def read_sealed(path: str, head: bytes) -> bytes | None:
+    """Return what was written under a head, ``None`` if it is not there, other or damaged."""
+    try:
+        with open(path, "rb", buffering=0) as file:
+            stored = file.read()
+    except OSError:
+        return None
+    start = len(head) + _SEAL
+    data = stored[start:]
+    return data if stored[:start] == head + digest(data).encode() else None
+
+
+def write_sealed(path: str, head: bytes, data: bytes) -> bool:
+    """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
+    aside = f"{path}.{os.getpid()}"
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(aside, "wb") as file:
+            file.write(head + digest(data).encode() + data)
+        os.replace(aside, path)
+    except OSError:
+        return False
+    return True
+
+
+def trim(kept: str, most: int) -> None:
+    """Drop the files that were not renewed for longest when they are too many or too large."""
+    files: list[tuple[float, int, str]] = []
+    try:
+        with os.scandir(kept) as entries:
+            for entry in entries:
+                status = entry.stat()
+                files.append((status.st_mtime, status.st_size, entry.path))
+        if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
+            return
+        count = total = 0
+        for _, size, path in sorted(files, reverse=True):
+            count, total = count + 1, total + size
+            if count > 1 and (count > most // 4 * 3 or total > MOST_BYTES // 4 * 3):
+                os.unlink(path)
+    except OSError:
+        return  # another process tidies up
