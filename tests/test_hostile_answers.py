@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import ast
 import json
+from collections.abc import Callable
 from contextlib import suppress
+from itertools import cycle
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -22,11 +25,15 @@ from scaffold.generate.questions import Given
 from scaffold.generate.template import PARTS, Question, Role
 from scaffold.model.cmake_parser import parse as parse_cmake
 from scaffold.model.source import Source
+from scaffold.plan import WritePlan
+from tests import oracles
+from tests.oracles import needs_system_linter
 
 ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)
 RULES = registry.load(content.roots("rules"))
 KINDS = [name for name, one in TEMPLATES.items() if one.role in PARTS]
+BUILD_TYPES = template.of_role(TEMPLATES, Role.BUILD_TYPE)
 EXTRAS = [name for name, one in TEMPLATES.items() if one.role is Role.EXTRA]
 LONGEST_MESSAGE = 1000
 """Characters of a line that says what is wrong; some list every licence or every kind of part."""
@@ -750,6 +757,56 @@ def test_every_answer_alone(kind: str, question: Question) -> None:
 @given(data=st.data())
 def test_answers_together(kind: str, data: st.DataObject) -> None:
     judged(data.draw(requests(kind)))
+
+
+SURVIVORS = 40
+
+
+@pytest.fixture(scope="module")
+def survivors(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write packages of acceptable hostile answers, all answers in turn."""
+    root = tmp_path_factory.mktemp("survivors")
+    turns = {question.name: cycle(plain(question)) for _, question in ASKED}
+    base = [question for kind, question in ASKED if kind == "package"]
+    number = 0
+    for kind in cycle(KINDS):
+        part = {one.name: next(turns[one.name]) for name, one in ASKED if name == kind}
+        wanted = {one.name: next(turns[one.name]) for one in base if one.name != "build_type"}
+        wanted["package"] = f"hostile_{number}"
+        wanted["build_type"] = (TEMPLATES[kind].build_types or BUILD_TYPES)[-(number % 2)]
+        wanted["add"], wanted["extras"] = [{"kind": kind, **part}], EXTRAS[number % 3 :]
+        with suppress(InputError):
+            asked = {name: Given(value, f"--{name}") for name, value in wanted.items()}
+            made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
+            plan = WritePlan.of(root / made.name, made.rendered.files)
+            plan.write()
+            number += 1
+        if number == SURVIVORS:
+            return root
+    raise AssertionError
+
+
+def plain(question: Question) -> list[Any]:
+    """Return the acceptable answers that a user may type."""
+    values = [one for one in accepted(question) if isinstance(one, str) and one]
+    return values or accepted(question)
+
+
+@pytest.mark.parametrize(
+    "linter",
+    [
+        oracles.ament_flake8,
+        oracles.ament_pep257,
+        pytest.param(oracles.ament_copyright, marks=needs_system_linter("ament_copyright")),
+        pytest.param(oracles.ament_lint_cmake, marks=needs_system_linter("ament_lint_cmake")),
+        pytest.param(oracles.ament_xmllint, marks=needs_system_linter("ament_xmllint")),
+    ],
+)
+def test_the_real_linters_accept_what_is_written(
+    survivors: Path, linter: Callable[[Path], set[oracles.Finding]]
+) -> None:
+    assert len(list(survivors.glob("*/package.xml"))) == SURVIVORS
+    assert linter(survivors) == set()
 
 
 @pytest.mark.parametrize(
