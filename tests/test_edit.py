@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from textwrap import dedent
+from textwrap import dedent, indent
 
 import pytest
 
@@ -762,6 +762,109 @@ def test_a_node_is_written_on_several_lines_like_the_others() -> None:
         '            executable="a",\n        ),\n        Node(\n'
         '            package="demo",\n            executable="talker",\n        ),\n    ])\n'
     )
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (
+            """\
+            a = Node(package='demo', executable='a')  # the first
+
+            return LaunchDescription([other, a])
+            """,
+            """\
+            a = Node(package='demo', executable='a')  # the first
+            talker_node = Node(package='demo', executable='talker')
+
+            return LaunchDescription([other, a, talker_node])
+            """,
+        ),
+        (
+            """\
+            a = Node(
+                package='demo',
+                executable='a')
+
+            return LaunchDescription([
+                a
+            ])
+            """,
+            """\
+            a = Node(
+                package='demo',
+                executable='a')
+
+            talker_node = Node(
+                package='demo',
+                executable='talker',
+            )
+
+            return LaunchDescription([
+                a,
+                talker_node,
+            ])
+            """,
+        ),
+        (
+            """\
+            found = LaunchDescription()
+            a = Node(package="demo", executable="a", output='screen')
+            found.add_action(a)
+            # the end
+            return found
+            """,
+            """\
+            found = LaunchDescription()
+            a = Node(package="demo", executable="a", output='screen')
+            talker_node = Node(package="demo", executable="talker", output='screen')
+            found.add_action(a)
+            found.add_action(talker_node)
+            # the end
+            return found
+            """,
+        ),
+        (
+            """\
+            found = LaunchDescription([other])
+            found.add_action(Node(
+                package='demo', executable='a'))
+            return found
+            """,
+            """\
+            found = LaunchDescription([other])
+            found.add_action(Node(
+                package='demo', executable='a'))
+            found.add_action(Node(
+                package='demo',
+                executable='talker',
+            ))
+            return found
+            """,
+        ),
+    ],
+)
+def test_a_node_is_put_where_the_others_are(before: str, after: str) -> None:
+    head = dedent(LAUNCH).partition("    return")[0]
+    outcome = launch_edit(head + indent(dedent(before), "    "))
+    assert outcome.source.text == head + indent(dedent(after), "    ")
+    assert outcome.by_hand == ()
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "a = talker_node = Node(package='demo', executable='a')\nreturn LaunchDescription([a])\n",
+        "a = Node(package='demo', executable='a')\nreturn LaunchDescription(a)\n",
+        "if x:\n    a = Node(package='demo', executable='a')\nreturn LaunchDescription([a])\n",
+        "x = Node(package='demo', executable='a')\nx = LaunchDescription([x])\nreturn f(x)\n",
+    ],
+)
+def test_a_launch_file_that_is_not_plain_is_left_to_the_user(body: str) -> None:
+    text = dedent(LAUNCH).partition("    return")[0] + indent(body, "    ")
+    outcome = launch_edit(text)
+    assert outcome.source.text == text
+    assert [one.line for one in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
 
 
 def test_a_launch_file_for_other_packages_is_left_alone() -> None:

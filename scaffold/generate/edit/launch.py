@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from scaffold.check.diagnostic import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
@@ -36,13 +38,13 @@ def add_to_launch(source: Source, addition: Addition) -> Outcome:
     own = [call for call in launch.find("Node") if launch.text(call, "package") == addition.package]
     if not own or any(launch.text(call, "executable") == program.name for call in own):
         return Outcome(source)
-    edit = _edit(launch, own, program)
-    if edit is not None:
-        changed = spliced(source, [edit])
+    edits = _edits(launch, own, program)
+    if edits:
+        changed = spliced(source, edits)
         if _starts(changed, addition.package, program):
             return Outcome(changed)
     line = f"Node(package='{addition.package}', executable='{program.name}'),"
-    reason = "it does not return LaunchDescription([...]) with the nodes written out in the list"
+    reason = "where the nodes are put into its LaunchDescription is not plain to see"
     return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 
@@ -64,29 +66,112 @@ def _starts(source: Source, package: str, program: Program) -> bool:
     )
 
 
-def _edit(launch: LaunchFile, own: list[LaunchCall], program: Program) -> Edit | None:
-    entities = _entities(launch)
-    if entities is None:
-        return None
-    like = [call for call in own if call.call in entities.elts]
-    if not like:
-        return None
-    return setup_edit.append_item(
-        launch.module, entities, entities.elts, _node(launch, like[-1], program)
-    )
+class _Description(NamedTuple):
+    """How a launch file puts together what it starts, all at the top of its function."""
+
+    assigned: Mapping[ast.expr, tuple[str, ast.stmt]]
+    """Where values get a name."""
+    entities: ast.List | None
+    """The list that ``LaunchDescription`` is given."""
+    variable: str
+    """What it is called; empty when it is returned at once."""
+    added: Sequence[tuple[ast.stmt, ast.expr]]
+    """What ``add_action`` is called with, and where."""
+
+    @property
+    def actions(self) -> list[ast.expr]:
+        """What is started, in order."""
+        listed = self.entities.elts if self.entities is not None else []
+        return [*listed, *(action for _, action in self.added)]
 
 
-def _entities(launch: LaunchFile) -> ast.List | None:
-    """Return the list in the one ``return LaunchDescription([...])``."""
+def _edits(launch: LaunchFile, own: list[LaunchCall], program: Program) -> list[Edit]:
+    """Return what starts a node like the last of its package: written in place, or with a name."""
+    description = _description(launch)
+    if description is None or not description.actions:
+        return []
+    written = [call for call in own if call.call in description.actions]
+    if written:
+        return [_action(launch, description, _node(launch, written[-1], program))]
+    named = [call for call in own if call.call in description.assigned]
+    stem = re.sub(r"\W", "_", program.name.removesuffix(".py"))
+    name = f"{stem}_node"
+    if not named or re.search(rf"\b{name}\b", launch.module.source.text):
+        return []
+    node = _node(launch, named[-1], program)
+    _, statement = description.assigned[named[-1].call]
+    assignment = _below(launch, statement, _inside(f"{name} = ", node, ""))
+    return [assignment, _action(launch, description, name)]
+
+
+def _description(launch: LaunchFile) -> _Description | None:
     function = launch.module.functions.get(FUNCTION)
-    if function is None:
+    returned = returns(function.node)[0] if function is not None else []
+    if function is None or len(returned) != 1:
         return None
-    found, _ = returns(function.node)
-    call = launch.call_of(found[0].value) if len(found) == 1 else None
+    body, value = function.node.body, returned[0].value
+    assigned = {
+        statement.value: (target.id, statement)
+        for statement in body
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets[:1]
+        if isinstance(target, ast.Name) and len(statement.targets) == 1
+    }
+    variable = value.id if isinstance(value, ast.Name) else ""
+    values = [one for one, (name, _) in assigned.items() if name == variable]
+    call = launch.call_of(values[0] if len(values) == 1 else value)
     if call is None or call.kind != "LaunchDescription":
         return None
     entities = call.given.get("initial_entities")
-    return entities if isinstance(entities, ast.List) else None
+    return _Description(
+        assigned,
+        entities if isinstance(entities, ast.List) else None,
+        variable,
+        list(_added(body, variable)),
+    )
+
+
+def _added(body: Sequence[ast.stmt], variable: str) -> Iterator[tuple[ast.stmt, ast.expr]]:
+    for statement in body:
+        match statement:
+            case ast.Expr(
+                value=ast.Call(
+                    func=ast.Attribute(value=ast.Name(id=name), attr="add_action"), args=[action]
+                )
+            ) if name == variable:
+                yield statement, action
+
+
+def _action(launch: LaunchFile, description: _Description, action: str | Block) -> Edit:
+    """Return the edit that starts something behind all others."""
+    entities = description.entities
+    if entities is None or description.added:
+        call = _inside(f"{description.variable}.add_action(", action, ")")
+        return _below(launch, description.added[-1][0], call)
+    return setup_edit.append_item(launch.module, entities, entities.elts, action)
+
+
+def _inside(opening: str, node: str | Block, closing: str) -> str | Block:
+    if isinstance(node, str):
+        return f"{opening}{node}{closing}"
+    return Block(f"{opening}{node.opening}", f"{node.closing}{closing}", node.items)
+
+
+def _below(launch: LaunchFile, statement: ast.stmt, added: str | Block) -> Edit:
+    """Return the edit that adds a statement below another one."""
+    source = launch.module.source
+    line = source.lines[statement.lineno - 1]
+    indent = line[: len(line) - len(line.lstrip())]
+    number = statement.end_lineno or statement.lineno
+    at = source.offset(number) + len(source.lines[number - 1])
+    text = added if isinstance(added, str) else added.render(indent, source.newline)
+    gap = source.newline if isinstance(added, Block) and _is_apart(source, number) else ""
+    return Edit(source.path, at, at, f"{gap}{source.newline}{indent}{text}")
+
+
+def _is_apart(source: Source, number: int) -> bool:
+    """Tell whether a blank line follows a line, by its number from 1."""
+    return number < len(source.lines) and not source.lines[number].strip()
 
 
 def _node(launch: LaunchFile, like: LaunchCall, program: Program) -> str | Block:
