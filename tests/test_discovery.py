@@ -76,6 +76,27 @@ def test_file_of_a_package(workspace: Path) -> None:
     assert target.package.name == "b_package"
 
 
+def test_packages_are_named_as_their_files_are_given(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = workspace / "src" / "b_package"
+    (package / "node.py").touch()
+    monkeypatch.chdir(package.parent)
+    for given, shown in (("b_package/node.py", "b_package"), (package / "node.py", package)):
+        (target,) = discovery.find([str(given)])
+        assert target.package.directory == str(shown)
+    monkeypatch.chdir(package)
+    (target,) = discovery.find(["node.py"])
+    assert target.package.directory == "."
+
+
+def test_loose_file_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "node.py").touch()
+    monkeypatch.chdir(tmp_path)
+    (target,) = discovery.find(["node.py"])
+    assert (target.package.directory, target.package.files) == (".", ("node.py",))
+
+
 def test_loose_file(tmp_path: Path) -> None:
     (tmp_path / "node.py").touch()
     (tmp_path / "other.py").touch()

@@ -139,20 +139,19 @@ def _given(
 def _directory(given: str | None) -> str:
     """Return the directory of the package that is meant."""
     from scaffold.errors import InputError
+    from scaffold.model import colcon
+    from scaffold.model.disk import Disk
     from scaffold.model.tree import MANIFEST
 
     if given is not None:
         if not os.path.isfile(os.path.join(given, MANIFEST)):
             raise InputError(f"{given}: no package: there is no {MANIFEST} in it")
         return os.path.normpath(given)
-    directory = os.getcwd()
-    while not os.path.isfile(os.path.join(directory, MANIFEST)):
-        if directory == os.path.dirname(directory):
-            raise InputError(
-                f"no {MANIFEST} here or above: go to a package, or name one with "
-                "--package-directory"
-            )
-        directory = os.path.dirname(directory)
+    directory = colcon.package_around(Disk(), os.getcwd())
+    if directory is None:
+        raise InputError(
+            f"no {MANIFEST} here or above: go to a package, or name one with --package-directory"
+        )
     return os.path.relpath(directory)
 
 
