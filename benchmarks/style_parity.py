@@ -1,13 +1,17 @@
 """Compare ``scaffold.style`` with the real Jazzy linters, finding by finding.
 
     python benchmarks/style_parity.py --flake8 PATH/ament_flake8 --pep257 PATH/ament_pep257 \
-        [--keep DIRECTORY] [--show CODE] DIRECTORY...
+        [--keep DIRECTORY] [--show CODE] [--mutants N [--seed N]] DIRECTORY...
 
 Every DIRECTORY is checked as one tree by ``ament_flake8`` and ``ament_pep257`` (they are run
 inside it, as a package's own tests do) and by ``scaffold.style``. A finding is (file, line, code);
 one that both linters report counts once. Printed per code: how many the linters report, how many
 agree, how many only they and only we report. A *false pass* is a file or a package (a directory
 with a package.xml, else the DIRECTORY) in which the linters find something and we find nothing.
+
+``--mutants`` compares N copies of files from below all DIRECTORY instead, each with one edit: a
+line or a word that is gone, twice there or in another place, or a blank, a bracket, a quote too
+many. Python has to be of the version that the linters run on.
 
 ``--keep`` stores what the linters said, so that they run only once for each directory.
 The exit status is 1 when there is a false pass.
@@ -16,8 +20,10 @@ The exit status is 1 when there is a false pass.
 from __future__ import annotations
 
 import argparse
+import ast
 import json
 import os
+import random
 import re
 import subprocess
 import sys
@@ -36,6 +42,9 @@ from scaffold.style import StyleCheck
 
 Finding = tuple[str, int, str]
 FLAKE8_LINE = re.compile(r"^(.+?):(\d+):(-?\d+): ([A-Z]+\d+) ", re.MULTILINE)
+INSERTED = (*" \t\n()[]{}:;,.#\\'\"", "    ", "# noqa", '"""', "not ", "import os\n", "pass\n")
+LINES_OF_EDITS = 0.5
+"""The share of edits that are of whole lines; the others are of words."""
 PEP257_CASE = re.compile(r"^(.+) \((.+):(\d+|-)\)$")
 
 
@@ -126,6 +135,52 @@ def ours(directory: Path) -> set[Finding]:
     return {(one.location.path, one.location.line, one.code) for one in found}
 
 
+def write_mutants(directories: Iterable[Path], count: int, seed: int, top: Path) -> None:
+    """Write copies of Python files, each with one edit; the same ones for the same seed."""
+    chance = random.Random(seed)  # noqa: S311  chance, not secrecy
+    files = sorted(path for one in directories for path in one.rglob("*.py") if path.is_file())
+    number = 0
+    while number < count:
+        text = mutant(chance.choice(files).read_text(encoding="utf-8", errors="replace"), chance)
+        if not ends_the_linters(text):
+            (top / f"mutant_{number}.py").write_text(text, encoding="utf-8")
+            number += 1
+
+
+def ends_the_linters(text: str) -> bool:
+    """Tell whether a text parses and does not compile: ament_flake8 ends in a traceback."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):
+        return False
+    try:
+        compile(tree, "mutant", "exec", dont_inherit=True)
+    except (SyntaxError, ValueError):
+        return True
+    return False
+
+
+def mutant(text: str, chance: random.Random) -> str:
+    """Return a text after one edit."""
+    if chance.random() < LINES_OF_EDITS:
+        pieces = text.splitlines(keepends=True)
+    else:
+        pieces = re.findall(r"\w+|\s|[^\w\s]", text)
+    at, to = (chance.randrange(len(pieces) + 1) for _ in range(2))
+    match chance.choice(("drop", "repeat", "move", "insert")):
+        case "drop":
+            del pieces[at : at + 1]
+        case "repeat":
+            pieces[at:at] = pieces[at : at + 1]
+        case "move":
+            piece = pieces[at : at + 1]
+            del pieces[at : at + 1]
+            pieces[to:to] = piece
+        case "insert":
+            pieces.insert(at, chance.choice(INSERTED))
+    return "".join(pieces)
+
+
 def package_of(path: str, packages: list[str]) -> str:
     """Return the innermost package that a file belongs to."""
     return max((p for p in packages if not p or path.startswith(p + "/")), key=len, default="")
@@ -187,10 +242,22 @@ def main() -> int:
     parser.add_argument("--keep")
     parser.add_argument("--show", action="append", default=[], help="list differences of a code")
     parser.add_argument("--oracle-only", action="store_true")
+    parser.add_argument("--mutants", type=int, metavar="N")
+    parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
+    if not args.mutants:
+        return compare(args, args.directories)
+    with tempfile.TemporaryDirectory() as scratch:
+        top = Path(scratch, f"mutants_{args.seed}")
+        top.mkdir()
+        write_mutants(args.directories, args.mutants, args.seed, top)
+        return compare(args, [top])
 
+
+def compare(args: argparse.Namespace, directories: Iterable[Path]) -> int:
+    """Compare and print; return the exit status."""
     tally = Tally()
-    for directory in args.directories:
+    for directory in directories:
         theirs = union(*oracle(args, directory))
         if args.oracle_only:
             print(f"{directory.name}: {len(theirs)} findings", flush=True)
