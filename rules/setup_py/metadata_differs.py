@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
-from scaffold.model.licences import spdx_of
+from scaffold.model.spdx import spdx_of
 from scaffold.model.manifest import Manifest
 from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 
