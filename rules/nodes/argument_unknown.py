@@ -51,6 +51,11 @@ class ArgumentUnknown(Rule):
             {"server.py": _CODE.format(", 10", ", oneshot=True", "args=", "")},
             at=("server.py:11", "server.py:12"),
         ),
+        Example(
+            "a message for what returns the logger",
+            {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
+            at=("server.py:10",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -76,6 +76,24 @@ METHODS: Mapping[str, Signature] = {
     "get_parameter_or": _signature("name alternative_value"),
     "get_parameters": _signature("names"),
     "has_parameter": _signature("name"),
+    "get_logger": _signature(""),
+    "get_clock": _signature(""),
+    "get_name": _signature(""),
+    "get_namespace": _signature(""),
+    "get_fully_qualified_name": _signature(""),
+    "get_node_names": _signature(""),
+    "get_service_names_and_types": _signature(""),
+    "get_topic_names_and_types": _signature("no_demangle"),
+    "count_publishers": _signature("topic_name"),
+    "count_subscribers": _signature("topic_name"),
+    "add_on_set_parameters_callback": _signature("callback"),
+    "set_parameters": _signature("parameter_list"),
+    "destroy_node": _signature(""),
+    "destroy_publisher": _signature("publisher"),
+    "destroy_subscription": _signature("subscription"),
+    "destroy_timer": _signature("timer"),
+    "destroy_service": _signature("service"),
+    "destroy_client": _signature("client"),
 }
 """Of ``rclpy.node.Node``, by name."""
 
@@ -96,7 +114,7 @@ class Excess(NamedTuple):
 def excess_arguments(facts: NodeFacts) -> Iterator[Excess]:
     """Yield the calls of rclpy's functions that end in a TypeError, in the order of the text."""
     for call in facts.module.walk(ast.Call):
-        named = _called(facts, call)
+        named = _called(facts, call) if call.args or call.keywords else None
         if named is not None:
             yield from _excess(call, *named)
     for node in facts.classes:
