@@ -10,9 +10,9 @@ from scaffold.errors import InputError
 from scaffold.generate import values
 from scaffold.generate.questions import Given
 from scaffold.model import copyright as notices
-from scaffold.model.spdx import spdx_of
 from scaffold.model.manifest import Manifest
 from scaffold.model.package import Package
+from scaffold.model.spdx import spdx_of
 from scaffold.model.tree import MANIFEST
 
 LICENSE_FILE = "LICENSE"
