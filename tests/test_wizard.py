@@ -82,7 +82,7 @@ def terminal(start: Callable[..., Terminal]) -> Terminal:
     return start()
 
 
-def through_the_publisher(terminal: Terminal) -> None:
+def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
     """Answer what comes before the extras."""
     terminal.answer("Name of the new package:", "talker" + ENTER)
     terminal.answer("Build system:", DOWN + ENTER)
@@ -92,7 +92,7 @@ def through_the_publisher(terminal: Terminal) -> None:
     terminal.answer("What to publish:", "\x15sensor_msgs/msg/Temperature" + ENTER)
     terminal.answer("Messages per second:", "\x155" + ENTER)
     terminal.answer("Quality of service", ENTER)
-    terminal.answer("What else is in the package?", ENTER)
+    terminal.answer("What else is in the package?", then)
 
 
 def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
@@ -224,6 +224,13 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
     terminal.answer("What else is in the package?", "timer" + ENTER)
     terminal.answer("minimal_timer_2", "\x15minimal_timer" + ENTER)
     terminal.says("the package has minimal_timer already")
+
+
+def test_the_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
+    through_the_publisher(terminal, "subscriber" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to subscribe to:", "\x15/chatter" + ENTER)
+    terminal.says("sensor_msgs/msg/Temperature")
 
 
 def test_pasted_lines_are_one_answer(terminal: Terminal) -> None:

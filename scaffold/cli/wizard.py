@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from scaffold.cli import prompts
 from scaffold.cli.prompts import Choice
 from scaffold.errors import ScaffoldError
-from scaffold.generate import parts, questions
+from scaffold.generate import connections, names, parts, questions
 from scaffold.generate.defaults import LOGIN, User
 from scaffold.generate.questions import INTERFACES, SEVERAL, Given
 from scaffold.generate.template import BASE, Question, Template
@@ -169,10 +169,33 @@ class _Interview:
                 free = _free(str(question.default), taken)
                 entry[question.name] = self._ask(question, free, refused=taken)
                 continue
-            value = self._ask(question, definitions=definitions)
+            usual = self._type_so_far(template, question, entry, entries)
+            value = self._ask(question, usual, definitions=definitions)
             if not _is_default(question, value):
                 entry[question.name] = value
         return entry
+
+    def _type_so_far(
+        self,
+        template: Template,
+        question: Question,
+        entry: Mapping[str, Any],
+        entries: Iterable[Mapping[str, Any]],
+    ) -> str | None:
+        """Return the type that another part has for the topic or service of this one."""
+        mine = {
+            (name.type, _full_name(name, entry, template))
+            for name, typed in connections.pairs(template.questions)
+            if typed is question
+        }
+        for other in entries:
+            theirs = self._templates[other[parts.KIND]]
+            for name, typed in connections.pairs(theirs.questions):
+                known = other.get(typed.name, typed.default)
+                is_known = isinstance(known, str) and "{" not in known
+                if is_known and (name.type, _full_name(name, other, theirs)) in mine:
+                    return str(known)
+        return None
 
     def _ask(
         self,
@@ -191,10 +214,10 @@ class _Interview:
             return prompts.several(text, choices) if choices else []
         if question.choices:
             return prompts.one(text, [self._choice(name) for name in question.choices], str(known))
-        names: list[str] = []
+        words: list[str] = []
         if definitions is not None and question.type in INTERFACES:
             middle = f"/{INTERFACES[question.type]}/"
-            names = [name for name in definitions.all_names() if middle in name]
+            words = [name for name in definitions.all_names() if middle in name]
         shown = _shown(question, known)
 
         def judge(answer: str) -> str | None:
@@ -206,7 +229,7 @@ class _Interview:
 
         made = more.rstrip(")") or "default: made of the other answers"
         hint = made if known is not None and not shown else ""
-        answer = prompts.line(text, shown, judge, hint=hint, completions=names)
+        answer = prompts.line(text, shown, judge, hint=hint, completions=words)
         if not answer and shown:
             prompts.say(f"taken: {shown}")
         return _split(question, answer or shown)
@@ -223,6 +246,12 @@ class _Interview:
 
     def _choice(self, name: str) -> Choice:
         return Choice(name, self._templates[name].summary if name in self._templates else "")
+
+
+def _full_name(question: Question, entry: Mapping[str, Any], template: Template) -> str:
+    """Return the topic or service that a part uses."""
+    given = str(entry.get(question.name, question.default))
+    return names.resolve(given, str(entry.get(template.name_question)))
 
 
 def _free(name: str, taken: Iterable[str]) -> str:

@@ -36,15 +36,20 @@ def clashes(
     """Yield the names in the nodes of a package that stand for two types."""
     seen: dict[tuple[str, str], tuple[str, str]] = {}
     for node in nodes:
-        asked = templates[node["kind"]].questions
-        for question in asked:
-            typed = _type_question(question, asked)
-            if typed is None:
-                continue
+        for question, typed in pairs(templates[node["kind"]].questions):
             name, type_ = node[f"{question.name}_name"], node[typed.name].type
             first, neighbour = seen.setdefault((question.type, name), (type_, node["name"]))
             if first != type_:
                 yield Clash(question.type, name, (first, type_), (neighbour, node["name"]))
+
+
+def pairs(asked: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
+    """Yield the questions for names, each with the one for the type that goes by the name."""
+    asked = list(asked)
+    for question in asked:
+        typed = _type_question(question, asked)
+        if typed is not None:
+            yield question, typed
 
 
 def _type_question(question: Question, asked: Iterable[Question]) -> Question | None:
