@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import contextlib
+from collections.abc import Iterator
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
@@ -71,23 +73,17 @@ def is_loaded(package: Package, path: str) -> bool:
     """
 
     def find() -> list[str]:
-        return [
-            other.source(name).text
-            for other in package.workspace
-            for name in other.python_files
-            if b"yaml.safe_load" in other.tree.read(name) and not _is_unreadable(other, name)
-        ]
+        return [text for text in _python_texts(package) if "yaml.safe_load" in text]
 
     name = path.rpartition("/")[2]
     return any(name in text for text in package.remember("code_loading_yaml", find))
 
 
-def _is_unreadable(package: Package, path: str) -> bool:
-    try:
-        package.source(path)
-    except ViewError:
-        return True
-    return False
+def _python_texts(package: Package) -> Iterator[str]:
+    for other in package.workspace:
+        for path in other.python_files:
+            with contextlib.suppress(ViewError):
+                yield other.source(path).text
 
 
 def node_names(package: Package) -> set[str]:
