@@ -15,6 +15,7 @@ from scaffold.cli.main import main
 from scaffold.generate import parts, template
 from scaffold.generate.template import Role
 from scaffold.smoke import environment
+from tests import oracles
 from tests.test_generated import Workspace, counts, needs_ros
 
 TEMPLATES = template.load(content.roots("templates"))
@@ -757,6 +758,35 @@ def test_a_directory_without_a_package_is_refused(
     assert said == f"{tmp_path}/demo: no package: there is no package.xml in it"
 
 
+# -- the linters of ament
+
+
+@pytest.mark.parametrize(("files", "directory"), [(CMAKE, "scripts"), (PYTHON, "demo")])
+def test_ament_accepts_a_launch_file(
+    files: Mapping[str, str], directory: str, tmp_path: Path
+) -> None:
+    demo = write(tmp_path / "demo", with_nodes(files, directory, "first=eye", "other=eye", "x=ear"))
+    write(demo, {"config/ear.yaml": "ear:\n  ros__parameters:\n    gain: 2.0\n"})
+    assert add(demo, "launch") == 0
+    assert "parameters=[config / 'ear.yaml']" in launched(demo)
+    for lint in (oracles.ament_flake8, oracles.ament_pep257):
+        assert not [finding for finding in lint(demo) if finding.path.startswith("launch")]
+
+
+@pytest.mark.parametrize("build_type", ["ament_cmake", "ament_python"])
+def test_ament_accepts_what_was_added_to_ours(build_type: str, tmp_path: Path) -> None:
+    words = ["new", "demo", *PERSON, "--build-type", build_type, "--add", "publisher:talker"]
+    assert main([*words, "--destination-directory", str(tmp_path)]) == 0
+    demo = tmp_path / "demo"
+    (demo / "README.md").write_text((demo / "README.md").read_text().replace("Jazzy", "Kilted"))
+    (demo / "package.xml").write_text((demo / "package.xml").read_text() + "<!-- mine -->\n")
+    for extra in EXTRAS:
+        assert add(demo, extra) == 0
+    assert add(demo, "service_client", "asker") == 0
+    assert main(["check", str(demo)]) == 0
+    assert oracles.ament_flake8(demo) | oracles.ament_pep257(demo) == set()
+
+
 # -- colcon
 
 
@@ -770,6 +800,8 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
         }
         directory = write(tmp_path / "src" / name, renamed)
         assert add(directory, "publisher", "talker", "--topic", f"{name}/talk") == 0
+        write(directory, {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 20.0\n"})
+        assert add(directory, "launch") == 0
     assert add(tmp_path / "src" / "cmake_demo", "cpp_program", "two") == 0
     done = made.colcon("build")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -784,6 +816,10 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
         "hello",
         "talker",
     }
+    for name in ("cmake_demo", "python_demo"):
+        share = installed / name / "share" / name
+        assert (share / "launch" / f"{name}.launch.py").exists()
+        assert (share / "config" / "talker.yaml").exists()
     done = made.colcon("test", "--return-code-on-test-failure")
     assert done.returncode == 0, done.stdout + done.stderr
     build = tmp_path / "build"
