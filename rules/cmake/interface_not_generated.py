@@ -93,22 +93,23 @@ class InterfaceNotGenerated(Rule):
             name = path.rpartition("/")[2].rpartition(".")[0]
             message = f"{path} is not among the files: nobody can use {name}"
             found = self.report(calls[0].command.name_location, message, _add(calls[0], path))
-            wanted = _is_wanted(package, name)
-            yield found if wanted else found._replace(severity=Severity.WARNING)
+            named = package.remember("words_of_the_workspace", lambda: _named_types(package))
+            yield found if name in named else found._replace(severity=Severity.WARNING)
 
 
-def _is_wanted(package: Package, name: str) -> bool:
-    """Tell whether code or another interface of the workspace names a type."""
+def _named_types(package: Package) -> set[str]:
+    """Return the words of the workspace's code and interfaces that may name a type."""
+    found: set[str] = set()
     for other in package.workspace:
         for path in other.files:
-            if not path.endswith(_USERS) or path.rpartition("/")[2].startswith(f"{name}."):
+            if not path.endswith(_USERS):
                 continue
             try:
-                if re.search(rf"\b{name}\b", other.source(path).text):
-                    return True
+                words = set(re.findall(r"[A-Z]\w+", other.source(path).text))
             except ViewError:
                 continue
-    return False
+            found |= words - {path.rpartition("/")[2].partition(".")[0]}
+    return found
 
 
 def _is_elsewhere(package: Package) -> bool:
