@@ -261,6 +261,18 @@ def test_without_a_cursor_choices_are_answered_by_name(
     assert (tmp_path / "talker" / "launch" / "talker.launch.py").exists()
 
 
+def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Terminal]) -> None:
+    known = ("--node-kind", "timer", "--maintainer-name", "Zo\xeb", "--maintainer-email", "z@x.org")
+    terminal = start(*known, "--description", "Ticks", PYTHONIOENCODING="ascii:strict")
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("Licence of the package:", ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    assert "--maintainer-name 'Zo\\xeb'" in said
+
+
 def test_the_command_has_what_was_given_before(
     start: Callable[..., Terminal], tmp_path: Path
 ) -> None:

@@ -11,6 +11,7 @@ import sys
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from io import TextIOWrapper
 from typing import NamedTuple
 
 from prompt_toolkit import PromptSession, print_formatted_text
@@ -47,8 +48,11 @@ class Choice(NamedTuple):
 def terminal() -> Iterator[None]:
     """Ask on the terminal of this process while the context lasts.
 
-    The terminal is not asked where its cursor is: not all answer, and some answer late.
+    The terminal is not asked where its cursor is: not all answer, and some answer late. What its
+    encoding cannot show is spelled out, now and afterwards.
     """
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
     output = Vt100_Output(
         sys.stdout,
         _size,
