@@ -144,7 +144,7 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
     [
         (["chekc"], "argument VERB: invalid choice: 'chekc'"),
         (["check", "--formt", "json"], "unrecognized arguments: --formt"),
-        (["add"], "the following arguments are required: KIND, NAME"),
+        (["add"], "the following arguments are required: KIND"),
     ],
 )
 def test_wrong_words_get_one_line(

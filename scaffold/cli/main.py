@@ -26,7 +26,7 @@ COLLECT_FROM = 100_000
 
 VERBS = {
     "new": "write a package",
-    "add": "add a node, an interface or a program to a package",
+    "add": "add a node, an interface, a program or a launch file to a package",
     "update": "bring a package in step with the templates of today",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
