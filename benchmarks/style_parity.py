@@ -115,6 +115,18 @@ def union(flake8: Iterable[Finding], pep257: Iterable[Finding]) -> set[Finding]:
     return {*flake8, *(item for item in pep257 if item[1] or item[0] not in broken)}
 
 
+def without_lines(mine: set[Finding], theirs: set[Finding]) -> set[Finding]:
+    """Drop the line of a file that cannot be parsed where the linters have none.
+
+    That is so when a ``# noqa`` on that line silences flake8: ament_pep257 says it alone.
+    """
+    lineless = {path for path, line, _ in theirs if not line}
+    return {
+        (path, 0 if path in lineless and code == "E999" else line, code)
+        for path, line, code in mine
+    }
+
+
 class WholeTree(DiskTree):
     """All Python files below a directory, those of nested packages too."""
 
@@ -262,7 +274,7 @@ def compare(args: argparse.Namespace, directories: Iterable[Path]) -> int:
         if args.oracle_only:
             print(f"{directory.name}: {len(theirs)} findings", flush=True)
             continue
-        mine = ours(directory)
+        mine = without_lines(ours(directory), theirs)
         tally.add(directory, theirs, mine)
         for sign, difference in (("-", theirs - mine), ("+", mine - theirs)):
             for path, line, code in sorted(difference):

@@ -529,6 +529,8 @@ NAMES: tuple[str, ...] = (
     "from a import *\n__all__ = ['b']\n",
     "from a import *\nprint(b)\n",
     "from a import *\n",
+    "from a import *\nfrom a import *\nfrom .a import *\n",
+    "try:\n    from a import *\nexcept ImportError:\n    from a import *\n",
     "def f():\n    return a\n    yield\n",
     "import a.b\nimport a.c\nprint(a)\n",
     "import a.b\nimport a.c\n",

@@ -16,6 +16,8 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     stricter = _Stricter(text, said)
     imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
     has_star_use = any(one.code == "F405" for one in said)
+    # A second import of the same names takes the place of the first.
+    last_stars = {one.message: one.line for one in said if one.code == "F403"}
     for one in said:
         finding = plain(one)
         if one.code == "F401":
@@ -29,7 +31,7 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
             finding = _at_handler(text, finding)
         if one.code not in OWN and not stricter.is_alone(one):
             yield finding
-        if one.code == "F403" and not has_star_use:
+        if one.code == "F403" and not has_star_use and last_stars[one.message] == one.line:
             unused = "nothing of the star import is used"
             yield Finding("F401", finding.line, finding.column, unused)
 
