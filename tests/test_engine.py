@@ -15,6 +15,7 @@ from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
 from scaffold.errors import ConfigError, ContentError, MissingFileError
 from scaffold.model.package import Package
+from scaffold.model.source import Location
 
 RULE = '''\
 """A rule."""
@@ -148,10 +149,42 @@ def test_an_unknown_code_is_refused_with_the_nearest() -> None:
         selection.validate(["PX", "CN001"], ["CM001", "PX001"], "--select")
 
 
-def test_suppression_on_the_line() -> None:
-    package = Package.of({"CMakeLists.txt": "project(x)  # noqa: CM900\n"})
-    said = runner.check(package, [Loud()])
-    assert suppression.apply(package, said, {"CM900"}) == []
+@pytest.mark.parametrize(
+    ("comment", "left"),
+    [
+        ("# noqa: CM900", []),
+        ("# NOQA:CM900", []),
+        ("# noqa: cm900", []),
+        ("# noqa: CM123, CM900", []),
+        ("# noqa: CM123 CM900  because", []),
+        ("# noqa", []),
+        ("# noqa because", []),
+        ("<!-- noqa: CM900 -->", []),
+        ("# noqa: CM123", ["CM900"]),
+        ("# noqa: CM90", ["CM900"]),
+        ("# noqas", ["CM900"]),
+        ("noqa: CM900", ["CM900"]),
+        ("\n# noqa: CM900", ["CM900", "SC003"]),
+        ("\n# NOQA: cm900", ["CM900", "SC003"]),
+        ("\n# noqa", ["CM900"]),
+        ("\n# noqa: CM123", ["CM900"]),
+    ],
+)
+def test_suppression_on_the_line(comment: str, left: list[str]) -> None:
+    package = Package.of({"CMakeLists.txt": f"project(x)  {comment}\n"})
+    kept = suppression.apply(package, runner.check(package, [Loud()]), {"CM900"})
+    assert [diagnostic.code for diagnostic in kept] == left
+
+
+def test_a_suppression_in_a_file_without_comments_means_nothing() -> None:
+    package = Package.of({"CMakeLists.txt": "", "notes.md": "# noqa: CM900\n"})
+    assert suppression.apply(package, [], {"CM900"}) == []
+
+
+def test_a_finding_behind_the_end_of_a_file_stays() -> None:
+    package = Package.of({"CMakeLists.txt": "# noqa\n"})
+    said = [Loud().report(Location("CMakeLists.txt", 9, 1, 9, 1), "behind the end")]
+    assert suppression.apply(package, said, set()) == said
 
 
 def test_unused_suppression_is_reported_where_it_stands() -> None:

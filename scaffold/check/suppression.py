@@ -49,7 +49,7 @@ def _codes_on(package: Package, path: str, line: int) -> list[str] | None:
         source = package.source(path)
     except ViewError:
         return None
-    has_any = package.remember(("noqa", path), lambda: "noqa" in source.text)
+    has_any = package.remember(("noqa", path), lambda: "noqa" in source.text.lower())
     if not has_any or line > len(source.lines):
         return None
     found = re.search(_COMMENT, source.lines[line - 1], re.IGNORECASE)
@@ -63,7 +63,7 @@ def _unused(
     found: list[Diagnostic] = []
     for path in package.files:
         for source, line, code, start in _suppressions(package, path):
-            if code in ran and (path, line, code) not in used:
+            if code.upper() in ran and (path, line, code.upper()) not in used:
                 at = source.location(start, start + len(code))
                 found.append(rule.report(at, f"noqa: {code} suppresses nothing on this line"))
     return found
@@ -76,13 +76,13 @@ def _suppressions(package: Package, path: str) -> Iterable[tuple[Source, int, st
         source = package.source(path)
     except ViewError:
         return
-    if "noqa:" not in source.text:
+    if "noqa:" not in source.text.lower():
         return
     for number, line in enumerate(source.lines, 1):
-        comment = re.search(_COMMENT, line)
+        comment = re.search(_COMMENT, line, re.IGNORECASE)
         if comment and comment["codes"]:
             start = source.offset(number) + comment.start("codes")
-            for code in re.finditer(_CODE, comment["codes"]):
+            for code in re.finditer(_CODE, comment["codes"], re.IGNORECASE):
                 yield source, number, code[0], start + code.start()
 
 
