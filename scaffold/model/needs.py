@@ -60,6 +60,10 @@ def needs(package: Package) -> list[Need]:
 
 def declared(package: Package, *, for_tests: bool) -> Declared:
     """Return what is there when the package runs, or when its tests run."""
+    return package.remember(("declared", for_tests), lambda: _declared(package, for_tests))
+
+
+def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  as declared() says
     manifest = package.manifest
     direct = set(manifest.run_names)
     # What generates code while the package is built stands among its modules, too.
@@ -67,10 +71,18 @@ def declared(package: Package, *, for_tests: bool) -> Declared:
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
     along = provided_by(direct)
-    for name in sorted(direct):
+    seen = {package.name}
+    pending = sorted(direct)
+    while pending:
+        name = pending.pop()
+        if name in seen:
+            continue
+        seen.add(name)
         neighbour = package.workspace.get(name)
-        if neighbour is not None and neighbour is not package:
-            along |= _run_names(neighbour)
+        if neighbour is not None:
+            brought = _run_names(neighbour)
+            along |= brought
+            pending += sorted(brought)
     return Declared(direct, along | provided_by(along))
 
 
