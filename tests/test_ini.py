@@ -59,8 +59,7 @@ def test_the_first_of_some_spellings() -> None:
 
 def test_places() -> None:
     file = read(TALKER)
-    section = file.section("install")
-    assert section is not None
+    section = file.sections["install"]
     assert section.location[1:] == (4, 1, 4, 10)
     assert section.name_location[1:] == (4, 2, 4, 9)
     option = section.options["install-scripts"]

@@ -66,11 +66,6 @@ class IniSection:
         """The offset behind the last line that is not empty or a comment."""
         self.options: dict[str, IniOption] = {}
 
-    def get(self, key: str) -> str | None:
-        """Return the value of an option."""
-        option = self.options.get(key)
-        return None if option is None else option.value
-
 
 class IniFile:
     """A file such as setup.cfg."""
@@ -87,10 +82,6 @@ class IniFile:
             ParseError: setuptools would refuse it.
         """
         return cls(source, _Reader(source).read())
-
-    def section(self, name: str) -> IniSection | None:
-        """Return a section."""
-        return self.sections.get(name)
 
     def option(self, section: str, *keys: str) -> IniOption | None:
         """Return the first of some options that a section has, or the defaults have."""
