@@ -566,6 +566,18 @@ def test_launch_starts_the_nodes_of_a_package(
     assert read(demo) == after
 
 
+def test_launch_starts_the_nodes_that_setup_cfg_declares(tmp_path: Path) -> None:
+    made = with_nodes(PYTHON, "demo", "first=eye")
+    setup = dedent(made["setup.py"])
+    made["setup.py"] = re.sub(r"    entry_points=.*\n", "", setup)
+    made["setup.cfg"] = dedent(made["setup.cfg"]) + (
+        "[options.entry_points]\nconsole_scripts =\n    one = demo.first:main\n"
+    )
+    demo = write(tmp_path / "demo", made)
+    assert add(demo, "launch") == 0
+    assert launched(demo) == ["executable='one'"]
+
+
 def test_nodes_of_one_name_are_started_under_those_of_their_programs(tmp_path: Path) -> None:
     demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye", "other=eye"))
     assert add(demo, "launch") == 0
@@ -664,7 +676,7 @@ def test_a_package_without_nodes_has_nothing_to_launch(
     demo: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert refused(demo, capsys, "launch") == (
-        f"launch has nothing to write: no node in Python is known that {demo} installs"
+        f"launch has nothing to write for {demo}: it installs no Python node that is known"
     )
 
 

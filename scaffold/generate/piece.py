@@ -107,8 +107,8 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
     rendered = _rendered(target, composed, [(template, context)])
     if not rendered.files:
         raise InputError(
-            f"{template.name} has nothing to write: no node in Python is known that "
-            f"{package.directory or package.name} installs"
+            f"{template.name} has nothing to write for {package.directory or package.name}: it "
+            "installs no Python node that is known"
         )
     addition = _described(composed, template, context, package.name, rendered)
     readme = f"{template.name}/{_OF_README}{ENDING}"

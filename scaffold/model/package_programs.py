@@ -100,15 +100,32 @@ def _by_setup(package: Package) -> Programs:
     for entry in setup.entry_points:
         if entry.group in {"console_scripts", "gui_scripts"}:
             complete = complete and entry.malformed is None
-            base = entry.module.replace(".", "/")
-            paths = [f"{base}.py", f"{base}/__init__.py", f"src/{base}.py"]
-            sources[entry.name] = next(filter(package.has, paths), "")
+            sources[entry.name] = _file_of(package, entry.module)
     for data in setup.data_files:
         if str(data.destination).startswith("lib"):
             complete = False
     if package.has("setup.cfg") and "entry_points" in package.source("setup.cfg").text:
         complete = False
+        sources.update(_configured(package))
     return Programs(sources, complete)
+
+
+def _configured(package: Package) -> dict[str, str]:
+    """Return the programs that setup.cfg declares."""
+    option = package.setup_cfg.option("options.entry_points", "console_scripts")
+    lines = [line.text.partition("=") for line in option.lines] if option is not None else []
+    return {
+        name.strip(): _file_of(package, target.partition(":")[0].strip())
+        for name, glue, target in lines
+        if glue
+    }
+
+
+def _file_of(package: Package, module: str) -> str:
+    """Return the file of a module; empty if there is none."""
+    base = module.replace(".", "/")
+    paths = [f"{base}.py", f"{base}/__init__.py", f"src/{base}.py"]
+    return next(filter(package.has, paths), "")
 
 
 def _by_cmake(package: Package) -> Programs:
