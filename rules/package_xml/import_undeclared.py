@@ -36,6 +36,19 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "what helps to work on the package is not installed",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "setup.py": "setup(entry_points={'console_scripts': ['a = talker.a:main']})\n",
+                "talker/__init__.py": "",
+                "talker/a.py": "import rclpy\n",
+                "scripts/draw.py": "import matplotlib\n",
+            },
+        ),
+        Example(
             "a message package and a Python library are missing",
             {
                 "package.xml": '<package format="3">\n'

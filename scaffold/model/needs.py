@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -92,14 +93,19 @@ def is_shipped(package: Package, module: PythonModule) -> bool:
     A module of a Python package, a launch file, a test, or a script that a build file names.
     """
     path = module.path
-    if path.startswith(_NOT_SHIPPED):
+    if path.startswith(_NOT_SHIPPED) or path.endswith("/setup.py"):
         return False
     if module.in_tests or path.endswith("launch.py") or not path.endswith(".py"):
         return True
     directory, _, name = path.rpartition("/")
     if directory and package.has(f"{directory}/__init__.py"):
         return True
-    return any(name in text or (directory and f"{directory}" in text) for text in _builds(package))
+    # The directory as a whole, not ``console_scripts`` and not another file of it.
+    whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
+    return any(
+        name in text or (directory and re.search(whole, text) is not None)
+        for text in _builds(package)
+    )
 
 
 def _builds(package: Package) -> Iterator[str]:
