@@ -112,7 +112,7 @@ def test_the_command_that_is_shown_does_the_same(
 ) -> None:
     through_the_publisher(terminal)
     said = rest(terminal)
-    command = said.rpartition("The same without questions:\n")[2].strip()
+    command = command_in(said)
     assert shlex.split(command) == [
         "ros2-scaffold",
         "new",
@@ -128,11 +128,41 @@ def test_the_command_that_is_shown_does_the_same(
         "--maintainer-email",
         "ada@example.com",
     ]
-    made = tmp_path / "talker"
+    assert_same(command, tmp_path / "talker")
+    capsys.readouterr()
+
+
+def test_interfaces_and_programs_are_asked_for(
+    start: Callable[..., Terminal], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    terminal = start("--build-type", "ament_cmake")
+    terminal.answer("new package:", "robot_interfaces" + ENTER)
+    terminal.answer("What is in the package?", "message" + ENTER)
+    terminal.answer("Name of the new type:", "\x15Scan" + ENTER)
+    terminal.answer("Fields of the message", "\x15float64 range; string unit 'm'" + ENTER)
+    terminal.answer("What else is in the package?", "service" + ENTER)
+    terminal.answer("Name of the new type:", ENTER)
+    terminal.answer("Fields of the request", '\x15Scan scan  # a "first" one' + ENTER)
+    terminal.answer("Fields of the response", ENTER)
+    terminal.answer("What else is in the package?", "timer")
+    terminal.answer("nothing has 'timer' in it", "\x15cpp_sets" + ENTER)
+    terminal.answer("Name of the", ENTER)
+    terminal.answer("What else is in the package?", ENTER)
+    command = command_in(rest(terminal))
+    assert_same(command, tmp_path / "robot_interfaces")
+    capsys.readouterr()
+
+
+def command_in(said: str) -> str:
+    """Return the command that is shown at the end."""
+    return said.rpartition("The same without questions:\n")[2].strip()
+
+
+def assert_same(command: str, made: Path) -> None:
+    """Fail if a command writes something else than what is there."""
     asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
     shutil.rmtree(made)
     assert main(shlex.split(command)[1:]) == 0
-    capsys.readouterr()
     assert {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")} == asked
 
 
@@ -284,7 +314,7 @@ def test_the_command_has_what_was_given_before(
     terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
     said, code = terminal.end()
     assert code == 0, said
-    command = said.rpartition("The same without questions:\n")[2].strip()
+    command = command_in(said)
     made = tmp_path / "a b" / "talker"
     asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
     (tmp_path / "bin").mkdir()

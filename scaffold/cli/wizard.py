@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain, count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,7 +13,7 @@ from scaffold.errors import ScaffoldError
 from scaffold.generate import connections, names, parts, questions
 from scaffold.generate.defaults import LOGIN, User
 from scaffold.generate.questions import INTERFACES, SEVERAL, Given
-from scaffold.generate.template import BASE, Question, Template
+from scaffold.generate.template import BASE, Question, Role, Template
 
 if TYPE_CHECKING:
     from scaffold.model.interfaces import Definitions
@@ -22,6 +22,7 @@ ORIGIN = "your answer"
 _DONE = "nothing more"
 _TOGETHER = {"fields": ";", "dependencies": " "}
 """What separates several values in one line, by the type of the answer."""
+_NEVER_WITH = {Role.NODE: Role.INTERFACE, Role.INTERFACE: Role.NODE}
 _ANYBODY = {
     "package": Given("package_to_be", ORIGIN),
     "maintainer_name": Given("Ada", ORIGIN),
@@ -127,7 +128,7 @@ class _Interview:
         """Ask for one part after the other, until they are all."""
         entries: list[dict[str, Any]] = []
         definitions = _definitions(self._user.directory)
-        while (kind := self._kind(is_first=not entries)) != _DONE:
+        while (kind := self._kind([one[parts.KIND] for one in entries])) != _DONE:
             entry = self._part(kind, entries, definitions)
             fault = self._contradiction([*entries, entry])
             if fault is None:
@@ -136,14 +137,16 @@ class _Interview:
                 prompts.say(f"{fault}; asked again")
         self._answers[parts.ADD] = entries
 
-    def _kind(self, *, is_first: bool) -> str:
+    def _kind(self, taken: Sequence[str]) -> str:
+        """Ask for the kind of the next part; what cannot be with the others is not offered."""
+        refused = {_NEVER_WITH.get(self._templates[kind].role) for kind in taken}
         choices = [
-            Choice(name, self._templates[name].summary)
-            for name in parts.kinds(self._templates)
-            if not self._templates[name].build_types
-            or self._build_type in self._templates[name].build_types
+            Choice(template.name, template.summary)
+            for template in map(self._templates.__getitem__, parts.kinds(self._templates))
+            if template.role not in refused
+            and (not template.build_types or self._build_type in template.build_types)
         ]
-        if is_first:
+        if not taken:
             usual = self._base["node_kind"].default if "node_kind" in self._base else None
             return prompts.one("What is in the package?", choices, usual)
         choices.insert(0, Choice(_DONE, is_last=True))
