@@ -5,8 +5,8 @@ Usage: ``python benchmarks/new_speed.py [--ros2 PROGRAM] [--repeat N]``
 ``ros2`` is looked for on the PATH. Each figure is the least of N runs, of the wall time and of the
 CPU time, user and system, of the process with all that it starts; a first run of each fills the
 caches and does not count. `ros2 pkg create` writes a package with one node that prints a line;
-`new` writes one with a publisher, its tests and its README, or one with five nodes and a launch
-file, and checks all of it with every rule before it is written.
+`new` writes one with a publisher, its tests and its README, or one with five nodes, and checks
+all of it with every rule before it is written.
 """
 
 from __future__ import annotations
@@ -66,7 +66,8 @@ def _commands(ros2: str | None) -> dict[str, list[str]]:
     commands = {
         "new": new,
         "new, ament_python": [*new, "--build-type", "ament_python"],
-        "new, five nodes": [*new, *several, "--extras=launch"],
+        "new, five nodes": [*new, *several],
+        "new, and a launch file": [*new, *several, "--extras=launch"],
     }
     if ros2 is None:
         sys.stderr.write("there is no ros2 on the PATH: nothing to compare with\n")

@@ -82,7 +82,7 @@ def _run(given: list[str]) -> int:
 
     from scaffold.cli.parser import build_parser
 
-    options = build_parser(verb).parse_args(given)
+    options = build_parser(verb, comes_first=given[:1] == [verb]).parse_args(given)
     options.slot = slot
     return int(import_module(f"scaffold.cli.{options.verb}").run(options))
 

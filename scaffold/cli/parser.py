@@ -21,12 +21,13 @@ class _Parser(argparse.ArgumentParser):
         self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
 
 
-def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
+def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argparse.ArgumentParser:
     """Return the parser.
 
     Args:
         verb: The only verb to define in full; the others are listed but not imported. ``None``
             defines all, as tab completion needs.
+        comes_first: Nothing stands in front of the verb that might ask for the list.
     """
     parser = _Parser(
         prog="ros2-scaffold",
@@ -35,7 +36,8 @@ def build_parser(verb: str | None = None) -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
     # Without the name argparse would lay out a usage text to find it.
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
-    for name, text in VERBS.items():
+    listed = {verb: VERBS[verb]} if comes_first and verb in VERBS else VERBS
+    for name, text in listed.items():
         one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
         if verb is None or verb == name:
             import_module(f"scaffold.cli.{name}").add_arguments(one)

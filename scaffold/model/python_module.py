@@ -88,6 +88,8 @@ class PythonModule:
         self.tree = tree
         self.index = index
         self._positions = Positions(source)
+        self._names: dict[ast.AST, frozenset[str]] = {}
+        """The full names of expressions that were asked about."""
 
     @classmethod
     def parse(cls, source: Source) -> PythonModule:
@@ -305,6 +307,12 @@ class PythonModule:
 
         Empty for what the module makes itself and for what cannot be told.
         """
+        found = self._names.get(node)
+        if found is None:
+            found = self._names[node] = self._find_names(node)
+        return found
+
+    def _find_names(self, node: ast.AST) -> frozenset[str]:
         parts = ""
         while isinstance(node, ast.Attribute):
             parts = f".{node.attr}{parts}"

@@ -104,9 +104,11 @@ class _Walk:
             and any(alias.name == "annotations" for alias in node.names)
             for node in tree.body
         )
-        for node in ast.walk(tree):
-            for child in ast.iter_child_nodes(node):
-                self.parents[child] = node
+        nodes: list[ast.AST] = [tree]
+        for node in nodes:  # grows on the way
+            children = list(ast.iter_child_nodes(node))
+            self.parents.update(dict.fromkeys(children, node))
+            nodes += children
 
     def run(self) -> list[Said]:
         """Walk, and return the findings: node, name, line of what is replaced."""
