@@ -16,14 +16,14 @@ from hypothesis import strategies as st
 
 from scaffold.errors import NewerSyntaxError, ParseError
 from scaffold.model.node_creation import _SIGNATURES
-from scaffold.model.node_entities import Qos, parameter_type
+from scaffold.model.node_entities import Publisher, Qos, parameter_type
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.package import Package
-from scaffold.model.publish_rate import publish_calls, publish_rate
+from scaffold.model.publish_rate import publish_calls, publish_rates
 from scaffold.model.python_module import PythonModule
 from scaffold.model.qos import PROFILES
 from scaffold.model.source import Location, Source
-from scaffold.model.values import UNKNOWN
+from scaffold.model.values import UNKNOWN, Unknown
 
 TALKER = '''\
 """Publish greetings."""
@@ -76,6 +76,12 @@ def main(args=None):
 if __name__ == '__main__':
     main()
 '''
+
+
+def publish_rate(view: NodeFacts, publisher: Publisher) -> float | Unknown:
+    """Return the rate in Hz, if it is known and there is a single one."""
+    rates = publish_rates(view, publisher)
+    return rates[0] if rates and len(rates) == 1 else UNKNOWN
 
 
 def facts(text: str, path: str = "demo/talker.py") -> NodeFacts:

@@ -44,7 +44,7 @@ def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
     return _after(manifest, element, markup)
 
 
-def insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
+def _insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
     """Add markup as the last child of an element."""
     source = manifest.source
     children = parent.children
@@ -140,7 +140,7 @@ def place(manifest: Manifest, tag: str, text: str, markup: str) -> Edit:
         return _after(manifest, anchor, markup)
     if children:
         return _before(manifest, children[0], markup)
-    return insert_into(manifest, manifest.root, markup)
+    return _insert_into(manifest, manifest.root, markup)
 
 
 def _last_run(children: Sequence[Element], tag: str) -> list[Element]:

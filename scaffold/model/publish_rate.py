@@ -9,7 +9,7 @@ from scaffold.model.node_entities import Callback, Entity, Publisher, Timer
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.self_values import Store
-from scaffold.model.values import UNKNOWN, Unknown
+from scaffold.model.values import Unknown
 
 _HARMLESS = frozenset(
     {
@@ -40,15 +40,6 @@ def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] 
         return list(_uses(facts, publisher, "publish"))
     except _Doubt:
         return None
-
-
-def publish_rate(facts: NodeFacts, publisher: Publisher) -> float | Unknown:
-    """Return the rate in Hz at which one timer makes a publisher publish once.
-
-    Known if ``publish_rates`` has a single one.
-    """
-    rates = publish_rates(facts, publisher)
-    return rates[0] if rates and len(rates) == 1 else UNKNOWN
 
 
 def publish_rates(facts: NodeFacts, publisher: Publisher) -> Sequence[float] | None:

@@ -178,7 +178,7 @@ class Probe:
 
     def _subscribe(self, name: str, topic: Topic, message_type: Ros) -> Ros:
         def receive(data: bytes, info: dict[str, int]) -> None:
-            topic.last = arrival(info)
+            topic.last = _arrival(info)
             topic.count += 1
             if topic.count == 1:
                 topic.first = topic.last
@@ -272,7 +272,7 @@ def say(event: dict[str, object]) -> None:
         os._exit(1)
 
 
-def arrival(info: dict[str, int]) -> float:
+def _arrival(info: dict[str, int]) -> float:
     """Return when a message came, as the middleware knows it: this process may be late."""
     stamp = info.get("received_timestamp") or info.get("source_timestamp")
     return stamp / 1e9 if stamp else time.time()

@@ -106,12 +106,12 @@ def _sections(lines: Sequence[str], names: Names) -> list[Section]:
     rows = [
         row
         for row, line in enumerate(lines)
-        if leading_words(line.lower()) in known and _is_section(line, lines[row - 1])
+        if _leading_words(line.lower()) in known and _is_section(line, lines[row - 1])
     ]
     ends = [*rows[1:], -1]
     return [
         Section(
-            leading_words(lines[row].strip()) or "",
+            _leading_words(lines[row].strip()) or "",
             lines[row - 1],
             lines[row],
             lines[row + 1 : end],
@@ -125,7 +125,7 @@ def _sections(lines: Sequence[str], names: Names) -> list[Section]:
 
 def _is_section(line: str, before: str) -> bool:
     """Tell a section's name from a word that happens to start a line."""
-    name = leading_words(line.strip()) or ""
+    name = _leading_words(line.strip()) or ""
     # Strips all characters that occur in the name, as pydocstyle does.
     suffix = line.strip().lstrip(name.strip()).strip()
     if suffix not in ("", ":"):
@@ -133,7 +133,7 @@ def _is_section(line: str, before: str) -> bool:
     return not before.strip() or before.strip().endswith(_PARAGRAPH_ENDS)
 
 
-def leading_words(line: str) -> str | None:
+def _leading_words(line: str) -> str | None:
     """Return the words that a line starts with, up to the first other character."""
     found = re.match(r"[\w ]+", line.strip())
     return found[0] if found else None

@@ -25,14 +25,14 @@ def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
     """Return the tokens with every f-string cut into its parts."""
     result: list[TokenInfo] = []
     for token in tokens:
-        if is_f_string(token):
+        if _is_f_string(token):
             result.extend(_Opened(token).tokens())
         else:
             result.append(token)
     return result
 
 
-def is_f_string(token: TokenInfo) -> bool:
+def _is_f_string(token: TokenInfo) -> bool:
     """Tell whether a token is an f-string that the tokenizer did not cut."""
     return token.type == tokenize.STRING and "f" in _prefix(token.string).lower()
 

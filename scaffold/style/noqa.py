@@ -14,7 +14,7 @@ _FILE = r"^\s*# flake8[:=]\s*noqa"
 _ALL = ("",)
 
 
-def skips_file(text: PythonText) -> bool:
+def _skips_file(text: PythonText) -> bool:
     """Tell whether a comment takes the whole file away from flake8."""
     lowered = text.text.lower()
     if "flake8" not in lowered:
@@ -24,7 +24,7 @@ def skips_file(text: PythonText) -> bool:
 
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
     """Take flake8's name off the findings that a comment silences; drop what nobody reports."""
-    if skips_file(text):
+    if _skips_file(text):
         return _without(findings, lambda _: True)
     if "noqa" not in text.text.lower():
         return list(findings)

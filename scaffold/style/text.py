@@ -28,15 +28,15 @@ class Decoded(NamedTuple):
 def decode(data: bytes) -> Decoded:
     """Decode a file as Python would, and as Latin-1 where Python would refuse."""
     if data.isascii() and b"coding" not in data[:400]:
-        return Decoded(universal_newlines(data.decode("ascii")), is_clean=True)
+        return Decoded(_universal_newlines(data.decode("ascii")), is_clean=True)
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
-        return Decoded(universal_newlines(data.decode(encoding)).lstrip(BOM), is_clean=True)
+        return Decoded(_universal_newlines(data.decode(encoding)).lstrip(BOM), is_clean=True)
     except (SyntaxError, UnicodeError, LookupError):
-        return Decoded(universal_newlines(data.decode("latin-1")), is_clean=False)
+        return Decoded(_universal_newlines(data.decode("latin-1")), is_clean=False)
 
 
-def universal_newlines(text: str) -> str:
+def _universal_newlines(text: str) -> str:
     r"""Return the text with every line ending as ``\n``."""
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
