@@ -323,6 +323,30 @@ def test_a_line_that_is_too_long(tmp_path: Path, place: str) -> None:
     assert told["message"].startswith("a line of 60 kB, 20 kB are read")
 
 
+TINY = {
+    "manifest": (b"<a/>\n" * 6_000, "30000 words and signs of 20000 that are read"),
+    "setup.cfg": (b"a=b\n" * 6_000, "24000 words and signs of 20000 that are read"),
+    "cmake": (b"f()\n" * 8_000, "32000 words and signs of 30000 that are read"),
+    "service": (b"a\n" * 60_000, ""),
+}
+
+
+@pytest.mark.parametrize("place", TINY)
+def test_too_many_words(tmp_path: Path, place: str) -> None:
+    """The time goes by the words, not by the bytes: in code they have a bound of their own."""
+    data, message = TINY[place]
+    found = _check(_package(tmp_path, {PLACES[place]: data}))
+    told = [one["message"] for one in found if one["code"] == "SC004"]
+    assert told == ([f"{message}: it is not checked"] if message else [])
+
+
+def test_too_many_words_for_the_style(tmp_path: Path) -> None:
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
+    said = {one["code"] for one in found if one["path"].endswith("node.py")}
+    assert "E902" in said
+    assert said <= {"E902", "SC004", "LY020"}
+
+
 def test_a_line_that_is_too_long_for_the_style(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
     said = {one["code"] for one in found if one["path"].endswith("node.py")}
@@ -336,6 +360,74 @@ def test_too_many_findings(tmp_path: Path) -> None:
     assert sum(one["code"] == "W291" for one in found) == 5000
     (told,) = (one for one in found if one["code"] == "SC005")
     assert told["line"] == 5001
+
+
+_IMPORTS = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n"
+_NODE = f"{_IMPORTS}class A(Node):\n    def __init__(self):\n        super().__init__('a')\n"
+_PROJECT = "cmake_minimum_required(VERSION 3.8)\nproject(hostile)\n"
+REPEATED = {
+    "parameters of other names": (
+        "hostile/node.py",
+        _NODE,
+        "        self.declare_parameter('some{0}', 1)\n        self.get_parameter('som{0}')\n",
+    ),
+    "attributes of other names": (
+        "hostile/node.py",
+        _NODE,
+        "        self.some_{0} = 1\n        print(self.som_{0})\n",
+    ),
+    "attributes that are added to": ("hostile/node.py", _NODE, "        self.sum += {0}\n"),
+    "statements": ("hostile/node.py", f"{_IMPORTS}def f(n):\n", "    rclpy.spin(n)\n"),
+    "statements behind return": (
+        "hostile/node.py",
+        f"{_IMPORTS}def f(n):\n    return\n",
+        "    n.x()\n",
+    ),
+    "values of a name": (
+        "hostile/node.py",
+        f"{_IMPORTS}def f():\n",
+        "    m = String()\n    m.data = 'a'\n",
+    ),
+    "classes": ("hostile/node.py", _IMPORTS, "class A{0}(Node):\n    pass\n"),
+    "targets of other names": (
+        "CMakeLists.txt",
+        _PROJECT,
+        "add_library(some{0} a.cpp)\ntarget_link_libraries(som{0} b)\n",
+    ),
+    "dependencies of interfaces": (
+        "CMakeLists.txt",
+        f"{_PROJECT}rosidl_generate_interfaces(hostile DEPENDENCIES\n",
+        "  a{0}\n",
+    ),
+    "blanks before parentheses": ("CMakeLists.txt", _PROJECT, 'set(x "" "" )\n'),
+    "upper case": ("CMakeLists.txt", _PROJECT, "SET(A B)\n"),
+}
+
+
+@pytest.mark.parametrize("kind", REPEATED)
+def test_steps_grow_with_the_input(kind: str) -> None:
+    """Four times the lines take four times the calls, not sixteen; counted, not timed."""
+    path, head, line = REPEATED[kind]
+    rules = registry.load(content.roots("rules", ()))
+    session = Session(rules, Selection(select=tuple({rule.code[:2] for rule in rules})))
+
+    def steps(count: int) -> int:
+        text = head + "".join(line.format(number) for number in range(count))
+        package = Package.of({"package.xml": MANIFEST, "CMakeLists.txt": _PROJECT, path: text})
+        calls = 0
+
+        def note(*_: object) -> None:
+            nonlocal calls
+            calls += 1
+
+        sys.setprofile(note)
+        try:
+            session.check(package)
+        finally:
+            sys.setprofile(None)
+        return calls
+
+    assert steps(1200) < 6 * steps(300)
 
 
 def test_files_that_vanish(tmp_path: Path) -> None:

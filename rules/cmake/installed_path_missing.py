@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake import Install, InstallItem
 from scaffold.model.cmake_parser import Command
 from scaffold.model.left_out import is_left_out
+from scaffold.model.near import nearest
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 
@@ -73,8 +73,8 @@ class InstalledPathMissing(Rule):
             return self._directory_problem(package, path)
         if package.has(path):
             return None
-        near = get_close_matches(path, package.files, n=1, cutoff=0.8)
-        hint = f"; {near[0]} is near" if near else ""
+        near = nearest(package, path, package.files, 0.8)
+        hint = f"; {near} is near" if near else ""
         return f"installs {path}, which does not exist: the build stops{hint}"
 
     def _directory_problem(self, package: Package, path: str) -> str | None:

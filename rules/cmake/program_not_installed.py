@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, programs
+from scaffold.model.near import nearest
 from scaffold.model.python_module import PythonModule
 
 _NODE = (
@@ -109,7 +109,7 @@ class ProgramNotInstalled(Rule):
     def _is_misspelt(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""
         missing = [one.path for one in programs(package) if not package.has(one.path)]
-        return bool(get_close_matches(path, missing, n=1, cutoff=0.8))
+        return bool(nearest(package, path, missing, 0.8))
 
     def _is_named(self, package: Package, path: str) -> bool:
         """Tell whether the file, or a directory around it, is installed in some other way."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.near import nearest
 
 COMMANDS = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
 _LISTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"
@@ -47,6 +47,6 @@ class PytestFileMissing(Rule):
             path = cmake.path_of(value)
             if package.has(path) or package.has_directory(path):
                 continue
-            near = get_close_matches(path, package.python_files, n=1, cutoff=0.7)
-            hint = f"; {near[0]} is near" if near else ""
+            near = nearest(package, path, package.python_files, 0.7)
+            hint = f"; {near} is near" if near else ""
             yield self.report(argument, f"there is no test file {path}{hint}")

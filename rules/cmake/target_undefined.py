@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands
+from scaffold.model.near import nearest
 
 DEFINING = (
     "add_executable",
@@ -61,11 +61,12 @@ class TargetUndefined(Rule):
             if name is None:
                 return
             defined.add(name)
+        known = sorted(defined)
         for command in cmake.find(*USING):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
             if name is None or name in defined or "::" in name or command.blocks:
                 continue
-            near = get_close_matches(name, sorted(defined), n=1, cutoff=0.75)
+            near = nearest(package, name, known, 0.75)
             if near:
-                message = f"nothing defines the target {name!r}; {near[0]!r} is near"
+                message = f"nothing defines the target {name!r}; {near!r} is near"
                 yield self.report(command.arguments[0], message)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.handlers import is_harmless
+from scaffold.model.near import nearest
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has, known_names
@@ -69,54 +69,66 @@ class AttributeOfNodeUnknown(Rule):
         bases = package.remember("names_of_bases", lambda: _names_of_bases(package))
         given = package.remember("attributes_given", lambda: _given(package))
         for facts in package.rclpy_files():
+            used = _used(facts) if facts.classes else {}
             for node in facts.classes:
-                if node.name not in bases and _is_plain(node):
-                    yield from self._check(facts, node, given)
+                if node.node in used and node.name not in bases and _is_plain(node):
+                    yield from self._check(package, node, given, used[node.node])
 
     def _check(
-        self, facts: NodeFacts, node: NodeClass, given: frozenset[str]
+        self, package: Package, node: NodeClass, given: frozenset[str], used: list[ast.Attribute]
     ) -> Iterator[Diagnostic]:
-        known = _defined(node) | given
-        for attribute in facts.module.walk(ast.Attribute):
+        defined = _defined(node)
+        names: set[str] = set()
+        for attribute in used:
             name = attribute.attr
-            if name in known or has(NODE, name) or not _is_own(facts, node, attribute):
+            if name in defined or name in given or _may_fail(node.facts, attribute):
                 continue
-            is_changed = isinstance(facts.module.parent(attribute), ast.AugAssign)
-            if not isinstance(attribute.ctx, ast.Load) and not is_changed:
-                continue
-            if _is_stored(facts, name) or _may_fail(facts, attribute):
-                continue
-            near = _ELSEWHERE.get(name) or next(iter(_near(name, known)), "")
+            names = names or {*defined, *given, *_names_of_rclpy()}
+            near = _ELSEWHERE.get(name) or _near(package, name, names)
             hint = f"; {near!r} is meant" if near else ""
             message = f"neither {node.name} nor rclpy's Node has {name!r}{hint}: AttributeError"
-            yield self.report(facts.module.location(attribute), message)
+            yield self.report(node.facts.module.location(attribute), message)
 
 
-def _is_own(facts: NodeFacts, node: NodeClass, attribute: ast.Attribute) -> bool:
-    """Tell whether an attribute is one of ``self``, or of a variable that holds such a node."""
-    if facts.evaluator.self_class(attribute.value) is node.node:
-        return True
-    made = facts.evaluator.single_value(attribute.value)
-    return (
-        isinstance(attribute.value, ast.Name)
-        and isinstance(made, ast.Call)
-        and facts.evaluator.named_class(made.func) is node.node
-    )
+def _used(facts: NodeFacts) -> dict[ast.ClassDef, list[ast.Attribute]]:
+    """Return what classes read of themselves, but for what the file sets on whatever object."""
+    module = facts.module
+    read: list[ast.Attribute] = []
+    stored: set[str] = set()
+    for attribute in module.walk(ast.Attribute):
+        if isinstance(attribute.ctx, ast.Load) or isinstance(
+            module.parent(attribute), ast.AugAssign
+        ):
+            read.append(attribute)
+        else:
+            stored.add(attribute.attr)
+    found: dict[ast.ClassDef, list[ast.Attribute]] = {}
+    for attribute in read:
+        if attribute.attr not in stored and not has(NODE, attribute.attr):
+            class_ = _owner(facts, attribute)
+            if class_ is not None:
+                found.setdefault(class_, []).append(attribute)
+    return found
 
 
-def _is_stored(facts: NodeFacts, name: str) -> bool:
-    """Tell whether anything in the file sets an attribute of this name, on whatever object."""
-    return any(
-        not isinstance(facts.module.parent(store.node), ast.AugAssign)
-        for store in facts.evaluator.stores(name)
-    )
+def _owner(facts: NodeFacts, attribute: ast.Attribute) -> ast.ClassDef | None:
+    """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
+    class_ = facts.evaluator.self_class(attribute.value)
+    if class_ is None and isinstance(attribute.value, ast.Name):
+        made = facts.evaluator.single_value(attribute.value)
+        if isinstance(made, ast.Call):
+            class_ = facts.evaluator.named_class(made.func)
+    return class_
 
 
-def _near(name: str, known: set[str]) -> list[str]:
-    names = {*known, *(one.removesuffix("()") for one in known_names()[NODE])}
+def _names_of_rclpy() -> Iterator[str]:
+    return (one.removesuffix("()") for one in known_names()[NODE])
+
+
+def _near(package: Package, name: str, names: set[str]) -> str:
     # rclpy's own attributes start with an underscore: nobody means those.
     hidden = "__" if name.startswith("_") else "_"
-    return get_close_matches(name, [one for one in names if not one.startswith(hidden)], 1, 0.7)
+    return nearest(package, name, [one for one in names if not one.startswith(hidden)], 0.7)
 
 
 def _names_of_bases(package: Package) -> frozenset[str]:
@@ -151,8 +163,7 @@ def _is_plain(node: NodeClass) -> bool:
             return False
         if owner.is_lifecycle or "__getattr__" in bindings or "__getattribute__" in bindings:
             return False
-        module = owner.facts.module
-        if any(name in module.source.text for name in ("setattr(", "__dict__", "vars(self")):
+        if owner.facts.module.mentions("setattr(", "__dict__", "vars(self"):
             return False
         owner = owner.base
     return True

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.handlers import is_harmless
+from scaffold.model.near import nearest
 from scaffold.model.node_entities import Parameter, ParameterRead
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
@@ -67,27 +67,31 @@ class ParameterReadUndeclared(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        passed_on: dict[NodeFacts, frozenset[ast.ClassDef]] = {}
         for facts in package.rclpy_files():
+            bases = _bases(facts)
             for node in facts.classes:
-                declared = _declared(node)
+                declared = None if node.node in bases else _declared(node, passed_on)
                 if declared is None:
                     continue
+                by_name: dict[str, list[Parameter]] = {}
+                for one in declared:
+                    by_name.setdefault(str(one.name), []).append(one)
                 for read in node.parameter_reads:
-                    message = _message(read, declared)
+                    message = _message(package, read, by_name)
                     if message and not _is_ready(facts, read.call):
                         yield self.report(read, message)
 
 
-def _message(read: ParameterRead, declared: list[Parameter]) -> str:
+def _message(package: Package, read: ParameterRead, declared: dict[str, list[Parameter]]) -> str:
     if read.method != "get_parameter" or not isinstance(read.name, str):
         return ""
     if read.name.startswith(_ALWAYS):
         return ""
-    same = [one for one in declared if one.name == read.name]
+    same = declared.get(read.name, [])
     if not same:
-        names = sorted({str(one.name) for one in declared})
-        near = get_close_matches(read.name, names, 1, 0.7)
-        hint = f"; {near[0]!r} is" if near else ""
+        near = nearest(package, read.name, declared, 0.7)
+        hint = f"; {near!r} is" if near else ""
         return f"parameter {read.name!r} is not declared{hint}: ParameterNotDeclaredException"
     late = [
         one.location.line
@@ -99,8 +103,15 @@ def _message(read: ParameterRead, declared: list[Parameter]) -> str:
     return ""
 
 
-def _declared(node: NodeClass) -> list[Parameter] | None:
-    """Return what a class and its bases declare; ``None`` if others may declare more."""
+def _declared(
+    node: NodeClass, passed_on: dict[NodeFacts, frozenset[ast.ClassDef]]
+) -> list[Parameter] | None:
+    """Return what a class and its bases declare; ``None`` if others may declare more.
+
+    Args:
+        node: The class.
+        passed_on: What `_passed_on` says of files, to be filled.
+    """
     found: list[Parameter] = []
     owner: NodeClass | None = node
     while owner is not None:
@@ -108,20 +119,22 @@ def _declared(node: NodeClass) -> list[Parameter] | None:
             return None
         if any(not isinstance(one.name, str) for one in owner.parameters):
             return None
-        if (
-            _passes_itself_on(owner.facts, owner)
-            or "has_parameter" in owner.facts.module.source.text
-        ):
+        if owner.facts not in passed_on:
+            passed_on[owner.facts] = _passed_on(owner.facts)
+        if owner.node in passed_on[owner.facts]:
             return None
         found += owner.parameters
         owner = owner.base
-    module = node.facts.module
-    is_subclassed = any(
-        node.facts.evaluator.named_class(base) is node.node
-        for other in module.walk(ast.ClassDef)
+    return None if _declares_on_others(node.facts) else found
+
+
+def _bases(facts: NodeFacts) -> frozenset[ast.ClassDef | None]:
+    """Return the classes of a file that others there inherit from."""
+    return frozenset(
+        facts.evaluator.named_class(base)
+        for other in facts.module.walk(ast.ClassDef)
         for base in other.bases
     )
-    return None if is_subclassed or _declares_on_others(node.facts) else found
 
 
 def _declares_on_others(facts: NodeFacts) -> bool:
@@ -129,16 +142,23 @@ def _declares_on_others(facts: NodeFacts) -> bool:
     return any(one.owner is None for one in facts.parameters)
 
 
-def _passes_itself_on(facts: NodeFacts, node: NodeClass) -> bool:
-    """Tell whether a class gives itself to something that may declare parameters."""
+def _passed_on(facts: NodeFacts) -> frozenset[ast.ClassDef]:
+    """Return the classes that give themselves to something that may declare parameters.
+
+    All of them where the file asks nodes what they have.
+    """
+    if "has_parameter" in facts.module.source.text:
+        return frozenset(facts.module.walk(ast.ClassDef))
+    found: set[ast.ClassDef] = set()
     for call in facts.module.walk(ast.Call):
         given = [*call.args, *(word.value for word in call.keywords)]
-        if any(facts.evaluator.self_class(one) is node.node for one in given):
+        classes = {class_ for one in given if (class_ := facts.evaluator.self_class(one))}
+        if classes:
             name = facts.module.qualified_name(call.func) or ""
             is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
             if not name.startswith(_KNOWN) and not is_super and name != "super":
-                return True
-    return False
+                found |= classes
+    return frozenset(found)
 
 
 def _is_ready(facts: NodeFacts, call: ast.Call) -> bool:

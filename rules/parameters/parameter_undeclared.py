@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.launch_nodes import StartedNode, started_nodes
+from scaffold.model.near import nearest
 from scaffold.model.parameter_files import parameter_file, parameter_paths
 from scaffold.model.parameter_use import is_loaded, nodes_for, use_of
 
@@ -17,6 +17,7 @@ _NODE = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.declare_parameter('limits.high', 3)\n"
 )
+_MOST_NAMED = 50
 _FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n    {}\n"
 
 
@@ -80,7 +81,7 @@ class ParameterUndeclared(Rule):
                     continue
                 for entry in section.entries:
                     if not any(one.has(entry.name) for one in known):
-                        message = _message(entry.name, known, owners[0].node_name)
+                        message = _message(package, entry.name, known, owners[0].node_name)
                         yield self.report(entry, message)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
@@ -91,7 +92,7 @@ class ParameterUndeclared(Rule):
                 continue
             for name, key, _ in node.parameter_dicts:
                 if not declared.has(name) and not _is_shared(package, node, name):
-                    message = _message(name, [declared], node.name)
+                    message = _message(package, name, [declared], node.name)
                     yield self.report(node.launch.location(key), message)
 
 
@@ -106,9 +107,12 @@ def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
     )
 
 
-def _message(name: str, known: list[Declared], node: object) -> str:
+def _message(package: Package, name: str, known: list[Declared], node: object) -> str:
     names = sorted({one for declared in known for one in declared.types})
-    near = get_close_matches(name, names, 1, 0.6)
-    hint = f"{near[0]!r} is meant" if near else f"it has {', '.join(names) or 'none'}"
+    near = nearest(package, name, names, 0.6)
+    more = ", ..." if len(names) > _MOST_NAMED else ""
+    hint = f"it has {', '.join(names[:_MOST_NAMED]) or 'none'}{more}"
+    if near:
+        hint = f"{near!r} is meant"
     who = f"the node {node}" if isinstance(node, str) else "this node"
     return f"{who} declares no parameter {name!r}; {hint}"

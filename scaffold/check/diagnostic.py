@@ -66,6 +66,10 @@ class Fix(NamedTuple):
     changes: tuple[Change, ...]
     safety: Safety = Safety.SAFE
 
+    def __hash__(self) -> int:
+        """Look at the start only: thousands of diagnostics may share one fix of a whole file."""
+        return hash((self.title, self.changes[:1]))
+
 
 class Diagnostic(NamedTuple):
     """A finding at a place."""

@@ -64,9 +64,10 @@ class FileTooLarge(_Internal):
     """A file is too large to be checked.
 
     **Why.** What is wrong in it stays unknown. So that no file can hold the check up, code is
-    read up to 500 kB, CMakeLists.txt up to 250 kB, package.xml, setup.py and setup.cfg up to
-    100 kB, data such as YAML up to 2 MB, and a line of code up to 20 kB: twice to twenty times the
-    largest files and lines of 800 public packages.
+    read up to 500 kB and 100 000 words and signs, CMakeLists.txt up to 250 kB and 30 000,
+    package.xml, setup.py and setup.cfg up to 100 kB and 20 000, data such as YAML up to 1 MB, and
+    a line of code up to 20 kB: one and a half to twenty times the largest files and lines of 800
+    public packages.
 
     **Fix.** Split the file, or keep generated code out of the package's sources.
     """

@@ -61,7 +61,8 @@ def is_interface_package(package: Package) -> bool:
 def _generation(cmake: CMakeLists, command: Command) -> Generation:
     files: list[Listed] = []
     options: set[str] = set()
-    dependencies: list[str] | None = []
+    dependencies: list[str] = []
+    knows_dependencies = True
     complete = True
     collecting = ""
     target, *arguments = command.arguments
@@ -72,9 +73,9 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
                 options.add(str(value))
                 collecting = str(value) if value in _WITH_VALUES else ""
             elif collecting == "DEPENDENCIES":
-                known = dependencies is not None and value is not None
+                knows_dependencies = knows_dependencies and value is not None
                 # A quoted list falls apart where rosidl takes it.
-                dependencies = [*(dependencies or ()), *str(value).split(";")] if known else None
+                dependencies += str(value).split(";")
             elif collecting:
                 collecting = ""
             elif value is None or ":" in value or value.startswith("/") or "$" in value:
@@ -87,7 +88,7 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
         cmake.expand(target, command),
         files,
         complete,
-        dependencies,
+        dependencies if knows_dependencies else None,
         frozenset(options),
         cmake.guarded_by_testing(command),
     )

@@ -7,6 +7,7 @@ start of a line and a comment begins at the first ``#``, be it inside of quotes.
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -287,13 +288,14 @@ class Outline(NamedTuple):
     """What in a CMake file must not be touched, and where its commands are."""
 
     literals: list[tuple[int, int]]
-    """The quoted and the bracket arguments: blanks inside of them have a meaning."""
+    """The quoted and the bracket arguments, in order: blanks inside of them have a meaning."""
     commands: frozenset[int]
     """The offsets of the names of commands."""
 
     def touches_literal(self, start: int, end: int) -> bool:
         """Tell whether any of the characters is inside of an argument in quotes or brackets."""
-        return any(a < end and start < b for a, b in self.literals)
+        before = bisect_left(self.literals, (end,))
+        return before > 0 and start < self.literals[before - 1][1]
 
 
 def outline(package: Package, source: Source) -> Outline:

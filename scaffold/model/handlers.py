@@ -6,7 +6,6 @@ import ast
 
 from scaffold.model.python_module import PythonModule, last_names
 
-_LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _ALL = frozenset({"Exception", "BaseException"})
 
 
@@ -20,9 +19,9 @@ def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
     """
     child = node
     for parent in module.parents(node):
-        if _is_passed_over(parent, child):
+        if child in module.passed_over:
             return True
-        if isinstance(parent, ast.Try) and child in parent.body:
+        if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
             for handler in parent.handlers:
                 if handler.type is None or {exception, *_ALL} & last_names(handler.type):
                     return True
@@ -43,13 +42,12 @@ def is_asked_about(module: PythonModule, node: ast.AST, value: ast.expr) -> bool
     words = ast.unparse(value)
     child = node
     for parent in module.parents(node):
-        if isinstance(parent, ast.If | ast.IfExp | ast.While) and child is not parent.test:
-            kinds = (ast.Name, ast.Attribute)
-            if any(
-                isinstance(one, kinds) and ast.unparse(one) == words
-                for one in ast.walk(parent.test)
-            ):
-                return True
+        if (
+            isinstance(parent, ast.If | ast.IfExp | ast.While)
+            and child is not parent.test
+            and words in module.words_of(parent.test)
+        ):
+            return True
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
             return False
         child = parent
@@ -62,7 +60,8 @@ def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:
     for parent in module.parents(node):
         if isinstance(parent, ast.If) and child is not parent.test:
             version = _asks_for_version(parent.test)
-            if version is not None and version == ("1" if child in parent.body else "2"):
+            is_body = module.index.place(child)[0] == "body"
+            if version is not None and version == ("1" if is_body else "2"):
                 return True
         child = parent
     return False
@@ -73,11 +72,3 @@ def _asks_for_version(test: ast.expr) -> str | None:
         case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=value)]):
             return str(value) if "ROS_VERSION" in ast.unparse(left) else None
     return None
-
-
-def _is_passed_over(parent: ast.AST, child: ast.AST) -> bool:
-    """Tell whether a statement stands behind one that leaves its block, such as a ``return``."""
-    for body in (getattr(parent, "body", None), getattr(parent, "orelse", None)):
-        if isinstance(body, list) and child in body:
-            return any(isinstance(one, _LEAVING) for one in body[: body.index(child)])
-    return False

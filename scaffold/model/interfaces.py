@@ -273,6 +273,9 @@ def _is_copy(full_name: str) -> bool:
 
 
 _ALIKE = 0.7
+_MOST_KNOWN = 300
+_LONGEST = 200
+"""More names, or characters of one, than people write take long to compare."""
 _SAME_KIND = 0.1
 _FAR = 0.5
 """What looks less alike than the best by more than this is not worth naming."""
@@ -288,6 +291,8 @@ def nearest_word(word: str, known: Sequence[str]) -> str:
     """Return the end of a message, ``; did you mean ...``; empty if nothing comes near."""
     from difflib import get_close_matches
 
+    if len(known) > _MOST_KNOWN or len(word) > _LONGEST:
+        return ""
     lowered = {name.lower(): name for name in reversed(known)}
     near = get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
     return f"; did you mean {lowered[near[0]]!r}?" if near else ""

@@ -302,7 +302,7 @@ class MessageTypes:
         for parent in self.module.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
                 return False
-            if isinstance(parent, ast.Try) and child in parent.body:
+            if isinstance(parent, ast.Try) and self.module.index.place(child)[0] == "body":
                 caught = {
                     name
                     for handler in parent.handlers

@@ -68,7 +68,7 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) 
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if child in parent.finalbody:
+            case ast.Try() if facts.module.index.place(child)[0] == "finalbody":
                 in_finally = True
             case ast.If(test=test):
                 asks_ok = asks_ok or _asks_ok(facts, test)
@@ -96,7 +96,7 @@ def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if child in parent.body:
+            case ast.Try() if facts.module.index.place(child)[0] == "body":
                 handlers.update(_caught(facts, parent))
             case ast.With(items=items):
                 handlers.update(*(_suppressed(facts, item) for item in items))

@@ -32,14 +32,20 @@ _INTERFACES = (".msg", ".srv", ".action", ".idl")
 
 MOST_BYTES = 500_000
 """Of a file with code; among 800 public packages the largest has 270 kB."""
-MOST_BYTES_OF_DATA = 2_000_000
-"""Of any other file that is read as text."""
+MOST_BYTES_OF_DATA = 1_000_000
+"""Of YAML and documents; the largest YAML file of those packages has 270 kB."""
 MOST_BYTES_OF_CMAKE = 250_000
 """Of CMakeLists.txt; the largest of those packages has 60 kB."""
 MOST_BYTES_OF_DECLARATIONS = 100_000
 """Of package.xml, setup.py and setup.cfg, which have a few kB."""
 MOST_BYTES_OF_LINE = 20_000
 """Of a line of code; in the Python files of those packages the longest has 2 kB."""
+MOST_WORDS = 100_000
+"""Of a file with code, signs and lines counted as well: the largest of them has 70 000."""
+MOST_WORDS_OF_CMAKE = 30_000
+"""Of CMakeLists.txt; the largest has 10 000."""
+MOST_WORDS_OF_DECLARATIONS = 20_000
+"""Of package.xml, setup.py and setup.cfg, which have up to 1 000."""
 _CODE = (".py", ".cfg", "CMakeLists.txt")
 _DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
 
@@ -384,17 +390,30 @@ class Package:
 def why_unread(path: str, data: bytes) -> str:
     """Return why a file is not read, empty if it is: the bounds are far above what people write.
 
-    Some checks take a time that grows with the square of a line, so lines have a bound, too.
+    Some checks take a time that grows with the square of a line, so lines have a bound, too; and
+    a file of two bytes for each word takes ten times as long as text of the same size.
     """
     most = _most_bytes(path)
     if len(data) > most:
         return f"{len(data) // 1000} kB of {most // 1000} kB that are read: it is not checked"
-    if len(data) > MOST_BYTES_OF_LINE and (path == MANIFEST or path.endswith(_CODE)):
-        longest = max(map(len, data.splitlines()))
-        if longest > MOST_BYTES_OF_LINE:
-            most = MOST_BYTES_OF_LINE // 1000
-            return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
+    if len(data) <= MOST_BYTES_OF_LINE or not (path == MANIFEST or path.endswith(_CODE)):
+        return ""
+    longest = max(map(len, data.splitlines()))
+    if longest > MOST_BYTES_OF_LINE:
+        most = MOST_BYTES_OF_LINE // 1000
+        return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
+    most = _most_words(path)
+    words = len(data) if len(data) <= most else _words(data)
+    if words > most:
+        return f"{words} words and signs of {most} that are read: it is not checked"
     return ""
+
+
+def _words(data: bytes) -> int:
+    """Count what code is made of, as time and memory go by that and not by bytes."""
+    import re
+
+    return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))
 
 
 def _most_bytes(path: str) -> int:
@@ -404,3 +423,10 @@ def _most_bytes(path: str) -> int:
     if path.endswith(CMAKE_LISTS):
         return MOST_BYTES_OF_CMAKE
     return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MOST_BYTES
+
+
+def _most_words(path: str) -> int:
+    """Return the same in words and signs."""
+    if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
+        return MOST_WORDS_OF_DECLARATIONS
+    return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MOST_WORDS

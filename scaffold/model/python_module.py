@@ -18,6 +18,7 @@ MAX_DEPTH = 300
 
 _IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
 _PLATFORM_NAMES = ("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform.")
+_LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _MODULE_ATTRIBUTES = frozenset(
     {"__name__", "__file__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__"}
     | {"__dict__", "__cached__"}
@@ -90,6 +91,8 @@ class PythonModule:
         self._positions = Positions(source)
         self._names: dict[ast.AST, frozenset[str]] = {}
         """The full names of expressions that were asked about."""
+        self._words: dict[ast.expr, frozenset[str]] = {}
+        self._mentions: dict[str, bool] = {}
 
     @classmethod
     def parse(cls, source: Source) -> PythonModule:
@@ -194,6 +197,24 @@ class PythonModule:
         start, end = self.span(node)
         return self.source.text[start:end]
 
+    def words_of(self, condition: ast.expr) -> frozenset[str]:
+        """Return the names and attributes in a condition, written out: ``self.topic``."""
+        if condition not in self._words:
+            self._words[condition] = frozenset(
+                ast.unparse(one)
+                for one in ast.walk(condition)
+                if isinstance(one, ast.Name | ast.Attribute)
+            )
+        return self._words[condition]
+
+    def mentions(self, *texts: str) -> bool:
+        """Tell whether any of some texts stands in the file; it is searched for each once."""
+        known = self._mentions
+        for text in texts:
+            if text not in known:
+                known[text] = text in self.source.text
+        return any(known[text] for text in texts)
+
     # -- the file
 
     @property
@@ -248,6 +269,22 @@ class PythonModule:
             if isinstance(statement, ast.If) and _is_main_test(statement.test):
                 return statement
         return None
+
+    @cached_property
+    def passed_over(self) -> frozenset[ast.AST]:
+        """The statements that stand behind one that leaves their block, such as a ``return``."""
+        first: dict[tuple[ast.AST, str], int] = {}
+        for kind in _LEAVING:
+            for node in self.walk(kind):
+                parent = self.parent(node)
+                field, number = self.index.place(node)
+                if parent is not None and field in {"body", "orelse"}:
+                    first[parent, field] = min(number, first.get((parent, field), number))
+        return frozenset(
+            statement
+            for (parent, field), number in first.items()
+            for statement in getattr(parent, field)[number + 1 :]
+        )
 
     # -- names
 
@@ -378,13 +415,14 @@ class PythonModule:
                 case ast.FunctionDef() | ast.AsyncFunctionDef():
                     in_function = True
                 case ast.Try() if _catches_import_errors(parent):
-                    guarded = guarded or child not in parent.finalbody
+                    guarded = guarded or self.index.place(child)[0] != "finalbody"
                 case ast.With(items=items):
                     guarded = guarded or any(_suppresses_import_errors(i) for i in items)
                 case ast.If() if not _is_main_test(parent.test):
                     if "TYPE_CHECKING" in self.text(parent.test):
                         guarded = True
-                        type_checking = type_checking or child in parent.body
+                        in_body = self.index.place(child)[0] == "body"
+                        type_checking = type_checking or in_body
                     elif self._asks_platform(parent.test):
                         guarded = True
                     else:

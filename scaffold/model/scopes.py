@@ -25,6 +25,9 @@ _NOT_NODES = frozenset(
 
 Node = TypeVar("Node", bound=ast.AST)
 
+MOST_BINDINGS = 200
+"""Of one name in one scope; each look-up reads them all, and with more nobody knows its value."""
+
 
 class Binding(NamedTuple):
     """One place that gives a name a value."""
@@ -51,6 +54,7 @@ class SyntaxIndex:
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
         self._around: dict[ast.AST, ast.AST] = {}
+        self._blocks: dict[ast.AST, dict[ast.AST, tuple[str, int]]] = {}
         self._names: dict[str, list[ast.Name]] | None = None
         self._attributes: dict[str, list[ast.Attribute]] | None = None
 
@@ -112,6 +116,19 @@ class SyntaxIndex:
             yield parent
             parent = self._parents.get(parent)
 
+    def place(self, statement: ast.AST) -> tuple[str, int]:
+        """Return which block of the node that holds it a statement stands in, and its number there.
+
+        The block is ``body``, ``orelse``, ``finalbody`` or ``handlers``; empty, with a number of
+        -1, for what stands in none.
+        """
+        parent = self._parents.get(statement)
+        if parent is None:
+            return "", -1
+        if parent not in self._blocks:
+            self._blocks[parent] = _places(parent)
+        return self._blocks[parent].get(statement, ("", -1))
+
     # -- scopes
 
     def scope_of(self, node: ast.AST) -> ast.AST:
@@ -133,7 +150,11 @@ class SyntaxIndex:
         if self._scopes is None:
             self._scopes = {}
             for owner, binding in self._all_bindings():
-                self._scopes.setdefault(owner, {}).setdefault(binding.name, []).append(binding)
+                found = self._scopes.setdefault(owner, {}).setdefault(binding.name, [])
+                if len(found) < MOST_BINDINGS:
+                    found.append(binding)
+                elif len(found) == MOST_BINDINGS:
+                    found.append(Binding(binding.name, "other", binding.node))
         return self._scopes.get(scope, {})
 
     def lookup(self, name: str, at: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
@@ -252,6 +273,15 @@ class SyntaxIndex:
         ):
             return "other", None
         return "assignment", values.elts[targets.elts.index(node)]
+
+
+def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
+    found: dict[ast.AST, tuple[str, int]] = {}
+    for field in ("body", "orelse", "finalbody", "handlers"):
+        block = getattr(parent, field, None)
+        if isinstance(block, list):
+            found.update((one, (field, number)) for number, one in enumerate(block))
+    return found
 
 
 def _order(node: ast.AST) -> tuple[int, int]:

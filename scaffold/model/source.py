@@ -75,6 +75,11 @@ class Source:
         """The lines without their endings."""
         return [line.rstrip("\r") for line in self.text.split("\n")]
 
+    @cached_property
+    def has_lone_returns(self) -> bool:
+        r"""Whether a ``\r`` stands without ``\n``: Python ends a line there, ``lines`` does not."""
+        return "\r" in self.text.replace("\r\n", "")
+
     @property
     def newline(self) -> str:
         r"""The line ending of the first line: ``\r\n`` or ``\n``."""

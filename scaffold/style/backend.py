@@ -171,7 +171,7 @@ def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
         source = package.editable(path)
     except ViewError:
         return None
-    if "\r" in source.text.replace("\r\n", ""):
+    if source.has_lone_returns:
         return None
     shift = 1 if source.text.startswith("\ufeff") else 0
     changes = tuple(_edits(source, path, finding, shift))

@@ -1,0 +1,41 @@
+"""Which known name a word is nearly: for hints, where input may hold thousands of both."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+MOST_COMPARED = 50_000
+"""Pairs of words in one package; a comparison takes some microseconds."""
+LONGEST = 200
+"""Characters of a word worth comparing; the time goes by the square."""
+
+
+class _Budget:
+    def __init__(self) -> None:
+        self.left = MOST_COMPARED
+
+
+def nearest(package: Package, word: str, known: Collection[str], cutoff: float) -> str:
+    """Return the known name that looks most like a word.
+
+    Args:
+        package: What the word is found in.
+        word: The word.
+        known: The names.
+        cutoff: How much alike they must be, from 0 to 1.
+
+    Returns:
+        The name; empty when none is so much alike, or when so many words of the package have been
+        compared with so many names that nobody waits for more.
+    """
+    from difflib import get_close_matches
+
+    budget = package.remember("comparisons", _Budget)
+    budget.left -= len(known)
+    if budget.left < 0 or len(word) > LONGEST:
+        return ""
+    return next(iter(get_close_matches(word, known, 1, cutoff)), "")
