@@ -127,6 +127,7 @@ def test_same_findings_in_new_syntax(tmp_path: Path) -> None:
 
 BROKEN = (
     "def f(:\n",
+    "try:\n    pass\nfinally:\n\t        if 1:\n            pass\n",
     "x = (1,\n",
     "if x:\nprint(1)\n",
     "x = 1\n  y = 2\n",

@@ -96,19 +96,21 @@ def _broken(text: PythonText, said: Sequence[Said], *, is_clean: bool) -> Findin
         return Finding(
             "E902", 1, 1, "the bytes are not text of the declared encoding", linters=both
         )
-    errors = [one for one in said if not one.code]
+    own = _syntax_error(text) if text.tree is None else None
+    errors = [(one.line, one.column, flakes.worded(one.message)) for one in said if not one.code]
+    if not errors and isinstance(own, IndentationError):
+        errors = [(1, 1, own.msg)]  # ruff takes tabs for another width
     if not errors:
         return None
-    first = min(errors, key=lambda one: (one.line, one.column))
-    line, column = first.line, first.column
-    if text.tree is None:
-        line, column = _place_of_syntax_error(text) or (line, column)
-    message = f"not valid Python 3.12: {flakes.worded(first.message)}"
-    return Finding("E999", line, column, message, linters=both)
+    line, column, message = min(errors)
+    if own is not None and own.lineno:
+        # It names the line that flake8 names.
+        line, column = own.lineno, max(own.offset or 1, 1)
+    return Finding("E999", line, column, f"not valid Python 3.12: {message}", linters=both)
 
 
-def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
-    """Return where the running Python finds the error; it names the line that flake8 names."""
+def _syntax_error(text: PythonText) -> SyntaxError | None:
+    """Return what the running Python says of a file."""
     import ast
     import warnings
 
@@ -117,8 +119,7 @@ def _place_of_syntax_error(text: PythonText) -> tuple[int, int] | None:
         try:
             ast.parse(text.text)
         except SyntaxError as error:
-            if error.lineno:
-                return error.lineno, max(error.offset or 1, 1)
+            return error
         except (ValueError, RecursionError, MemoryError):
             pass
     return None
