@@ -68,8 +68,8 @@ def run(options: argparse.Namespace) -> int:
         if command is not None:
             sys.stderr.write(f"Your answers as a command, to be mended:\n    {command}\n")
         raise
-    end_check = draft.begin_check(made)
-    defects = end_check(registry.load(content.roots("rules")))
+    check = draft.Check(made)
+    defects = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
     if defects:
         _report_defects(defects)
         return DEFECT

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -157,29 +157,37 @@ def compose(
 
 def defects(package: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
     """Return what the checker says about a draft: a defect of the templates."""
-    return begin_check(package)(rules)
+    return Check(package).end(rules)
 
 
-def begin_check(package: Draft) -> Callable[[Sequence[type[Rule]]], list[Diagnostic]]:
-    """Start to check a draft; return what ends it: it wants the rules, as in `defects`.
+class Check:
+    """The check of a draft; style begins at once, in the background.
 
-    Whoever loads the rules in between does so while ruff runs.
+    Whoever loads the rules before they are needed does so while ruff runs.
     """
-    from scaffold.model.package import Package
-    from scaffold.model.tree import MemoryTree
-    from scaffold.style import StyleCheck
 
-    tree = MemoryTree(package.rendered.files, package.rendered.executable)
-    checked = Package(tree, directory=package.name)
-    style = StyleCheck([checked])
+    def __init__(self, package: Draft) -> None:
+        from scaffold.model.package import Package
+        from scaffold.model.tree import MemoryTree
+        from scaffold.style import StyleCheck
 
-    def end(rules: Sequence[type[Rule]]) -> list[Diagnostic]:
+        tree = MemoryTree(package.rendered.files, package.rendered.executable)
+        self._package = Package(tree, directory=package.name)
+        self._style = StyleCheck([self._package])
+
+    @property
+    def silent_areas(self) -> frozenset[str]:
+        """The areas whose rules need not be loaded."""
+        from scaffold.check.areas import silent
+
+        return silent(self._package)
+
+    def end(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
+        """Return what the rules and the style say."""
         from scaffold.check.selection import Selection
         from scaffold.check.session import Session
 
-        return Session(rules, Selection()).check(checked, style)
-
-    return end
+        return Session(rules, Selection()).check(self._package, self._style)
 
 
 def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Order:
