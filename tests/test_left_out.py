@@ -22,5 +22,8 @@ def test_the_files_of_the_checkout_count(
     if checkout is not None:
         (tmp_path / checkout / ".git").mkdir()
     package = Package(DiskTree(str(directory)), workspace=Workspace())
+    (tmp_path / "src" / ".gitmodules").write_text('[submodule "a"]\n\tpath = talker/external/a\n')
     assert is_left_out(package, "config/calibrated_head.yaml") is expected
+    assert is_left_out(package, "external/a/include/a.hpp") is expected
+    assert not is_left_out(package, "external/b/include/b.hpp")
     assert not is_left_out(package, "config/head.yaml")

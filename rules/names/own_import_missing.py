@@ -60,6 +60,7 @@ class OwnImportMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
+        roots = {root for root in roots if root.isidentifier()}
         roots -= {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
         made = package.has("CMakeLists.txt") and bool(
             package.cmake.find("rosidl_generate_interfaces", "generate_parameter_module")

@@ -44,6 +44,10 @@ class SubpackageNotInstalled(Rule):
             },
         ),
         Example(
+            "listed by their directories",
+            {**_FILES, "setup.py": _SETUP.format("setup", "['talker', 'talker/text']")},
+        ),
+        Example(
             "one listed",
             {**_FILES, "setup.py": _SETUP.format("find_packages, setup", "['talker']")},
             at=("setup.py:5",),

@@ -24,7 +24,7 @@ def is_left_out(package: Package, path: str) -> bool:
     if _is_of_submodule(package, path):
         return True
     name = path.rpartition("/")[2]
-    for text in _texts(package):
+    for _, text in _texts(package, _FILE):
         for line in text.splitlines():
             pattern = line.strip()
             if pattern and pattern[0] not in "#!" and fnmatchcase(name, pattern):
@@ -34,25 +34,27 @@ def is_left_out(package: Package, path: str) -> bool:
 
 def _is_of_submodule(package: Package, path: str) -> bool:
     """Tell whether a path lies in a directory of the package that git fetches from elsewhere."""
-    try:
-        text = package.tree.read(_SUBMODULES).decode(errors="replace")
-    except OSError:
-        return False
-    for line in text.splitlines():
-        key, _, directory = line.partition("=")
-        if key.strip() == "path" and f"{path}/".startswith(f"{directory.strip()}/"):
-            return True
+    for prefix, text in _texts(package, _SUBMODULES):
+        for line in text.splitlines():
+            key, _, directory = line.partition("=")
+            if key.strip() == "path" and f"{prefix}{path}/".startswith(f"{directory.strip()}/"):
+                return True
     return False
 
 
-def _texts(package: Package) -> Iterator[str]:
-    """Yield what the .gitignore files say, from the package up to the root of the checkout."""
+def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
+    """Yield what the files of a name say, from the package up to the root of the checkout.
+
+    In front of each, the way from its directory to the package: ``src/talker/``.
+    """
     with contextlib.suppress(OSError):
-        yield package.tree.read(_FILE).decode(errors="replace")
+        yield "", package.tree.read(name).decode(errors="replace")
     disk = package.outside
     for directory in _parents(package):
         with contextlib.suppress(OSError):
-            yield disk.read(os.path.join(directory, _FILE)).decode(errors="replace")
+            text = disk.read(os.path.join(directory, name)).decode(errors="replace")
+            way = os.path.relpath(disk.real(package.root or ""), directory)
+            yield f"{way.replace(os.sep, '/')}/", text
 
 
 def _parents(package: Package) -> list[str]:

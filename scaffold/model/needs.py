@@ -99,7 +99,8 @@ def is_shipped(package: Package, module: PythonModule) -> bool:
         return True
     directory, _, name = path.rpartition("/")
     if directory and package.has(f"{directory}/__init__.py"):
-        return True
+        # "talker copy" is no package: nothing can import it.
+        return directory.replace("/", "").replace("-", "").isidentifier()
     # The directory as a whole, not ``console_scripts`` and not another file of it.
     whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
     return any(

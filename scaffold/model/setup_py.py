@@ -204,7 +204,8 @@ class SetupPy:
         if isinstance(node, ast.Call):
             return self._find_packages(node)
         if isinstance(word.value, list | tuple):
-            names = [item for item in word.value if isinstance(item, str)]
+            # setuptools takes the directory, too: "talker/nodes".
+            names = [item.replace("/", ".") for item in word.value if isinstance(item, str)]
             return names if len(names) == len(word.value) else UNKNOWN
         return UNKNOWN
 
