@@ -566,6 +566,25 @@ def test_launch_starts_the_nodes_of_a_package(
     assert read(demo) == after
 
 
+def test_launch_starts_programs_that_use_rclcpp(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    targets = (
+        "add_library(core a.cpp)\ntarget_link_libraries(core PUBLIC rclcpp::rclcpp)\n"
+        "add_executable(one a.cpp)\nament_target_dependencies(one rclcpp std_msgs)\n"
+        "add_executable(two a.cpp)\ntarget_link_libraries(two core)\n"
+        "add_executable(three a.cpp)\ntarget_link_libraries(three rclcpp_fake)\n"
+        "install(TARGETS core DESTINATION lib)\n"
+        "install(TARGETS one two three DESTINATION lib/${PROJECT_NAME})\n"
+    )
+    lists = dedent(CMAKE["CMakeLists.txt"]).replace("ament_package", f"{targets}ament_package")
+    demo = write(tmp_path / "demo", {**CMAKE, "CMakeLists.txt": lists})
+    assert add(demo, "launch") == 0
+    assert launched(demo) == ["executable='one'", "executable='two'"]
+    said = capsys.readouterr().err
+    assert "launch/demo.launch.py leaves out hello.py, three: not known to be nodes" in said
+
+
 def test_launch_starts_the_nodes_that_setup_cfg_declares(tmp_path: Path) -> None:
     made = with_nodes(PYTHON, "demo", "first=eye")
     setup = dedent(made["setup.py"])
@@ -676,7 +695,7 @@ def test_a_package_without_nodes_has_nothing_to_launch(
     demo: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert refused(demo, capsys, "launch") == (
-        f"launch has nothing to write for {demo}: it installs no Python node that is known"
+        f"launch has nothing to write for {demo}: it installs no node that is known"
     )
 
 

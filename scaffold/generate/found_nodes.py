@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from scaffold.generate.cpp_nodes import executables
 from scaffold.model.package import Package
 from scaffold.model.package_programs import nodes_of, programs_of
 from scaffold.model.parameter_files import parameter_file, parameter_paths
@@ -44,13 +45,16 @@ def find(
     known = {node["executable"] for node in recorded} | {one["name"] for one in compiled}
     found: list[Mapping[str, Any]] = list(there)
     others: list[str] = []
-    for program in programs.sources:
-        if program not in known:
-            names = {owner.node_name for owner in nodes_of(package, program)}
-            if names:
-                found.append(_node(package, program, names))
-            else:
-                others.append(program)
+    in_cpp = executables(package)
+    for program, source in programs.sources.items():
+        is_library = package.build_type == "ament_cmake" and not source and program not in in_cpp
+        if program in known or is_library:
+            continue
+        names = {owner.node_name for owner in nodes_of(package, program)}
+        if names or in_cpp.get(program):
+            found.append(_node(package, program, names))
+        else:
+            others.append(program)
     return FoundNodes(list(_renamed(found)), others)
 
 

@@ -108,7 +108,7 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
     if not rendered.files:
         raise InputError(
             f"{template.name} has nothing to write for {package.directory or package.name}: it "
-            "installs no Python node that is known"
+            "installs no node that is known"
         )
     addition = _described(composed, template, context, package.name, rendered)
     readme = f"{template.name}/{_OF_README}{ENDING}"

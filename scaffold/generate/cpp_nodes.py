@@ -1,0 +1,51 @@
+"""Which executables of CMake are nodes: those that use rclcpp."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from scaffold.model.package import Package
+
+_MADE = ("add_executable", "ament_auto_add_executable")
+_LINKED = ("ament_target_dependencies", "target_link_libraries")
+_COMPONENT = "rclcpp_components_register_node"
+_RCLCPP = r"rclcpp(_lifecycle|_components)?(::|$)"
+
+
+def executables(package: Package) -> Mapping[str, bool]:
+    """Return the executables of an ament_cmake package, and whether each uses rclcpp."""
+    if package.build_type != "ament_cmake":
+        return {}
+    using = _using(package)
+    found: dict[str, bool] = {}
+    for command in package.cmake.find(*_MADE):
+        name = next(iter(package.cmake.expand_list(command.arguments[:1], command) or ()), "")
+        found[name] = name in using
+    for command in package.cmake.find(_COMPONENT):
+        words = command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"})
+        found |= dict.fromkeys(package.cmake.expand_list(words, command) or (), True)
+    return found
+
+
+def _using(package: Package) -> set[str]:
+    """Return the targets that use rclcpp, themselves or with what they are linked to."""
+    cmake = package.cmake
+    linked: dict[str, set[str]] = {}
+    for command in cmake.find(*_LINKED):
+        target, *names = cmake.expand_list(command.arguments, command) or [""]
+        linked.setdefault(target, set()).update(names)
+    if "rclcpp" in package.manifest.names_for("build"):
+        for command in cmake.find("ament_auto_add_executable"):
+            target = next(iter(cmake.expand_list(command.arguments[:1], command) or ()), "")
+            linked.setdefault(target, set()).add("rclcpp")
+    found: set[str] = set()
+    while True:
+        more = {
+            target
+            for target, names in linked.items()
+            if any(name in found or re.match(_RCLCPP, name) for name in names)
+        }
+        if more == found:
+            return found
+        found = more
