@@ -243,6 +243,13 @@ def test_records_of_a_newer_release_are_not_touched(
     assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
 
 
+def test_what_is_added_makes_the_record_one_of_this_release(package: Path) -> None:
+    path = package / provenance.NAME
+    path.write_text(json.dumps({**json.loads(path.read_text()), "version": "0.0.1"}))
+    assert main(["add", "timer", "clock", "--package-directory", "talker"]) == 0
+    assert json.loads(path.read_text())["version"] == __version__
+
+
 def test_binary_files_are_not_merged() -> None:
     with pytest.raises(InputError, match="git cannot merge: "):
         merge.merge(b"\0a", b"\0b", b"\0c")

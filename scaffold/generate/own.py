@@ -67,7 +67,7 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
     package = target.package
     if not in_step or not all(_is_as(package, path, files.get(path)) for path in changed):
         return None
-    return {**changed, NAME: old._replace(answers=answers, rendered=wanted).text()}
+    return {**changed, NAME: old.with_files(answers, wanted).text()}
 
 
 def is_noted(old: Provenance, piece: Piece) -> bool:
@@ -88,7 +88,7 @@ def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
     base = Package.of({**old.rendered, NAME: ""})
     files = {**piece.rendered.files, **old.rendered}
     files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
-    return {NAME: old._replace(answers=answers, rendered=files).text().encode()}
+    return {NAME: old.with_files(answers, files).text().encode()}
 
 
 def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:

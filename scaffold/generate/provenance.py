@@ -46,6 +46,10 @@ class Provenance(NamedTuple):
         """Return the record of a package that is made now."""
         return cls(made.day, made.answers, made.rendered.files)
 
+    def with_files(self, answers: Mapping[str, Any], rendered: Mapping[str, str]) -> Provenance:
+        """Return the record of the same package with more in it, which is added now."""
+        return Provenance(self.date, answers, rendered)
+
     def text(self) -> str:
         """Return the record as a file."""
         data = json.dumps(dict(self.rendered), ensure_ascii=False).encode()
