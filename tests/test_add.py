@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from collections.abc import Mapping
@@ -13,6 +14,7 @@ import pytest
 from scaffold import content
 from scaffold.cli.main import main
 from scaffold.generate import parts, template
+from scaffold.generate.provenance import NAME
 from scaffold.generate.template import Role
 from scaffold.smoke import environment
 from tests import oracles
@@ -205,6 +207,47 @@ def test_an_extra_makes_what_new_makes_with_it(
     capsys.readouterr()
     assert add(first / "demo", extra) == 0
     assert "nothing was changed" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("is_changed", [False, True])
+def test_a_team_adds_extras_of_its_own(tmp_path: Path, *, is_changed: bool) -> None:
+    team = write(
+        tmp_path / "team",
+        {
+            "templates/docker/template.yaml": """\
+                summary: A Dockerfile
+                role: extra
+                questions: { base_image: { default: "ros:jazzy", help: the image to start from } }
+                depends: { exec: [ros2launch] }
+                """,
+            "templates/docker/Dockerfile.jinja": """\
+                FROM {{ base_image }}
+                {% for node in nodes %}
+                # {{ node.name }}
+                {% endfor %}
+                """,
+        },
+    )
+    answers = write(tmp_path, {"answers.yaml": "base_image: osrf/ros\n"}) / "answers.yaml"
+    more = ["--content", str(team), "--answers", str(answers)]
+    words = ["new", "demo", *PERSON, "--add", "publisher:talker", "--content", str(team)]
+    both, one = tmp_path / "both", tmp_path / "one"
+    assert main([*words, "--destination-directory", str(one)]) == 0
+    words += ["--extras", "docker", "--answers", str(answers)]
+    assert main([*words, "--destination-directory", str(both)]) == 0
+    if is_changed:
+        with (one / "demo" / "package.xml").open("a") as file:
+            file.write("<!-- mine -->\n")
+    assert add(one / "demo", "docker", *more) == 0
+    assert (one / "demo" / "Dockerfile").read_text() == "FROM osrf/ros\n# talker\n"
+    assert "<exec_depend>ros2launch</exec_depend>" in (one / "demo" / "package.xml").read_text()
+    after, expected = read(one / "demo"), read(both / "demo")
+    record, other = (json.loads(files.pop(NAME)) for files in (after, expected))
+    assert record["answers"] == other["answers"]
+    if not is_changed:
+        assert (after, record["rendered"]) == (expected, other["rendered"])
+    assert main(["update", str(one / "demo"), "--content", str(team)]) == 0
+    assert (one / "demo" / "Dockerfile").read_bytes() == after["Dockerfile"]
 
 
 def test_the_default_description_follows_the_parts(tmp_path: Path) -> None:

@@ -55,7 +55,8 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
         return None
     given = update.recorded(old, target.templates, target.package.directory, [])
     before = _drafted(target, given, old)
-    given |= {name: Given(answers[name], NAME) for name in (parts.ADD, EXTRAS) if name in answers}
+    new = {name: value for name, value in answers.items() if old.answers.get(name) != value}
+    given |= {name: Given(value, NAME) for name, value in new.items()}
     following = _following(target, given, old)
     for name in following:
         del given[name]
@@ -97,7 +98,9 @@ def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
         extras = old.answers.get(EXTRAS, [])
         if piece.template.name in extras:
             return dict(old.answers)
-        return {**old.answers, EXTRAS: [*extras, piece.template.name]}
+        asked = {one.name for one in piece.template.questions}
+        own = {name: value for name, value in piece.composed.answers.items() if name in asked}
+        return {**old.answers, **own, EXTRAS: [*extras, piece.template.name]}
     part = piece.composed.answers[parts.ADD][0]
     name = piece.template.name_question
     known = old.answers.get(parts.ADD, [])
