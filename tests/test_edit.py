@@ -377,6 +377,16 @@ def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> Non
     assert all(reason in one.reason and one.is_needed for one in outcome.by_hand)
 
 
+def test_what_only_tests_would_install_is_left_to_the_user() -> None:
+    early = "if(NOT BUILD_TESTING)\n  ament_package()\n  return()\nendif()\n"
+    text = f"project(demo)\nfind_package(ament_cmake REQUIRED)\n{early}ament_package()\n"
+    outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
+    assert "ament_add_pytest_test(test_talker test/test_talker.py)" in outcome.source.text
+    assert [one.reason for one in outcome.by_hand] == [
+        "what stands at the end is not always reached"
+    ]
+
+
 def test_a_broken_file_is_refused() -> None:
     with pytest.raises(ParseError) as error:
         cmake_edit("project(demo)\nfind_package(x\nament_package()\n", Addition("demo", SCRIPT))

@@ -134,7 +134,7 @@ class Editor:
         name = path.rpartition("/")[2].removesuffix(".py")
         line = f"{ADD_PYTEST}({name} {path})"
         by_hand = f"find_package({PYTEST} REQUIRED) and {line} inside if(BUILD_TESTING)"
-        if self.refused(by_hand):
+        if self.refused(by_hand, is_test=True):
             return
         if not self.lists.finds_tests_automatically:
             self.edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
@@ -152,13 +152,16 @@ class Editor:
         if not changed.errors:
             self.lists = changed
 
-    def refused(self, line: str) -> bool:
+    def refused(self, line: str, *, is_test: bool = False) -> bool:
         """Leave a line to the user where nothing at all can be added for sure."""
         lists = self.lists
+        ends = [call for call in lists.find(*LAST_CALLS) if call.depth == 0]
         if lists.project_name != self.package:
             self.refuse(line, f"the project is not known to be named {self.package!r}")
-        elif not any(call.depth == 0 for call in lists.find(*LAST_CALLS)):
+        elif not ends:
             self.refuse(line, f"there is no {LAST_CALLS[0]}() at the top level")
+        elif not is_test and all(lists.guarded_by_testing(call) for call in ends):
+            self.refuse(line, "what stands at the end is not always reached")
         else:
             return False
         return True
