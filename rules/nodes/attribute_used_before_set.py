@@ -53,6 +53,7 @@ def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribu
     """Yield the first use of each attribute that stands above all places that set it."""
     bound = facts.module.index.bindings(node.node)
     told: set[str] = set()
+    first_lines: dict[str, int] = {}
     for used in ast.walk(node.constructor) if node.constructor else ():
         if not isinstance(used, ast.Attribute) or not isinstance(used.ctx, ast.Load):
             continue
@@ -60,16 +61,22 @@ def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribu
             continue
         if facts.evaluator.self_class(used.value) is not node.node:
             continue
-        stores = facts.evaluator.stores(used.attr)
-        functions = {facts.function_of(store.node) for store in stores}
-        if functions != {node.constructor} or facts.function_of(used) is not node.constructor:
+        if used.attr not in first_lines:
+            first_lines[used.attr] = _first_line(facts, node, used.attr)
+        line = first_lines[used.attr]
+        if used.lineno >= line or facts.function_of(used) is not node.constructor:
             continue
-        lines = [store.node.lineno for store in stores]
         in_loop = any(
             isinstance(parent, ast.For | ast.While) for parent in facts.module.parents(used)
         )
-        if used.lineno >= min(lines) or in_loop:
-            continue
-        if not is_harmless(facts.module, used, "AttributeError"):
+        if not in_loop and not is_harmless(facts.module, used, "AttributeError"):
             told.add(used.attr)
-            yield used, min(lines)
+            yield used, line
+
+
+def _first_line(facts: NodeFacts, node: NodeClass, name: str) -> int:
+    """Return where an attribute is set first; 0 unless the constructor alone sets it."""
+    stores = facts.evaluator.stores(name)
+    if {facts.function_of(store.node) for store in stores} != {node.constructor}:
+        return 0
+    return min(store.node.lineno for store in stores)

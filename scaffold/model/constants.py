@@ -54,6 +54,9 @@ MOST_ASSIGNMENTS = 200
 """Of one name; a name with more has no value that anybody knows."""
 MAX_STEPS = 20_000
 """Expressions visited for one value: names that stand for each other multiply."""
+MOST_STEPS = 300_000
+"""Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
+FEW_STEPS = 100
 
 _CHANGING = frozenset(
     {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
@@ -72,7 +75,8 @@ class Evaluator:
     def __init__(self, module: PythonModule) -> None:
         self.module = module
         self._depth = 0
-        self._steps = 0
+        self._steps = self._spent = 0
+        self._most = MAX_STEPS
         self._is_cut = False
         self._running: set[ast.AST] = set()
         self._memo: dict[ast.AST, tuple[object, frozenset[str]]] = {}
@@ -114,12 +118,18 @@ class Evaluator:
         if method is None:
             return UNKNOWN
         if self._depth == 0:
-            self._steps = 0
+            self._start()
         self._steps += 1
-        if node in self._running or self._depth >= MAX_DEPTH or self._steps > MAX_STEPS:
+        if node in self._running or self._depth >= MAX_DEPTH or self._steps > self._most:
             self._is_cut = True
             return UNKNOWN
         return self._visit(node, method)
+
+    def _start(self) -> None:
+        """Begin with a value of its own."""
+        self._spent += self._steps
+        self._most = MAX_STEPS if self._spent < MOST_STEPS else FEW_STEPS
+        self._steps = 0
 
     def _visit(self, node: ast.expr, method: Callable[..., object]) -> object:
         """Evaluate a node, and remember its value unless it was cut short or depends on names."""
@@ -151,7 +161,7 @@ class Evaluator:
     def elements(self, node: ast.expr) -> Elements:
         """Return the items of a list or tuple, each with the place where it is written."""
         if self._depth == 0:
-            self._steps = 0
+            self._start()
         self._depth += 1
         items: list[Element] = []
         try:
@@ -199,7 +209,7 @@ class Evaluator:
     def _collect(self, node: ast.expr, items: list[Element], depth: int) -> Iterator[bool]:
         """Append the items of a list; yield false for every part that is not known."""
         self._steps += 1
-        if depth > MAX_DEPTH or self._steps > MAX_STEPS:
+        if depth > MAX_DEPTH or self._steps > self._most:
             self._is_cut = True
             yield False
             return

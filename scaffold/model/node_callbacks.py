@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import Callback
@@ -67,16 +67,28 @@ def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | 
 
 
 def reached(
-    facts: NodeFacts, function: FunctionNode | ast.Lambda
+    facts: NodeFacts, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
 ) -> Sequence[FunctionNode | ast.Lambda]:
-    """Return a function and what it calls in the same file: methods of self, functions."""
-    found: list[FunctionNode | ast.Lambda] = [function]
-    for current in found:
-        for call in facts.calls_in(current):
-            called = resolve(facts, call.func).function
-            if called is not None and called not in found:
-                found.append(called)
-    return found
+    """Return a function and what it calls in the same file: methods of self, functions.
+
+    Args:
+        facts: The file.
+        function: The function.
+        known: Functions that are of no interest any more, nor is what they call.
+    """
+    found: dict[FunctionNode | ast.Lambda, None] = {}
+    pending = [function] if function not in known else []
+    while pending:
+        found.update(dict.fromkeys(pending))
+        called = [
+            resolve(facts, call.func).function
+            for current in pending
+            for call in facts.calls_in(current)
+        ]
+        pending = [
+            one for one in dict.fromkeys(called) if one and one not in found and one not in known
+        ]
+    return [*found]
 
 
 def _is_static_method(function: FunctionNode) -> bool:

@@ -69,7 +69,10 @@ class NodeEvaluator(SelfEvaluator):
         found = self.attribute_values(node)
         if not found:
             return UNKNOWN
-        value = self._common([self.evaluate(value) for value in found])
+        value = self.evaluate(found[0])
+        for other in found[1:]:
+            if value is UNKNOWN or not same(self.evaluate(other), value):
+                return UNKNOWN
         # Nobody follows what methods do to a list that belongs to an object.
         return UNKNOWN if isinstance(value, list | dict) else value
 

@@ -35,9 +35,9 @@ def in_callbacks(facts: NodeFacts) -> Iterator[Executed]:
         function = callback.function
         if function is None or not isinstance(entity, Timer | Subscription | Service):
             continue
-        for reached in facts.reached(function):
-            if reached not in seen and not isinstance(reached, ast.AsyncFunctionDef):
-                seen.add(reached)
+        for reached in facts.reached(function, seen):
+            seen.add(reached)
+            if not isinstance(reached, ast.AsyncFunctionDef):
                 name = callback.name
                 yield Executed(reached, f"the callback {name}" if name else "a callback")
 
@@ -46,7 +46,6 @@ def in_constructors(facts: NodeFacts) -> Iterator[Executed]:
     """Yield the functions that constructors of nodes run, each once."""
     seen: set[ast.AST] = set()
     for node in facts.classes:
-        for reached in facts.reached(node.constructor) if node.constructor else ():
-            if reached not in seen:
-                seen.add(reached)
-                yield Executed(reached, f"the constructor of {node.name}")
+        for reached in facts.reached(node.constructor, seen) if node.constructor else ():
+            seen.add(reached)
+            yield Executed(reached, f"the constructor of {node.name}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
 
@@ -389,9 +389,11 @@ class NodeFacts:
         """Return the function whose body a node stands in."""
         return node_callbacks.function_of(self, node)
 
-    def reached(self, function: FunctionNode | ast.Lambda) -> Sequence[FunctionNode | ast.Lambda]:
-        """Return a function and what it calls in the same file: methods of self, functions."""
-        return node_callbacks.reached(self, function)
+    def reached(
+        self, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+    ) -> Sequence[FunctionNode | ast.Lambda]:
+        """Return a function and what it calls in the same file, without what is known already."""
+        return node_callbacks.reached(self, function, known)
 
     # -- parameters
 

@@ -122,12 +122,10 @@ def _functions(
     else:
         called = [facts.callback(call.func).function for call in outside]
         begin = [one for one in called if one is not None and not isinstance(one, ast.Lambda)]
-    reached: dict[FunctionNode, None] = {}
+    reached: dict[FunctionNode | ast.Lambda, None] = {}
     for one in begin:
-        for other in facts.reached(one):
-            if not isinstance(other, ast.Lambda):
-                reached[other] = None
-    return list(reached)
+        reached.update(dict.fromkeys(facts.reached(one, reached)))
+    return [one for one in reached if not isinstance(one, ast.Lambda)]
 
 
 def _calls_outside(facts: NodeFacts) -> list[ast.Call]:

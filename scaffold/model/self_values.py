@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from scaffold.model.constants import Evaluator
+from scaffold.model.constants import MOST_ASSIGNMENTS, Evaluator
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -87,9 +87,12 @@ class SelfEvaluator(Evaluator):
         class_ = self.self_class(node.value) or self.named_class(node.value)
         if class_ is None:
             return None
+        stores = self.stores(node.attr)
+        if len(stores) > MOST_ASSIGNMENTS:
+            return None
         family = self.related(class_)
         values: list[ast.expr] = []
-        for store in self.stores(node.attr):
+        for store in stores:
             if store.class_ is not None and store.class_ not in family:
                 continue
             if store.class_ is None or store.value is None:

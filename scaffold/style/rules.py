@@ -26,7 +26,7 @@ from scaffold.style import (
     statements,
 )
 from scaffold.style.codes import CODES
-from scaffold.style.finding import FLAKE8, PEP257, Finding
+from scaffold.style.finding import FLAKE8, PEP257, Finding, Replacement
 from scaffold.style.logical import LogicalLine
 from scaffold.style.ruff import Said
 from scaffold.style.text import PythonText, decode
@@ -146,12 +146,11 @@ def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
 
 def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Finding]:
     """Give our findings the fixes that ruff has for the same code at the same line."""
-    fixes: dict[tuple[str, int], Finding] = {}
+    plain: dict[tuple[str, int], list[Finding]] = {}
     for one in said:
         if one.fix:
-            key = (one.code, one.line)
-            plain = flakes.plain(one)
-            fixes[key] = _joined(fixes[key], plain) if key in fixes else plain
+            plain.setdefault((one.code, one.line), []).append(flakes.plain(one))
+    fixes = {key: _joined(same) for key, same in plain.items()}
     result = []
     for finding in findings:
         other = fixes.get((finding.code, finding.line))
@@ -210,27 +209,60 @@ class _Alignment:
 
 def _once(findings: Iterable[Finding]) -> list[Finding]:
     """Return one finding for each line and code, in reading order."""
-    found: dict[tuple[int, str], Finding] = {}
+    found: dict[tuple[int, str], list[Finding]] = {}
     for finding in sorted(findings, key=lambda one: (one.line, one.column, one.code)):
-        key = (finding.line, finding.code)
-        if key in found:
-            linters = found[key].linters | finding.linters
-            found[key] = _joined(found[key], finding)._replace(linters=linters)
-        else:
-            found[key] = finding
-    return list(found.values())
+        found.setdefault((finding.line, finding.code), []).append(finding)
+    return [_joined(same) for same in found.values()]
 
 
-def _joined(one: Finding, other: Finding) -> Finding:
-    """Return the first of two findings, with both fixes where they do not meet."""
-    if not one.fix:
-        return one._replace(
-            fix=other.fix, fix_title=other.fix_title, fix_is_unsafe=other.fix_is_unsafe
-        )
-    if len(one.fix) > MOST_EDITS:
-        return one
-    edits = sorted({*one.fix, *other.fix})
-    meet = any(first[2:4] > second[:2] for first, second in pairwise(edits))
-    if meet or not other.fix or one.fix_is_unsafe != other.fix_is_unsafe:
-        return one
-    return one._replace(fix=tuple(edits))
+def _joined(findings: Sequence[Finding]) -> Finding:
+    """Return the first of some findings, with the fixes of all where they do not meet."""
+    first, *others = findings
+    if not others:
+        return first
+    linters = first.linters
+    for other in others:
+        linters |= other.linters
+    fixable = [one for one in findings if one.fix]
+    if not fixable:
+        return first._replace(linters=linters)
+    leading = fixable[0]
+    edits = sorted({*leading.fix})
+    has_grown = False
+    before = leading.fix
+    for other in fixable[1:] if not _meet(edits) else ():
+        if len(edits) > MOST_EDITS:
+            break
+        # What mends a whole line is said of each of its findings.
+        if other.fix_is_unsafe == leading.fix_is_unsafe and other.fix != before:
+            has_grown = _added(edits, other.fix) or has_grown
+        before = other.fix
+    return first._replace(
+        linters=linters,
+        fix=tuple(edits) if has_grown else leading.fix,
+        fix_title=leading.fix_title,
+        fix_is_unsafe=leading.fix_is_unsafe,
+    )
+
+
+def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
+    """Add edits to others in the order of the text, all or none: those that meet cannot be."""
+    new = sorted({*more})
+    if _meet(new):
+        return False
+    places: list[tuple[int, Replacement]] = []
+    for edit in new:
+        at = bisect_left(edits, edit)
+        if edits[at : at + 1] == [edit]:
+            continue
+        if _meet([*edits[max(at - 1, 0) : at], edit, *edits[at : at + 1]]):
+            return False
+        places.append((at, edit))
+    for at, edit in reversed(places):
+        edits.insert(at, edit)
+    return True
+
+
+def _meet(edits: Sequence[Replacement]) -> bool:
+    """Tell whether any of some edits begins before the one ahead of it ends."""
+    return any(one[2:4] > other[:2] for one, other in pairwise(edits))
