@@ -62,12 +62,12 @@ def _commands(ros2: str | None) -> dict[str, list[str]]:
     user = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
     new = [sys.executable, "-m", "scaffold", "new", *user]
     kinds = ("publisher", "subscriber", "service_server", "service_client", "timer")
-    several = [word for kind in kinds for word in ("--add", f"{kind}:{kind}_one")]
+    several = [f"--add={kind}:{kind}_one" for kind in kinds]
     commands = {
         "new": new,
         "new, ament_python": [*new, "--build-type", "ament_python"],
+        "new, two nodes": [*new, *several[:2]],
         "new, five nodes": [*new, *several],
-        "new, and a launch file": [*new, *several, "--extras=launch"],
     }
     if ros2 is None:
         sys.stderr.write("there is no ros2 on the PATH: nothing to compare with\n")
