@@ -454,12 +454,13 @@ def test_every_kind_can_be_added(kind: str, demo: Path, capsys: pytest.CaptureFi
 def test_what_is_found_in_other_files_is_said_and_does_not_matter(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    lists = "cmake_minimum_required(VERSION 3.20)\nproject(demo NONE)\n"
-    lists += "find_package(ament_cmake REQUIRED)\nament_package()\n"
-    script = CMAKE["scripts/hello.py"].replace("print(", "import requests; print(requests, ")
-    demo = write(tmp_path / "demo", {**CMAKE, "CMakeLists.txt": lists, "scripts/hello.py": script})
+    manifest = CMAKE["package.xml"].replace("<exec_depend>rclpy</exec_depend>", "")
+    script = CMAKE["scripts/hello.py"].replace(
+        "print('hello')", "import rosgraph_msgs.msg\n        print(rosgraph_msgs)"
+    )
+    demo = write(tmp_path / "demo", {**CMAKE, "package.xml": manifest, "scripts/hello.py": script})
     assert add(demo, "publisher", "talker") == 0
-    assert "PX020 scripts/hello.py:" in capsys.readouterr().err
+    assert "PX080 scripts/hello.py:" in capsys.readouterr().err
     assert (demo / "scripts" / "talker.py").exists()
 
 
