@@ -209,6 +209,16 @@ def test_an_extra_makes_what_new_makes_with_it(
     assert "nothing was changed" in capsys.readouterr().out
 
 
+def test_an_extra_joins_one_that_an_answers_file_names_alone(tmp_path: Path) -> None:
+    answers = write(tmp_path, {"answers.yaml": "extras: gitignore\n"}) / "answers.yaml"
+    words = ["new", "demo", *PERSON, "--destination-directory", str(tmp_path)]
+    assert main([*words, "--answers", str(answers)]) == 0
+    assert add(tmp_path / "demo", "ci") == 0
+    record = json.loads((tmp_path / "demo" / NAME).read_text())
+    assert record["answers"]["extras"] == ["gitignore", "ci"]
+    assert main(["update", str(tmp_path / "demo")]) == 0
+
+
 @pytest.mark.parametrize("is_changed", [False, True])
 def test_a_team_adds_extras_of_its_own(tmp_path: Path, *, is_changed: bool) -> None:
     team = write(

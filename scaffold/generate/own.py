@@ -95,7 +95,8 @@ def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
 def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
     """Return the recorded answers and those for a piece, unless it is there already."""
     if piece.template.role is Role.EXTRA:
-        extras = old.answers.get(EXTRAS, [])
+        written = old.answers.get(EXTRAS, [])
+        extras = written if isinstance(written, list) else [written]
         if piece.template.name in extras:
             return dict(old.answers)
         asked = {one.name for one in piece.template.questions}
