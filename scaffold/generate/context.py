@@ -153,7 +153,7 @@ def _refuse_two_classes(part: Part) -> None:
     for name, value in part.answers.items():
         for line in getattr(value, "imports", ()):
             module, _, classes = line.removeprefix("from ").partition(" import ")
-            for one in classes.split(", "):
+            for one in filter(None, classes.split(", ")):  # none where a module is imported
                 first, other = origins.setdefault(one, (module, name))
                 if first != module:
                     raise InputError(
