@@ -340,6 +340,18 @@ def test_too_many_words(tmp_path: Path, place: str) -> None:
     assert told == ([f"{message}: it is not checked"] if message else [])
 
 
+@pytest.mark.parametrize("place", ["launch xml", "launch yaml"])
+def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
+    """They are decoded in their own way, and have the bound of all others."""
+    node = {"launch xml": b"<node pkg='a' exec='b'/>\n", "launch yaml": b"- node: {pkg: a}\n"}
+    head = {"launch xml": b"<launch>\n", "launch yaml": b"launch:\n"}
+    tail = {"launch xml": b"</launch>\n", "launch yaml": b""}
+    data = head[place] + node[place] * 60_000 + tail[place]
+    found = _check(_package(tmp_path, {PLACES[place]: data}))
+    said = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
+    assert said == {"SC004"}
+
+
 def test_too_many_words_for_the_style(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
     said = {one["code"] for one in found if one["path"].endswith("node.py")}

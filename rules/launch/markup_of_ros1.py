@@ -56,8 +56,8 @@ class MarkupOfRos1(Rule):
             if not path.endswith(".launch.xml") or {"test", "tests"} & set(path.split("/")):
                 continue
             try:
-                document = xml_tree.parse(xml_tree.decode(path, package.tree.read(path)))
-            except (ViewError, OSError):
+                document = xml_tree.parse(xml_tree.decode(path, package.data(path)))
+            except ViewError:
                 continue
             for element in document.root.descendants():
                 yield from self._check(element)

@@ -94,7 +94,7 @@ def _elements(package: Package, path: str) -> list[tuple[str, Location, dict[str
         root = _document(package, path).root
         return [(one.tag, one.name_location, one.attributes) for one in root.descendants()]
     found: list[tuple[str, Location, dict[str, Attribute]]] = []
-    roots = yaml_tree.parse(Source.decode(path, _bytes(package, path)))
+    roots = yaml_tree.parse(Source.decode(path, package.data(path)))
     pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
     for tag, node in pending:  # grows on the way
         if isinstance(node, Sequence):
@@ -112,15 +112,8 @@ def _scalars(node: Mapping) -> Iterator[tuple[str, Attribute]]:
             yield key.text, Attribute(key.text, value.text, value.location, key.location)
 
 
-def _bytes(package: Package, path: str) -> bytes:
-    try:
-        return package.tree.read(path)
-    except OSError as error:
-        raise ViewError(path) from error
-
-
 def _document(package: Package, path: str) -> Document:
-    return xml_tree.parse(xml_tree.decode(path, _bytes(package, path)))
+    return xml_tree.parse(xml_tree.decode(path, package.data(path)))
 
 
 def _paths(attribute: Attribute) -> Iterator[MarkupPath]:

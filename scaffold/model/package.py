@@ -137,6 +137,16 @@ class Package:
         """
         return self._view(("source", path), lambda: Source.decode(path, self._read(path)))
 
+    def data(self, path: str) -> bytes:
+        """Return the bytes of a file, for what decodes them in its own way.
+
+        Raises:
+            MissingFileError: there is no such file.
+            ParseError: it cannot be read.
+            TooLargeError: it is larger than people write.
+        """
+        return self._view(("data", path), lambda: self._read(path))
+
     def editable(self, path: str) -> Source:
         """Return the text that the offsets of edits count in, in the file's own encoding."""
         if path == MANIFEST:
