@@ -10,6 +10,8 @@ from scaffold.model.node_entities import RclpyCall
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
 
+_Shutdowns = dict[tuple[ast.AST, str], dict[int, RclpyCall]]
+_FAR = 200  # statements in between: what they do is not looked at
 _NODE = (
     "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
     "from rclpy.node import Node\n\n\n"
@@ -69,8 +71,9 @@ class SpunWrongly(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
+            shutdowns = _by_block(facts)
             for call in facts.spin_calls:
-                problem = _problem(facts, call)
+                problem = _problem(facts, call, shutdowns)
                 if problem:
                     yield self.report(call, problem)
             yield from self._check_executors(facts)
@@ -90,7 +93,7 @@ class SpunWrongly(Rule):
                 yield self.report(facts.module.location(call), message)
 
 
-def _problem(facts: NodeFacts, call: RclpyCall) -> str:
+def _problem(facts: NodeFacts, call: RclpyCall, shutdowns: _Shutdowns) -> str:
     """Return what is wrong about a call of a function of rclpy that spins."""
     if call.name.startswith("executor.") or not call.call.args:
         return ""
@@ -101,26 +104,38 @@ def _problem(facts: NodeFacts, call: RclpyCall) -> str:
         return f"this spins the class {class_.name}: make a node of it, {class_.name}()"
     if (class_of(facts, node) or "").endswith("Executor"):
         return "this spins an executor, not a node: call its own spin()"
-    for other in facts.shutdown_calls:
-        if _stands_before(facts, other.call, call.call):
-            return f"rclpy is shut down in line {other.location.line} already: nothing is spun"
+    other = _shutdown_before(facts, shutdowns, call.call)
+    if other is not None:
+        return f"rclpy is shut down in line {other.location.line} already: nothing is spun"
     return ""
 
 
-def _stands_before(facts: NodeFacts, first: ast.Call, second: ast.Call) -> bool:
-    """Tell whether a call is a statement of the block that another call stands in, before it."""
-    one, other = facts.module.parent(first), facts.module.parent(second)
-    if not isinstance(one, ast.Expr) or not isinstance(other, ast.Expr):
-        return False
-    block = facts.module.parent(one)
-    if block is not facts.module.parent(other) or first.lineno >= second.lineno:
-        return False
-    bodies = [getattr(block, name, ()) for name in ("body", "orelse", "finalbody")]
-    lists = [body for body in bodies if isinstance(body, list) and one in body and other in body]
-    between = [
-        statement for body in lists for statement in body[body.index(one) + 1 : body.index(other)]
-    ]
-    return bool(lists) and not any("init" in ast.unparse(statement) for statement in between)
+def _by_block(facts: NodeFacts) -> _Shutdowns:
+    """Return the calls that are statements, by what holds them, with their places there."""
+    found: _Shutdowns = {}
+    for call in facts.shutdown_calls:
+        statement = facts.module.parent(call.call)
+        holder = facts.module.parent(statement) if isinstance(statement, ast.Expr) else None
+        if statement is not None and holder is not None:
+            block, number = facts.module.index.place(statement)
+            found.setdefault((holder, block), {})[number] = call
+    return found
+
+
+def _shutdown_before(facts: NodeFacts, shutdowns: _Shutdowns, call: ast.Call) -> RclpyCall | None:
+    """Return the last one ahead of a statement in its block, unless rclpy may have begun anew."""
+    statement = facts.module.parent(call)
+    holder = facts.module.parent(statement) if isinstance(statement, ast.Expr) else None
+    if statement is None or holder is None:
+        return None
+    block, number = facts.module.index.place(statement)
+    there = shutdowns.get((holder, block), {})
+    for at in range(number - 1, max(number - _FAR, 0) - 1, -1) if there else ():
+        if at in there:
+            return there[at]
+        if "init" in ast.unparse(getattr(holder, block)[at]):
+            return None
+    return None
 
 
 def _used(facts: NodeFacts, call: ast.Call) -> dict[str, ast.AST] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
 from scaffold.style.finding import Finding
@@ -15,6 +15,9 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     """Yield what pyflakes would say, given what ruff says."""
     stricter = _Stricter(text, said)
     imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
+    codes = {one.code for one in said}
+    exports = _export_lines(text) if codes & {"F405", "F822"} else {}
+    handlers = _handler_lines(text) if "F841" in codes else {}
     has_star_use = any(one.code == "F405" for one in said)
     # A second import of the same names takes the place of the first.
     last_stars = {one.message: one.line for one in said if one.code == "F403"}
@@ -24,11 +27,11 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
             node = imports.get(finding.line)
             finding = finding if node is None else _moved(text, finding, node)
         elif one.code in ("F405", "F822"):
-            finding = _at_exports(text, finding)
+            finding = _at(text, finding, exports)
             if one.code == "F822" and text.name == "__init__.py":
                 continue
         elif one.code == "F841":
-            finding = _at_handler(text, finding)
+            finding = _at(text, finding, handlers)
         if one.code not in OWN and not stricter.is_alone(one):
             yield finding
         if one.code == "F403" and not has_star_use and last_stars[one.message] == one.line:
@@ -108,14 +111,22 @@ class _Stricter:
         return found
 
 
-def _at_handler(text: PythonText, finding: Finding) -> Finding:
-    """Move a finding about ``except ... as name`` to the start of the handler."""
+def _at(
+    text: PythonText, finding: Finding, nodes: Mapping[int, ast.stmt | ast.ExceptHandler]
+) -> Finding:
+    """Move a finding to the start of the node that its line belongs to, if there is one."""
+    node = nodes.get(finding.line)
+    return finding if node is None else _moved(text, finding, node)
+
+
+def _handler_lines(text: PythonText) -> dict[int, ast.ExceptHandler]:
+    """Return each ``except ... as name`` by the lines between its first and its body."""
+    found: dict[int, ast.ExceptHandler] = {}
     for node in text.nodes:
-        if not isinstance(node, ast.ExceptHandler) or not node.name:
-            continue
-        if node.lineno < finding.line < node.body[0].lineno:
-            return _moved(text, finding, node)
-    return finding
+        if isinstance(node, ast.ExceptHandler) and node.name:
+            for line in range(node.lineno + 1, node.body[0].lineno):
+                found.setdefault(line, node)
+    return found
 
 
 def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
@@ -128,12 +139,14 @@ def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
     return found
 
 
-def _at_exports(text: PythonText, finding: Finding) -> Finding:
-    """Move a finding within ``__all__`` to the last statement that sets it."""
+def _export_lines(text: PythonText) -> dict[int, ast.stmt]:
+    """Return the last statement that sets ``__all__``, by the lines of all that do."""
     exports = [node for node in (text.tree.body if text.tree else ()) if _sets_exports(node)]
-    if any(_covers(node, finding.line) for node in exports):
-        return _moved(text, finding, exports[-1])
-    return finding
+    return {
+        line: exports[-1]
+        for node in exports
+        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1)
+    }
 
 
 def _sets_exports(node: ast.stmt) -> bool:
@@ -144,10 +157,6 @@ def _sets_exports(node: ast.stmt) -> bool:
     else:
         return False
     return any(isinstance(one, ast.Name) and one.id == "__all__" for one in targets)
-
-
-def _covers(node: ast.stmt, line: int) -> bool:
-    return node.lineno <= line <= (node.end_lineno or node.lineno)
 
 
 def _moved(text: PythonText, finding: Finding, node: ast.stmt | ast.ExceptHandler) -> Finding:
