@@ -1,12 +1,16 @@
-"""What templates may do: nothing of Python's inside, nothing without end."""
+"""What templates may do: nothing of Python's inside, no file beside theirs, nothing without end."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
 from typing import Any
 
 from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from scaffold.errors import ContentError
 
 _MOST_ROUNDS = 1_000_000
 """Numbers that all calls of `range` in the files of a package may give together."""
@@ -50,3 +54,25 @@ class Sandbox(ImmutableSandboxedEnvironment):
 
 def _size(number: Any) -> int:  # noqa: ANN401  whatever a template computes with
     return number.bit_length() if isinstance(number, int) else 1
+
+
+def refuse_outside(path: str, places: Iterable[str]) -> None:
+    """Raise if a file is not in one of some directories, links followed.
+
+    Raises:
+        ContentError: it is elsewhere.
+    """
+    real = os.path.realpath(path)
+    if not any(real.startswith(os.path.realpath(place) + os.sep) for place in places):
+        raise ContentError(f"{path}: a link to {real}, which is not in the directory of templates")
+
+
+def refuse_leaving(path: str, where: str) -> None:
+    """Raise if the path of a rendered file leaves the package.
+
+    Raises:
+        ContentError: it does, or is none.
+    """
+    parts = path.split("/")
+    if "\0" in path or not all(parts) or {".", ".."} & set(parts):
+        raise ContentError(f"{where}: {path!r} is not a path in the package")
