@@ -9,6 +9,7 @@ import resource
 import socket
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,8 @@ from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.model.package import Package
+from scaffold.style import rules as style
+from scaffold.style.finding import FLAKE8
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">
@@ -440,6 +443,31 @@ def test_steps_grow_with_the_input(kind: str) -> None:
         return calls
 
     assert steps(1200) < 6 * steps(300)
+
+
+@pytest.mark.parametrize("line", ["x;", "[1 ,2 ],", "( x ),"])
+def test_steps_grow_with_a_line(line: str) -> None:
+    """A line four times as long takes four times the steps of the style rules, not sixteen."""
+
+    def steps(count: int) -> int:
+        data = (line * count + "\n").encode()
+        taken = 0
+
+        def note(*_: object) -> Callable[..., Any]:
+            nonlocal taken
+            taken += 1
+            return note
+
+        before = sys.gettrace()
+        sys.settrace(note)
+        try:
+            found = style.check("node.py", data, list, FLAKE8)
+        finally:
+            sys.settrace(before)
+        assert {one.line for one in found} == {1}
+        return taken
+
+    assert steps(800) < 6 * steps(200)
 
 
 def test_files_that_vanish(tmp_path: Path) -> None:

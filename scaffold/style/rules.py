@@ -28,7 +28,7 @@ from scaffold.style import (
 from scaffold.style.codes import CODES
 from scaffold.style.finding import FLAKE8, PEP257, Finding, Replacement
 from scaffold.style.logical import LogicalLine
-from scaffold.style.ruff import Said
+from scaffold.style.ruff import MOST_OF_A_LINE, Said
 from scaffold.style.text import PythonText, decode
 
 MOST_EDITS = 200
@@ -85,8 +85,13 @@ def check(
 
 def _own(text: PythonText) -> Iterator[Finding]:
     # Without a tree a newer Python may still parse the file: ruff speaks for the other rules.
+    counts: dict[tuple[str, int], int] = {}
     for module in _OWN if text.tree is not None else (physical,):
-        yield from module.check(text)
+        for finding in module.check(text):
+            key = finding.code, finding.line
+            counts[key] = count = counts.get(key, 0) + 1
+            if count <= MOST_OF_A_LINE:
+                yield finding
 
 
 def _broken(text: PythonText, said: Sequence[Said], *, is_clean: bool) -> Finding | None:

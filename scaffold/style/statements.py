@@ -6,12 +6,12 @@ A search over the raw text chooses the lines worth a look, so that a clean file 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from scaffold.style.finding import Finding, Replacement
 from scaffold.style.logical import LogicalLine
 from scaffold.style.text import PythonText
-from scaffold.style.tokens import COMMENT, FSTRING_END, FSTRING_START, OP, Position
+from scaffold.style.tokens import COMMENT, FSTRING_END, FSTRING_START, OP, Position, Token
 
 _BLOCK_WORDS = "def async for if elif else try except finally with class while"
 _BLOCK_KEYWORDS = frozenset(_BLOCK_WORDS.split())
@@ -41,14 +41,10 @@ def check(text: PythonText) -> Iterator[Finding]:
         (r"^[ \t]*except\b[^\n]*:", bare_except),
     ):
         for logical in _candidates(text, pattern):
-            for offset, code, message in judge(logical.text):
-                row, column = logical.position(offset)
-                yield _with_fix(logical, Finding(code, row, column + 1, message))
+            yield from _placed(logical, judge(logical.text))
     for logical in text.logical_lines:
         if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
-            for offset, code, message in compounds(logical.text):
-                row, column = logical.position(offset)
-                yield _with_fix(logical, Finding(code, row, column + 1, message))
+            yield from _placed(logical, compounds(logical.text))
     for logical in _candidates(text, r"\\\n"):
         yield from needless_backslashes(logical)
     for logical in _candidates(text, r"\b[lOI]\b"):
@@ -70,9 +66,18 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
                 yield logical
 
 
-def _with_fix(logical: LogicalLine, finding: Finding) -> Finding:
+def _placed(logical: LogicalLine, said: Said) -> Iterator[Finding]:
+    """Yield what is said of a logical line where it stands in the file, with the fixes."""
+    brackets = _Brackets(logical)
+    for offset, code, message in said:
+        row, column = logical.position(offset)
+        yield _with_fix(logical, brackets, Finding(code, row, column + 1, message))
+
+
+def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Finding:
     if finding.code in ("E201", "E202", "E203"):
-        fix = _without_blanks(logical, finding.line, finding.column - 1)
+        place = finding.line, finding.column - 1
+        fix = _without_blanks(logical, place, brackets.around(place))
         return finding._replace(fix=fix, fix_title="remove the whitespace")
     if finding.code in ("E701", "E702"):
         fix = _on_new_line(logical, finding)
@@ -97,9 +102,11 @@ def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, .
     return ((row, start, row, end + 1, f"\n{indent}{deeper}"),)
 
 
-def _without_blanks(logical: LogicalLine, row: int, column: int) -> tuple[Replacement, ...]:
+def _without_blanks(
+    logical: LogicalLine, place: Position, around: Sequence[str]
+) -> tuple[Replacement, ...]:
     """Return what takes the blanks at a place out; those around the colon of a slice as well."""
-    around = _brackets(logical, (row, column))
+    row, column = place
     line = logical.lines[row - 1].rstrip("\n")
     found = re.compile(r"[ \t]+").match(line, column)
     if found is None or not line[:column].strip() or "f" in around:
@@ -115,21 +122,30 @@ def _without_blanks(logical: LogicalLine, row: int, column: int) -> tuple[Replac
     return (blanks,)
 
 
-def _brackets(logical: LogicalLine, place: Position) -> list[str]:
-    """Return what is open at a place: brackets, and ``f`` for an f-string."""
-    found: list[str] = []
-    for token in logical.tokens:
-        if token.start >= place:
-            break
+class _Brackets:
+    """Knows what is open in a logical line; asked in the order of the text, it reads it once."""
+
+    def __init__(self, logical: LogicalLine) -> None:
+        self._tokens = logical.tokens
+        self._at = 0
+        self._open: list[str] = []
+
+    def around(self, place: Position) -> Sequence[str]:
+        """Return what is open at a place: brackets, and ``f`` for an f-string."""
+        while self._at < len(self._tokens) and self._tokens[self._at].start < place:
+            self._read(self._tokens[self._at])
+            self._at += 1
+        return self._open
+
+    def _read(self, token: Token) -> None:
         if token.type == FSTRING_START:
-            found.append("f")
+            self._open.append("f")
         elif token.type == OP and token.string in ("(", "[", "{"):
-            found.append(token.string)
-        elif found and (
+            self._open.append(token.string)
+        elif self._open and (
             token.type == FSTRING_END or (token.type == OP and token.string in (")", "]", "}"))
         ):
-            found.pop()
-    return found
+            self._open.pop()
 
 
 def spaces(line: str) -> Said:
