@@ -14,8 +14,11 @@ import pytest
 from scaffold import content
 from scaffold.cli.main import main
 from scaffold.generate import parts, template
+from scaffold.generate.edit.addition import Addition
+from scaffold.generate.edit.edit import Edited, edit
 from scaffold.generate.provenance import NAME
 from scaffold.generate.template import Role
+from scaffold.model.package import Package
 from scaffold.smoke import environment
 from tests import oracles
 from tests.test_generated import Workspace, counts, needs_ros
@@ -472,6 +475,48 @@ def test_what_is_found_in_other_files_is_said_and_does_not_matter(
     assert add(demo, "publisher", "talker") == 0
     assert "PX080 scripts/hello.py:" in capsys.readouterr().err
     assert (demo / "scripts" / "talker.py").exists()
+
+
+def test_what_is_found_of_an_old_line_is_said_and_does_not_matter(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = "('share/demo', ['package.xml']),"
+    setup = PYTHON["setup.py"].replace(
+        line, f"{line}\n                ('share/demo', glob('launch/*_launch.py')),"
+    )
+    setup = f"        from glob import glob\n{setup}"
+    demo = write(tmp_path / "demo", {**PYTHON, "setup.py": setup})
+    assert add(demo, "publisher", "talker") == 0
+    capsys.readouterr()
+    assert add(demo, "launch") == 0
+    assert "SP011 the pattern launch/*_launch.py matches no file; " in capsys.readouterr().err
+    assert (demo / "launch" / "demo.launch.py").exists()
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [("<name>demo<", "<name>other<"), ("'package.xml'", "'package.xm'")]
+)
+def test_an_edit_that_makes_another_line_wrong_is_refused(
+    before: str,
+    after: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def spoilt(package: Package, addition: Addition) -> Edited:
+        edited = edit(package, addition)
+        changed = {
+            path: data.replace(before.encode(), after.encode())
+            for path, data in edited.files.items()
+        }
+        return edited._replace(files=changed)
+
+    demo = write(tmp_path / "demo", PYTHON)
+    there = read(demo)
+    monkeypatch.setattr("scaffold.generate.add.edit", spoilt)
+    assert add(demo, "publisher", "talker") == 3
+    assert "defect: what was to be added has faults" in capsys.readouterr().err
+    assert read(demo) == there
 
 
 def test_what_was_found_before_may_name_what_is_new(

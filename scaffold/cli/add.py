@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
     added = add.add(target, wanted)
     plan = _plan(target.package, added, is_named=wanted.name is not None, force=options.force)
     said = _said(session, before, added)
-    if _is_defect(said, added):
+    if _is_defect(session, said, added):
         _report(target.package, said)
         return DEFECT
     if not (options.diff or options.dry_run):
@@ -198,22 +198,25 @@ def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> Wri
     return plan
 
 
-def _is_defect(said: list[Diagnostic], added: Added) -> bool:
+def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
     """Tell whether an edit or a template made something that the checker calls an error.
 
     What it says of other files is not: they may be looked at only now that there is a program.
+    Nor is what it would say of the package's own lines without any edit.
     """
     from scaffold.check.diagnostic import Severity
 
     if any(one.is_needed for one in added.by_hand):
         return False
     others = [path for path in added.package.files if path not in added.files]
-    return any(
-        one.severity is Severity.ERROR
+    errors = [
+        one
+        for one in said
+        if one.severity is Severity.ERROR
         and one.location.path not in others
         and not any(path in one.message for path in others)
-        for one in said
-    )
+    ]
+    return bool(errors and added.without_own(errors, session.check(added.unedited)))
 
 
 def _report(package: Package, said: list[Diagnostic]) -> None:

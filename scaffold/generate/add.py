@@ -43,6 +43,8 @@ class Added(NamedTuple):
     """The command that starts what is new."""
     package: Package
     """The package as it will be."""
+    unedited: Package
+    """The package with the new files alone: what is found there, no edit has brought about."""
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
     has_header: bool
@@ -54,6 +56,30 @@ class Added(NamedTuple):
             return True
         in_part = diagnostic.location.path in self.new
         return in_part and not self.has_header and diagnostic.name in HEADER_RULES
+
+    def without_own(
+        self, said: Sequence[Diagnostic], unedited: Sequence[Diagnostic]
+    ) -> list[Diagnostic]:
+        """Return what is said because of the edits or of the new files.
+
+        The rest is said of lines that were there, and without any edit as well: some files are
+        looked at only when there is a program or a launch directory. A message that is about a
+        new file shows an edit that does not do enough; behind a semicolon it only advises.
+
+        Args:
+            said: Of the package as it will be.
+            unedited: What is said of `unedited`.
+        """
+        known = Counter(map(_said, unedited))
+        found: list[Diagnostic] = []
+        for one in said:
+            about = one.message.partition("; ")[0]
+            is_ours = one.location.path in self.new or any(path in about for path in self.new)
+            if not is_ours and known[_said(one)]:
+                known[_said(one)] -= 1
+            else:
+                found.append(one)
+        return found
 
 
 def add(target: Target, wanted: Wanted) -> Added:
@@ -77,10 +103,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         others, by_hand = _others(target, old, wanted, made)
     # The files of the part have the date of today, those of the package keep theirs.
     files = {**others, **new}
-    overlay = Overlay(package.tree)
-    overlay.changed.update(files)
-    overlay.executable.update(made.rendered.executable)
-    after = Package(overlay, directory=package.directory, workspace=package.known_workspace)
+    after = _with(package, files, made.rendered.executable)
     return Added(
         files,
         tuple(new),
@@ -89,9 +112,18 @@ def add(target: Target, wanted: Wanted) -> Added:
         by_hand,
         _start(package, made),
         after,
+        _with(package, new, made.rendered.executable),
         tuple(_remarks(after, made)),
         has_header=bool(made.composed.context["header"]),
     )
+
+
+def _with(package: Package, files: Mapping[str, bytes], executable: frozenset[str]) -> Package:
+    """Return the package with some files new or changed, in memory."""
+    overlay = Overlay(package.tree)
+    overlay.changed.update(files)
+    overlay.executable.update(executable)
+    return Package(overlay, directory=package.directory, workspace=package.known_workspace)
 
 
 @contextmanager
