@@ -560,16 +560,17 @@ def test_nodes_that_do_not_connect_are_named(
     capsys.readouterr()
     words = ["--topic", "/chatter", "--message-type", "std_msgs/msg/Int32"]
     assert add(demo, "subscriber", "listener", *words) == 0
+    text = (demo / "scripts" / "listener.py").read_text()
+    own = text.partition("self.create_subscription")[0].count("\n") + 1
     assert capsys.readouterr().err == (
-        "note: the topic /chatter is std_msgs/msg/Int32 in listener, but std_msgs/msg/String in "
-        f"other, scripts/other.py:{line}: they do not connect; give both the same type, or "
-        "another name to one\n"
+        f"note: the topic /chatter is std_msgs/msg/Int32 in listener, scripts/listener.py:{own}, "
+        f"but std_msgs/msg/String in other, scripts/other.py:{line}: they do not connect; give "
+        "both the same type, or another name to one\n"
     )
     words = ["--action", "count", "--action-type", "tf2_msgs/action/LookupTransform"]
     assert add(demo, "action_client", "asker", *words) == 0
-    assert "the action /count is tf2_msgs/action/LookupTransform in asker, but " in (
-        capsys.readouterr().err
-    )
+    said = capsys.readouterr().err
+    assert "the action /count is tf2_msgs/action/LookupTransform in asker, scripts/" in said
 
 
 def test_a_package_of_ours_refuses_services_of_two_types(

@@ -3,59 +3,80 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from scaffold.generate.template import Question, Template
 from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.source import Location
 
 _TYPED = {"service_name": "service", "action_name": "action", "topic": "message"}
 """The types of questions for names, and of those for what goes by such a name."""
 
 
+class Use(NamedTuple):
+    """A node that uses a topic, a service or an action."""
+
+    kind: str
+    """``topic``, ``service`` or ``action``."""
+    name: str
+    """In full."""
+    type: str
+    node: str
+    location: Location | None = None
+    """Where it is in code."""
+    is_fixed: bool = False
+    """No parameter changes the name."""
+
+    def __str__(self) -> str:
+        at = f", {self.location.path}:{self.location.line}" if self.location else ""
+        return f"{self.type} in {self.node}{at}"
+
+
 class Clash(NamedTuple):
     """A name that two nodes use with different types: they would not connect."""
 
-    asked: str
-    """The type of the question for the name."""
-    name: str
-    types: tuple[str, str]
-    nodes: tuple[str, str]
+    first: Use
+    other: Use
 
     def __str__(self) -> str:
-        what = self.asked.partition("_")[0]
-        (one, other), (node, neighbour) = self.types, self.nodes
         return (
-            f"the {what} {self.name} is {one} in {node}, but {other} in {neighbour}: "
+            f"the {self.first.kind} {self.first.name} is {self.first}, but {self.other}: "
             "they do not connect; give both the same type, or another name to one"
         )
 
 
-def clashes(
-    nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]
-) -> Iterator[Clash]:
-    """Yield the names in the nodes of a package that stand for two types."""
-    seen: dict[tuple[str, str], tuple[str, str]] = {}
+def clashes(used: Iterable[Use]) -> Iterator[Clash]:
+    """Yield the uses of a name with another type than the first use of it has."""
+    seen: dict[tuple[str, str], Use] = {}
+    for use in used:
+        first = seen.setdefault((use.kind, use.name), use)
+        if first.type != use.type:
+            yield Clash(first, use)
+
+
+def uses(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) -> Iterator[Use]:
+    """Yield what nodes use according to the answers they are made with."""
     for node in nodes:
         for question, typed in pairs(templates[node["kind"]].questions):
-            name, type_ = node[f"{question.name}_name"], node[typed.name].type
-            first, neighbour = seen.setdefault((question.type, name), (type_, node["name"]))
-            if first != type_:
-                yield Clash(question.type, name, (first, type_), (neighbour, node["name"]))
+            kind, name = question.type.partition("_")[0], node[f"{question.name}_name"]
+            yield Use(kind, name, node[typed.name].type, node["name"])
 
 
-def pairs(asked: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
+def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
     """Yield the questions for names, each with the one for the type that goes by the name."""
-    asked = list(asked)
-    for question in asked:
-        typed = _type_question(question, asked)
+    questions = list(questions)
+    for question in questions:
+        typed = _type_question(question, questions)
         if typed is not None:
             yield question, typed
 
 
-def _type_question(question: Question, asked: Iterable[Question]) -> Question | None:
+def _type_question(question: Question, others: Iterable[Question]) -> Question | None:
     """Return what asks for the type that belongs to a name: ``input_type`` to ``input_topic``."""
     wanted = _TYPED.get(question.type)
-    found = [one for one in asked if wanted is not None and one.type == wanted]
+    found = [one for one in others if wanted is not None and one.type == wanted]
     if len(found) > 1:
         stem = question.name.removesuffix("topic")
         found = [one for one in found if one.name in {f"{stem}type", f"{stem}message_type"}]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import parts, questions
-from scaffold.generate.connections import clashes
+from scaffold.generate.connections import clashes, uses
 from scaffold.generate.context import package_context, part_scopes, today
 from scaffold.generate.defaults import User
 from scaffold.generate.parts import Part, Request
@@ -83,7 +83,7 @@ def draft(
         rendered=renderer.package(part_scopes(composed.layers, context)),
         remarks=(
             *_remarks(renderer, context, user),
-            *(str(clash) for clash in clashes(context["nodes"], templates)),
+            *(str(clash) for clash in clashes(uses(context["nodes"], templates))),
         ),
         answers=composed.answers,
         day=date.fromisoformat(context["date"]),
@@ -144,8 +144,8 @@ def compose(
     made, written = _parts(order.requests, given, values, renderer, user.directory)
     parts.refuse_impossible(made, values["package"], values["build_type"], messages)
     context = package_context(values, order.layers, made, renderer, day or today())
-    for clash in clashes(context["nodes"], templates):
-        if clash.asked != "topic":  # a topic has its name from a parameter
+    for clash in clashes(uses(context["nodes"], templates)):
+        if clash.first.kind != "topic":  # a topic has its name from a parameter
             raise InputError(str(clash))
     return Composed(
         order.layers,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.generate.connections import Clash, Use, clashes
 from scaffold.generate.names import resolve
 from scaffold.model.node_entities import (
     ActionClient,
@@ -15,27 +16,12 @@ from scaffold.model.node_entities import (
     Subscription,
 )
 from scaffold.model.package import Package
-from scaffold.record import NamedTuple
 
 _KINDS = (
     ("topic", (Publisher, Subscription)),
     ("service", (Service, Client)),
     ("action", (ActionServer, ActionClient)),
 )
-
-
-class _Use(NamedTuple):
-    """A node that uses a topic, a service or an action."""
-
-    kind: str
-    name: str
-    """In full."""
-    type: str
-    node: str
-    path: str
-    line: int
-    is_fixed: bool
-    """No parameter changes the name."""
 
 
 def remarks(package: Package, path: str) -> Iterator[str]:
@@ -63,28 +49,27 @@ def _namesakes(package: Package, path: str) -> Iterator[str]:
 
 
 def _misconnected(package: Package, path: str) -> Iterator[str]:
-    uses = list(_uses(package))
-    said: set[tuple[str, str]] = set()
-    for own in uses:
-        if own.path != path:
-            continue
-        for other in uses:
-            same = other[:2] == own[:2] and other.path != path and other[:2] not in said
-            if same and other.type != own.type and not _is_plain(own, other):
-                said.add(other[:2])
-                yield (
-                    f"the {own.kind} {own.name} is {own.type} in {own.node}, but {other.type} in "
-                    f"{other.node}, {other.path}:{other.line}: they do not connect; give both the "
-                    "same type, or another name to one"
-                )
+    uses = sorted(_uses(package), key=lambda use: _path(use) != path)  # the new node comes first
+    told: set[tuple[str, str]] = set()
+    for clash in clashes(uses):
+        name = clash.first.kind, clash.first.name
+        is_new = _path(clash.first) == path != _path(clash.other)
+        if is_new and name not in told and not _has_rule(clash):
+            told.add(name)
+            yield str(clash)
 
 
-def _is_plain(own: _Use, other: _Use) -> bool:
+def _path(use: Use) -> str | None:
+    return use.location and use.location.path
+
+
+def _has_rule(clash: Clash) -> bool:
     """Tell whether the rule topic-type-differs says it."""
-    return own.is_fixed and other.is_fixed and own.kind in {"topic", "service"}
+    is_fixed = clash.first.is_fixed and clash.other.is_fixed
+    return is_fixed and clash.first.kind in {"topic", "service"}
 
 
-def _uses(package: Package) -> Iterator[_Use]:
+def _uses(package: Package) -> Iterator[Use]:
     """Yield what the nodes of a package use, as far as names and types are known."""
     for facts in package.rclpy_files():
         for endpoint in facts.endpoints:
@@ -93,7 +78,7 @@ def _uses(package: Package) -> Iterator[_Use]:
                 yield use
 
 
-def _use(endpoint: Endpoint) -> _Use | None:
+def _use(endpoint: Endpoint) -> Use | None:
     kind = next((kind for kind, classes in _KINDS if isinstance(endpoint, classes)), None)
     owner = endpoint.owner
     node = owner.node_name if owner is not None and owner.namespace is None else None
@@ -101,6 +86,5 @@ def _use(endpoint: Endpoint) -> _Use | None:
         return None
     if endpoint.interface is None:
         return None
-    at, name = endpoint.location, resolve(endpoint.name, node)
-    is_fixed = endpoint.from_parameter is None
-    return _Use(kind, name, endpoint.interface, node, at.path, at.line, is_fixed)
+    name, is_fixed = resolve(endpoint.name, node), endpoint.from_parameter is None
+    return Use(kind, name, endpoint.interface, node, endpoint.location, is_fixed)
