@@ -55,6 +55,11 @@ class PublishedTypeDiffers(Rule):
             {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
             at=("talker.py:13", "talker.py:14"),
         ),
+        Example(
+            "the class of the service",
+            {"talker.py": _NODE.format("String()", "Trigger")},
+            at=("talker.py:14",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -103,5 +108,6 @@ def _given(types: MessageTypes, node: ast.expr) -> str | None:
         return f"a field, {node.attr}," if field and field.type.is_primitive else None
     if isinstance(node, ast.Name | ast.Attribute):
         class_ = types.class_of(node)
-        return f"the class {class_.name}" if class_ else None
+        name = class_.name if class_ else types.facts.interface(node)
+        return f"the class {name}" if name else None
     return None

@@ -29,11 +29,14 @@ _ELSEWHERE = {
     "unregister": "destroy",
     "add_callback": "add_done_callback",
 }
+_VALUES = frozenset(
+    {"accepted", "goal_id", "is_active", "is_cancel_requested", "nanoseconds", "request", "status"}
+)
 _FUNCTION_HAS = ("func", "self")
 
 
 class AttributeOfObjectUnknown(Rule):
-    """A publisher, timer, client, future, clock, logger or time is used in a way it has not.
+    """A publisher, client, goal handle, future, clock or time is used in a way it has not.
 
     **Why.** ``AttributeError: 'Publisher' object has no attribute 'send'``; a method that is not
     called is no object: ``'function' object has no attribute 'now'``, and as a condition it is
@@ -61,6 +64,11 @@ class AttributeOfObjectUnknown(Rule):
             },
             at=("talker.py:13", "talker.py:14"),
         ),
+        Example(
+            "a value called",
+            {"talker.py": _NODE.format("pub", "publish", "").replace("w()", "w().nanoseconds()")},
+            at=("talker.py:13",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -76,6 +84,11 @@ class AttributeOfObjectUnknown(Rule):
             yield self.report(facts.module.location(node), message)
             return
         owner = class_of(facts, node.value)
+        if owner is not None and node.attr in _VALUES and _is_called(facts, node):
+            if has(owner, node.attr) and not is_method(owner, node.attr):
+                message = f"{node.attr} is a value, no method: TypeError; leave () out"
+                yield self.report(facts.module.location(node), message)
+            return
         if owner is None or has(owner, node.attr) or facts.evaluator.stores(node.attr):
             return
         if is_harmless(facts.module, node, "AttributeError"):
@@ -84,8 +97,14 @@ class AttributeOfObjectUnknown(Rule):
         near = _ELSEWHERE.get(node.attr) or next(iter(get_close_matches(node.attr, known, 1)), "")
         hint = f"; {near!r} is meant" if near else ""
         kind = owner.rpartition(".")[2]
-        message = f"a {kind} of rclpy has no {node.attr!r}{hint}: AttributeError"
+        article = "an" if kind[0] in "AEIOU" else "a"
+        message = f"{article} {kind} of rclpy has no {node.attr!r}{hint}: AttributeError"
         yield self.report(facts.module.location(node), message)
+
+
+def _is_called(facts: NodeFacts, node: ast.Attribute) -> bool:
+    parent = facts.module.parent(node)
+    return isinstance(parent, ast.Call) and parent.func is node
 
 
 def _uncalled(facts: NodeFacts, node: ast.Attribute) -> str:

@@ -12,6 +12,7 @@ from scaffold.model.rclpy_names import class_of
 
 _WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
 _PRESETS = "rclpy.qos.qos_profile_"
+_SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NOT_CALLED = frozenset(
     {"rclpy.client.Client", "rclpy.clock.Clock", "rclpy.publisher.Publisher"}
     | {"rclpy.subscription.Subscription", "rclpy.task.Future", "rclpy.timer.Timer"}
@@ -63,6 +64,15 @@ class ObjectCalledWrongly(Rule):
             },
         ),
         Example(
+            "compared with a number",
+            {
+                "talker.py": _NODE.format(*_RIGHT)
+                + "        if self.get_clock().now() - self.get_clock().now() > 5.0:\n"
+                "            return\n"
+            },
+            at=("talker.py:18",),
+        ),
+        Example(
             "a duration by position",
             {
                 "talker.py": _NODE.format(*_RIGHT).replace("seconds=", ""),
@@ -77,6 +87,13 @@ class ObjectCalledWrongly(Rule):
                 problem = _problem(facts, call)
                 if problem:
                     yield self.report(facts.module.location(call), problem)
+            for comparison in facts.module.walk(ast.Compare):
+                kind = _compared_with_number(facts, comparison)
+                if kind:
+                    message = (
+                        f"a {kind} and a number cannot be compared: write Duration(seconds=...)"
+                    )
+                    yield self.report(facts.module.location(comparison), message)
             for sum_ in facts.module.walk(ast.BinOp):
                 if _adds_number_to_time(facts, sum_):
                     message = "a Time and a number: TypeError; use Duration(seconds=...)"
@@ -111,3 +128,17 @@ def _adds_number_to_time(facts: NodeFacts, sum_: ast.BinOp) -> bool:
     if not is_number or not isinstance(sum_.op, ast.Add | ast.Sub):
         return False
     return class_of(facts, sum_.left) == "rclpy.time.Time"
+
+
+def _compared_with_number(facts: NodeFacts, comparison: ast.Compare) -> str:
+    """Return what is compared with a number, if it is a time or a duration."""
+    left, others = comparison.left, comparison.comparators
+    is_number = type(facts.evaluator.evaluate(others[0])) in {int, float}
+    if not is_number or not isinstance(comparison.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE):
+        return ""
+    value = facts.evaluator.single_value(left)
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub):
+        both = {class_of(facts, value.left), class_of(facts, value.right)}
+        return "Duration" if both == {"rclpy.time.Time"} else ""
+    name = class_of(facts, value) or ""
+    return name.rpartition(".")[2] if name in _SPANS else ""

@@ -51,8 +51,16 @@ _GIVEN: Mapping[str, str] = {
     "rclpy.clock.Clock.now": "rclpy.time.Time",
     "rclpy.client.Client.call_async": "rclpy.task.Future",
     "rclpy.action.client.ActionClient.send_goal_async": "rclpy.task.Future",
+    "rclpy.action.client.ClientGoalHandle.get_result_async": "rclpy.task.Future",
+    "rclpy.action.client.ClientGoalHandle.cancel_goal_async": "rclpy.task.Future",
     "rclpy.logging.get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
 }
+_RESULTS: Mapping[str, str] = {
+    "rclpy.action.client.ActionClient.send_goal_async": "rclpy.action.client.ClientGoalHandle",
+}
+"""What the future that a method gives holds in the end."""
+GOAL_HANDLE = "rclpy.action.server.ServerGoalHandle"
+_GOAL_CALLBACKS = ("execute_callback", "handle_accepted_callback", "cancel_callback")
 _DEEPEST = 20
 
 
@@ -75,10 +83,23 @@ def is_method(owner: str, name: str) -> bool:
     return f"{name}()" in known_names().get(owner, ())
 
 
+@cache
+def _places() -> Mapping[str, str]:
+    """Return where classes stand that a package takes from its modules, by the shorter name."""
+    found: dict[str, str] = {}
+    for place in known_names():
+        module, _, name = place.rpartition(".")
+        package = module.rpartition(".")[0]
+        if name[:1].isupper() and name in known_names().get(package, ()):
+            found[f"{package}.{name}"] = place
+    return found
+
+
 def first_unknown(dotted: str) -> tuple[str, str] | None:
     """Return the module or class of the table that lacks the next part of a dotted name."""
     owner, *parts = dotted.split(".")
     for part in parts:
+        owner = _places().get(owner, owner)
         if owner not in known_names():
             return None
         if not has(owner, part):
@@ -93,24 +114,58 @@ def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
     if not isinstance(value, ast.Call) or depth > _DEEPEST:
         return _class_of_argument(facts, value)
     name = facts.module.qualified_name(value.func) or ""
+    name = _places().get(name, name)
     if name in _GIVEN:
         return _GIVEN[name]
     if name in known_names() and name.rpartition(".")[2][:1].isupper():
         return name
     if not isinstance(value.func, ast.Attribute):
         return None
-    owner = facts.owner_of(value.func.value)
+    return _class_made(facts, value, value.func, depth)
+
+
+def _class_made(facts: NodeFacts, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
+    """Return the class of what a method gives."""
+    owner = facts.owner_of(func.value)
     if owner is not None:
-        is_own = hasattr(owner, "method") and owner.method(value.func.attr) is not None
-        return None if is_own or owner.is_lifecycle else _MADE.get(value.func.attr)
-    inner = class_of(facts, value.func.value, depth + 1)
-    return _GIVEN.get(f"{inner}.{value.func.attr}")
+        is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
+        return None if is_own or owner.is_lifecycle else _MADE.get(func.attr)
+    if func.attr == "result" and not call.args:
+        return _class_of_result(facts, func.value, depth)
+    inner = class_of(facts, func.value, depth + 1)
+    return _GIVEN.get(f"{inner}.{func.attr}")
+
+
+def _class_of_result(facts: NodeFacts, node: ast.expr, depth: int) -> str | None:
+    """Return the class of what a future holds: the handle of a goal that was sent."""
+    future = future_given(facts, node)
+    made = facts.evaluator.single_value(node if future is None else future)
+    if isinstance(made, ast.Call) and isinstance(made.func, ast.Attribute):
+        inner = class_of(facts, made.func.value, depth + 1)
+        return _RESULTS.get(f"{inner}.{made.func.attr}")
+    return None
 
 
 def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
-    """Return the class of what a callback is given: the future that is done."""
+    """Return the class of what a callback is given: a future that is done, a goal handle."""
+    argument = facts.parameter_of(node)
+    if argument is not None and _is_goal_handle(facts, argument):
+        return GOAL_HANDLE
     future = future_given(facts, node)
     return class_of(facts, future) if future is not None else None
+
+
+def _is_goal_handle(facts: NodeFacts, argument: ast.arg) -> bool:
+    """Tell whether an action server calls a function with the handle of a goal for this."""
+    for server in facts.action_servers:
+        for name in _GOAL_CALLBACKS:
+            given = server.argument(name)
+            callback = facts.callback(given.node) if given else None
+            if callback is None or callback.is_partial or callback.is_called:
+                continue
+            if _first_argument(callback.function, is_bound=callback.is_bound) is argument:
+                return True
+    return False
 
 
 def future_given(facts: NodeFacts, node: ast.expr) -> ast.expr | None:

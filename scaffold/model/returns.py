@@ -53,7 +53,8 @@ def _passes_one(statement: ast.stmt) -> bool:
         case ast.While(test=ast.Constant(value=value)) if value:
             passes = any(isinstance(node, ast.Break) for node in ast.walk(statement))
         case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=final):
-            runs = _passes([*body, *orelse]) or any(_passes(one.body) for one in handlers)
+            caught = () if _is_safe(body[0]) else handlers
+            runs = _passes([*body, *orelse]) or any(_passes(one.body) for one in caught)
             passes = runs and _passes(final)
         case ast.Match(cases=cases):
             is_total = any(isinstance(one.pattern, ast.MatchAs) and not one.guard for one in cases)
@@ -61,3 +62,13 @@ def _passes_one(statement: ast.stmt) -> bool:
         case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
             passes = False
     return passes
+
+
+def _is_safe(statement: ast.stmt) -> bool:
+    """Tell whether a statement returns what cannot fail: ``return CancelResponse.ACCEPT``."""
+    match statement:
+        case ast.Return(value=None | ast.Constant() | ast.Name()):
+            return True
+        case ast.Return(value=ast.Attribute(value=ast.Name())):
+            return True
+    return False

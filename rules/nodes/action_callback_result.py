@@ -1,0 +1,117 @@
+"""ND065: callbacks of an action server return what the server needs."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.node_entities import ActionServer
+from scaffold.model.returns import is_generator, may_end, returned
+from scaffold.model.scopes import FunctionNode
+
+_ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
+_NODE = (
+    "from example_interfaces.action import Fibonacci\n"
+    "from rclpy.action import ActionServer, CancelResponse, GoalResponse\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(\n"
+    "            self, Fibonacci, 'count', self.work, goal_callback=self.judge)\n\n"
+    "    def judge(self, goal):\n"
+    "        {}\n\n"
+    "    def work(self, goal_handle):\n"
+    "        goal_handle.succeed()\n"
+    "        {}\n"
+)
+_JUDGED = "return GoalResponse.ACCEPT"
+
+
+class ActionCallbackResult(Rule):
+    """A callback of an action server returns something else than the server needs, or nothing.
+
+    **Why.** A goal callback that does not return a ``GoalResponse`` rejects every goal, a cancel
+    callback without ``CancelResponse`` every request; work that does not return the result ends
+    the node with ``AssertionError`` or ``AttributeError``, and the client waits for ever.
+
+    **Fix.** ``return GoalResponse.ACCEPT``, ``return CancelResponse.ACCEPT``, and the result of
+    the action on every path of the work.
+
+    **Source.** ``rclpy/action/server.py``, ``_execute_goal_request``, ``_execute_goal``.
+    """
+
+    code = "ND065"
+    name = "action-callback-result"
+    examples = (
+        Example("returned", {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result()")}),
+        Example(
+            "a bool, nothing",
+            {"server.py": _NODE.format("return True", "")},
+            at=("server.py:13", "server.py:15"),
+        ),
+        Example(
+            "the answer to another question, the feedback",
+            {
+                "server.py": _NODE.format(
+                    "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
+                )
+            },
+            at=("server.py:13", "server.py:17"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package) if package.name != "rclpy" else ():
+            seen: set[tuple[str, FunctionNode]] = set()
+            for server in types.facts.action_servers:
+                for name in ("execute_callback", *_ANSWERS):
+                    function = _function(types, server, name)
+                    if function is not None and (name, function) not in seen:
+                        seen.add((name, function))
+                        yield from self._check(types, server, function, _ANSWERS.get(name, ""))
+
+    def _check(
+        self, types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str
+    ) -> Iterator[Diagnostic]:
+        wanted = f"a {answer}" if answer else "the result"
+        happens = "it counts as a refusal" if answer else "AssertionError"
+        made = f"for the action server made in line {server.location.line}"
+        if may_end(function):
+            never = " on every path" if returned(function) else ""
+            message = f"{function.name} does not return {wanted}{never} {made}: {happens}"
+            yield self.report(types.module.name_location(function), message)
+        for statement in returned(function):
+            wrong = _wrong(types, server, statement.value, answer)
+            if wrong:
+                message = f"returns {wrong}, not {wanted} {made}: {happens}"
+                yield self.report(types.module.location(statement), message)
+
+
+def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
+    """Return the definition of a callback, where nothing wraps it."""
+    given = server.argument(name)
+    callback = types.facts.callback(given.node) if given else None
+    function = callback.function if callback else None
+    if callback is None or function is None or isinstance(function, ast.Lambda):
+        return None
+    is_plain = not callback.is_called and not callback.is_partial and not function.decorator_list
+    return function if is_plain and not is_generator(function) else None
+
+
+def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, answer: str) -> str:
+    """Return what is returned if that surely is something else, else nothing."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, ast.Constant):
+        return repr(value.value)
+    name = types.module.qualified_name(value) or ""
+    if answer:
+        other = next((one for one in _ANSWERS.values() if f".{one}." in name), answer)
+        return "" if other == answer else f"a {other}"
+    found = types.type_of(value)
+    if found is None or types.definitions.find(server.interface or "") is None:
+        return ""
+    return "" if found.name == f"{server.interface}.Result" else found.name

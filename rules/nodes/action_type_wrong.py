@@ -1,0 +1,116 @@
+"""ND067: action servers and clients are given a node, a type and goals of that type."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.message_types import MessageTypes
+from scaffold.model.node_entities import ActionClient
+from scaffold.model.nodes import NodeFacts
+
+_WHOLE = r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*"
+_NODE = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Sender(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('sender')\n"
+    "        self.client = ActionClient({}, 'count')\n\n"
+    "    def send(self):\n"
+    "        self.client.send_goal_async({})\n"
+)
+_GOAL = "Fibonacci.Goal(order=3)"
+
+
+class ActionTypeWrong(Rule):
+    """An action server or client is given something else than its node, a type or a goal.
+
+    **Why.** ``AttributeError: type object 'Fibonacci' has no attribute 'handle'``, or rclpy finds
+    no support for the type; what is sent as a goal has to be one: ``TypeError``.
+
+    **Fix.** ``ActionClient(self, Fibonacci, 'fibonacci')``, and ``Fibonacci.Goal()`` to send.
+
+    **Source.** ``rclpy/action/server.py``, ``rclpy/action/client.py``.
+    """
+
+    code = "ND067"
+    name = "action-type-wrong"
+    examples = (
+        Example("a node, a type, a goal", {"sender.py": _NODE.format("self, Fibonacci", _GOAL)}),
+        Example(
+            "no node",
+            {"sender.py": _NODE.format("Fibonacci", _GOAL)},
+            at=("sender.py:9",),
+        ),
+        Example(
+            "a part of the action",
+            {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
+            at=("sender.py:9",),
+        ),
+        Example(
+            "a number, the class of goals, the result",
+            {
+                "sender.py": _NODE.format("self, Fibonacci", "3")
+                + "        self.client.send_goal(Fibonacci.Goal)\n"
+                + "        self.client.send_goal(Fibonacci.Result())\n"
+            },
+            at=("sender.py:12", "sender.py:13", "sender.py:14"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            facts = types.facts
+            for entity in [*facts.action_servers, *facts.action_clients]:
+                for name in ("node", "action_type"):
+                    argument = entity.argument(name)
+                    problem = _problem(facts, argument.node, name) if argument else ""
+                    if argument and problem:
+                        yield self.report(argument, problem)
+            yield from self._check_goals(types)
+
+    def _check_goals(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        clients = {client.call: client for client in types.facts.action_clients}
+        for name in ("send_goal", "send_goal_async") if clients else ():
+            for attribute in types.module.index.attributes(name):
+                call = types.module.parent(attribute)
+                made = types.facts.evaluator.single_value(attribute.value)
+                client = clients.get(made) if isinstance(made, ast.Call) else None
+                if client is None or not isinstance(call, ast.Call) or call.func is not attribute:
+                    continue
+                given = _given(types, client, call.args[0]) if call.args else ""
+                if given and not types.is_tolerated(call):
+                    message = f"sends {given}; the client made in line {client.location.line} "
+                    message += f"takes {client.interface}.Goal: TypeError"
+                    yield self.report(types.module.location(call.args[0]), message)
+
+
+def _problem(facts: NodeFacts, node: ast.expr, name: str) -> str:
+    """Return what is wrong about the first or the second argument of an action server."""
+    full = facts.module.qualified_name(node) or ""
+    if name == "node":
+        kind = full.rpartition(".")[2]
+        is_type = re.fullmatch(_WHOLE, full) and facts.interface(node) is not None
+        return f"{kind} is no node: the node comes first, then the type" if is_type else ""
+    if re.fullmatch(_WHOLE + r"\.(Goal|Result|Feedback)", full):
+        return f"this is a part of an action; the type is {full.split('.')[2]}"
+    if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and facts.interface(node):
+        return f"{full.rpartition('.')[2]} is no action"
+    return ""
+
+
+def _given(types: MessageTypes, client: ActionClient, node: ast.expr) -> str:
+    """Return what is sent if that surely is no goal of the client, else nothing."""
+    if client.interface is None or types.definitions.find(client.interface) is None:
+        return ""
+    found = types.type_of(node)
+    if found is not None:
+        return found.name if found.name != f"{client.interface}.Goal" else ""
+    if isinstance(node, ast.Name | ast.Attribute):
+        class_ = types.class_of(node)
+        whole = types.facts.interface(node)
+        return f"the class {class_.name}" if class_ else f"the class {whole}" if whole else ""
+    return f"a {type(node.value).__name__}" if isinstance(node, ast.Constant) else ""

@@ -1,0 +1,119 @@
+"""ND066: methods of a lifecycle node say how a change of state went."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.returns import is_generator, may_end, returned
+from scaffold.model.scopes import FunctionNode
+
+_TRANSITIONS = (
+    *("on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error"),
+)
+_NODE = (
+    "from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn\n"
+    "from std_msgs.msg import String\n\n\n"
+    "class Talker(LifecycleNode):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.pub = self.create_lifecycle_publisher(String, 'chatter', 10)\n\n"
+    "    def {}:\n"
+    "        {}\n"
+)
+_RIGHT = "return super().on_activate(state)"
+
+
+class TransitionResult(Rule):
+    """A method of a lifecycle node for a change of state does not do what such a method must.
+
+    **Why.** The node dies with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
+    at the change of state; a method with another name is never called; publishers made with
+    ``create_lifecycle_publisher`` drop all messages until ``super().on_activate`` has been called.
+
+    **Fix.** Take the state and ``return super().on_activate(state)``, or
+    ``TransitionCallbackReturn.SUCCESS`` where there is no lifecycle publisher.
+
+    **Source.** ``rclpy/lifecycle/node.py``, ``LifecycleNodeMixin``; ``managed_entity.py``.
+    """
+
+    code = "ND066"
+    name = "transition-result"
+    examples = (
+        Example("passed on", {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)}),
+        Example(
+            "nothing",
+            {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
+            at=("talker.py:10",),
+        ),
+        Example(
+            "a bool, no state",
+            {"talker.py": _NODE.format("on_configure(self)", "return True")},
+            at=("talker.py:10", "talker.py:11"),
+        ),
+        Example(
+            "the publisher is never told",
+            {
+                "talker.py": _NODE.format(
+                    "on_activate(self, state)", "return TransitionCallbackReturn.SUCCESS"
+                )
+            },
+            at=("talker.py:10",),
+        ),
+        Example(
+            "another name",
+            {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
+            at=("talker.py:10",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for class_ in facts.classes:
+                if class_.is_lifecycle:
+                    for name, function in class_.methods.items():
+                        if function.decorator_list or is_generator(function):
+                            continue
+                        if name in _TRANSITIONS:
+                            yield from self._check(facts, function)
+                        elif name.startswith("on_") and not facts.module.index.attributes(name):
+                            yield from self._check_name(facts, function, class_.methods)
+                    yield from self._check_publishers(facts, class_)
+
+    def _check(self, facts: NodeFacts, function: FunctionNode) -> Iterator[Diagnostic]:
+        module, given = facts.module, function.args
+        count = len([*given.posonlyargs, *given.args]) - 1
+        at = module.name_location(function)
+        if given.vararg is None and not count - len(given.defaults) <= 1 <= count:
+            yield self.report(at, f"{function.name} takes {count} arguments; it is given the state")
+        happens = "not a TransitionCallbackReturn: AttributeError when the state changes"
+        if may_end(function):
+            path = " on one path" if returned(function) else ""
+            yield self.report(at, f"{function.name} returns nothing{path}, {happens}")
+        for statement in returned(function):
+            if statement.value is None or isinstance(statement.value, ast.Constant):
+                value = "nothing" if statement.value is None else ast.unparse(statement.value)
+                yield self.report(module.location(statement), f"returns {value}, {happens}")
+
+    def _check_name(
+        self, facts: NodeFacts, function: FunctionNode, methods: Mapping[str, FunctionNode]
+    ) -> Iterator[Diagnostic]:
+        left = [name for name in _TRANSITIONS if name not in methods]
+        for near in get_close_matches(function.name, left, 1, 0.85):
+            message = f"nothing calls {function.name}; {near!r} is meant"
+            yield self.report(facts.module.name_location(function), message)
+
+    def _check_publishers(self, facts: NodeFacts, class_: NodeClass) -> Iterator[Diagnostic]:
+        function = class_.methods.get("on_activate")
+        made = [one for one in class_.publishers if one.is_lifecycle]
+        if function is None or not made or facts.module.index.attributes("on_activate"):
+            return
+        line = made[0].location.line
+        message = (
+            f"super().on_activate(state) is not called: the publisher of line {line} is silent"
+        )
+        yield self.report(facts.module.name_location(function), message)
