@@ -8,9 +8,16 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
+from scaffold.model.node_attributes import (
+    defined_by,
+    given_from_outside,
+    is_read_in_full,
+    names_of_bases,
+    used_by_classes,
+)
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import NODE, has, known_names
+from scaffold.model.rclpy_names import NODE, known_names
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -66,18 +73,17 @@ class AttributeOfNodeUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        bases = package.remember("names_of_bases", lambda: _names_of_bases(package))
-        given = package.remember("attributes_given", lambda: _given(package))
+        bases, given = names_of_bases(package), given_from_outside(package)
         for facts in package.rclpy_files():
-            used = _used(facts) if facts.classes else {}
+            used = used_by_classes(facts) if facts.classes else {}
             for node in facts.classes:
-                if node.node in used and node.name not in bases and _is_plain(node):
+                if node.node in used and node.name not in bases and is_read_in_full(node):
                     yield from self._check(package, node, given, used[node.node])
 
     def _check(
         self, package: Package, node: NodeClass, given: frozenset[str], used: list[ast.Attribute]
     ) -> Iterator[Diagnostic]:
-        defined = _defined(node)
+        defined = defined_by(node)
         names: set[str] = set()
         for attribute in used:
             name = attribute.attr
@@ -90,37 +96,6 @@ class AttributeOfNodeUnknown(Rule):
             yield self.report(node.facts.module.location(attribute), message)
 
 
-def _used(facts: NodeFacts) -> dict[ast.ClassDef, list[ast.Attribute]]:
-    """Return what classes read of themselves, but for what the file sets on whatever object."""
-    module = facts.module
-    read: list[ast.Attribute] = []
-    stored: set[str] = set()
-    for attribute in module.walk(ast.Attribute):
-        if isinstance(attribute.ctx, ast.Load) or isinstance(
-            module.parent(attribute), ast.AugAssign
-        ):
-            read.append(attribute)
-        else:
-            stored.add(attribute.attr)
-    found: dict[ast.ClassDef, list[ast.Attribute]] = {}
-    for attribute in read:
-        if attribute.attr not in stored and not has(NODE, attribute.attr):
-            class_ = _owner(facts, attribute)
-            if class_ is not None:
-                found.setdefault(class_, []).append(attribute)
-    return found
-
-
-def _owner(facts: NodeFacts, attribute: ast.Attribute) -> ast.ClassDef | None:
-    """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
-    class_ = facts.evaluator.self_class(attribute.value)
-    if class_ is None and isinstance(attribute.value, ast.Name):
-        made = facts.evaluator.single_value(attribute.value)
-        if isinstance(made, ast.Call):
-            class_ = facts.evaluator.named_class(made.func)
-    return class_
-
-
 def _names_of_rclpy() -> Iterator[str]:
     return (one.removesuffix("()") for one in known_names()[NODE])
 
@@ -129,60 +104,6 @@ def _near(package: Package, name: str, names: set[str]) -> str:
     # rclpy's own attributes start with an underscore: nobody means those.
     hidden = "__" if name.startswith("_") else "_"
     return nearest(package, name, [one for one in names if not one.startswith(hidden)], 0.7)
-
-
-def _names_of_bases(package: Package) -> frozenset[str]:
-    """Return the classes of the package that others inherit from: those may define the rest."""
-    return frozenset(
-        base.attr if isinstance(base, ast.Attribute) else base.id
-        for module in package.modules()
-        for class_ in module.walk(ast.ClassDef)
-        for base in class_.bases
-        if isinstance(base, ast.Attribute | ast.Name)
-    )
-
-
-def _given(package: Package) -> frozenset[str]:
-    """Return the attributes that code of the package sets on other objects than ``self``."""
-    return frozenset(
-        node.attr
-        for module in package.modules()
-        for node in module.walk(ast.Attribute)
-        if isinstance(node.ctx, ast.Store)
-        and isinstance(node.value, ast.Name)
-        and node.value.id != "self"
-    )
-
-
-def _is_plain(node: NodeClass) -> bool:
-    """Tell whether a class and its bases are read in full, and make no names at run time."""
-    owner: NodeClass | None = node
-    while owner is not None:
-        bindings = owner.facts.module.index.bindings(owner.node)
-        if len(owner.node.bases) != 1 or owner.node.keywords or owner.node.decorator_list:
-            return False
-        if owner.is_lifecycle or "__getattr__" in bindings or "__getattribute__" in bindings:
-            return False
-        if owner.facts.module.mentions("setattr(", "__dict__", "vars(self"):
-            return False
-        owner = owner.base
-    return True
-
-
-def _defined(node: NodeClass) -> set[str]:
-    """Return what a class and its bases define, in methods and on ``self``."""
-    found: set[str] = set()
-    owner: NodeClass | None = node
-    while owner is not None:
-        found |= set(owner.facts.module.index.bindings(owner.node))
-        for attribute in ast.walk(owner.node):
-            if not isinstance(attribute, ast.Attribute) or isinstance(attribute.ctx, ast.Load):
-                continue
-            parent = owner.facts.module.parent(attribute)
-            if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
-                found.add(attribute.attr)
-        owner = owner.base
-    return found
 
 
 def _may_fail(facts: NodeFacts, node: ast.Attribute) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass, NodeOwner
@@ -10,12 +11,15 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_entities import Parameter
+    from scaffold.model.nodes import NodeFacts
     from scaffold.model.package import Package
 
 ALWAYS = frozenset({"use_sim_time", "start_type_description_service"})
 """Parameters that every node has."""
 _ALWAYS_PREFIXES = ("qos_overrides.",)
 _HARMLESS = ("rclpy.", "tf2_ros.", "message_filters.", "super", "isinstance", "print", "str", "id")
+_KNOWN = ("rclpy.", "tf2_ros.", "message_filters.", "cv_bridge.")
+"""Packages whose classes take a node and declare no parameters of their own."""
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
 
@@ -30,7 +34,12 @@ class Declared(NamedTuple):
 
     def has(self, name: str) -> bool:
         """Tell whether a parameter exists."""
-        return name in self.types or name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
+        return name in self.types or has_always(name)
+
+
+def has_always(name: str) -> bool:
+    """Tell whether rclpy itself declares a parameter on every node."""
+    return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
 def declared_by(owner: NodeOwner, package: Package) -> Declared:
@@ -54,6 +63,76 @@ def declared_by(owner: NodeOwner, package: Package) -> Declared:
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
+
+
+def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter]]]:
+    """Yield the nodes that nothing else declares parameters for, each with those it declares.
+
+    Unlike `declared_by` it tells nothing of nodes that others inherit from.
+    """
+    passed_on: dict[NodeFacts, frozenset[ast.ClassDef]] = {}
+    for facts in package.rclpy_files():
+        bases = _bases(facts)
+        for node in facts.classes:
+            declared = None if node.node in bases else _declared(node, passed_on)
+            if declared is not None:
+                yield node, declared
+
+
+def _declared(
+    node: NodeClass, passed_on: dict[NodeFacts, frozenset[ast.ClassDef]]
+) -> list[Parameter] | None:
+    """Return what a class and its bases declare; ``None`` if others may declare more.
+
+    What `_passed_on` says of their files is kept, to be asked once.
+    """
+    found: list[Parameter] = []
+    owner: NodeClass | None = node
+    while owner is not None:
+        if owner.declares_automatically or owner.is_lifecycle or len(owner.node.bases) != 1:
+            return None
+        if any(not isinstance(one.name, str) for one in owner.parameters):
+            return None
+        if owner.facts not in passed_on:
+            passed_on[owner.facts] = _passed_on(owner.facts)
+        if owner.node in passed_on[owner.facts]:
+            return None
+        found += owner.parameters
+        owner = owner.base
+    return None if _declares_on_others(node.facts) else found
+
+
+def _bases(facts: NodeFacts) -> frozenset[ast.ClassDef | None]:
+    """Return the classes of a file that others there inherit from."""
+    return frozenset(
+        facts.evaluator.named_class(base)
+        for other in facts.module.walk(ast.ClassDef)
+        for base in other.bases
+    )
+
+
+def _declares_on_others(facts: NodeFacts) -> bool:
+    """Tell whether the file declares parameters on an object that is not known."""
+    return any(one.owner is None for one in facts.parameters)
+
+
+def _passed_on(facts: NodeFacts) -> frozenset[ast.ClassDef]:
+    """Return the classes that give themselves to something that may declare parameters.
+
+    All of them where the file asks nodes what they have.
+    """
+    if "has_parameter" in facts.module.source.text:
+        return frozenset(facts.module.walk(ast.ClassDef))
+    found: set[ast.ClassDef] = set()
+    for call in facts.module.walk(ast.Call):
+        given = [*call.args, *(word.value for word in call.keywords)]
+        classes = {class_ for one in given if (class_ := facts.evaluator.self_class(one))}
+        if classes:
+            name = facts.module.qualified_name(call.func) or ""
+            is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
+            if not name.startswith(_KNOWN) and not is_super and name != "super":
+                found |= classes
+    return frozenset(found)
 
 
 def _from_outside(package: Package) -> dict[NodeOwner, list[Parameter]]:
