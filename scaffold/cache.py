@@ -53,7 +53,14 @@ def write_sealed(path: str, head: bytes, data: bytes) -> bool:
 
 
 def trim(kept: str, most: int) -> None:
-    """Drop the files that were not renewed for longest when they are too many or too large."""
+    """Drop the files that were not renewed for longest when they are too many or too large.
+
+    A quarter goes at once, so that the next runs need not trim again.
+
+    Args:
+        kept: The directory.
+        most: How many files it may hold.
+    """
     files: list[tuple[float, int, str]] = []
     try:
         with os.scandir(kept) as entries:

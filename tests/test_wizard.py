@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from scaffold.cli.answer_text import quoted
 from scaffold.cli.main import main
-from scaffold.cli.wizard import quoted
 
 pexpect = pytest.importorskip("pexpect")
 ENTER, DOWN = "\r", "\x1b[B"

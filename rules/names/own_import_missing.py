@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.model.known import ROS_PACKAGES
+from scaffold.model.near import nearest
 from scaffold.model.own_modules import (
     absolute_name,
     file_of,
@@ -88,8 +88,8 @@ class OwnImportMissing(Rule):
             if not path:
                 if not may_be_made(package, name):
                     modules = [one for one in modules_of(package, root) if "__init__" not in one]
-                    near = get_close_matches(name, modules, 1, 0.6)
-                    hint = f"; {near[0]!r} is meant" if near else ""
+                    near = nearest(package, name, modules, 0.6)
+                    hint = f"; {near!r} is meant" if near else ""
                     yield self.report(one, f"the package has no module {name!r}{hint}")
                 return
             yield from self._check_names(package, one, name, path)
@@ -112,6 +112,6 @@ class OwnImportMissing(Rule):
             below = f"{name}.{imported.name}"
             if file_of(package, below) or may_be_made(package, below):
                 continue
-            near = get_close_matches(imported.name, [*module.functions, *module.classes], 1)
-            hint = f"; it has {near[0]!r}" if near else ""
+            near = nearest(package, imported.name, [*module.functions, *module.classes], 0.6)
+            hint = f"; it has {near!r}" if near else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

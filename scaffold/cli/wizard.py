@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain, count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from scaffold.cli import prompts
+from scaffold.cli import answer_text, prompts
 from scaffold.cli.prompts import Choice
 from scaffold.errors import ScaffoldError
 from scaffold.generate import connections, names, parts, questions
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
 
 ORIGIN = "your answer"
 _DONE = "nothing more"
-_TOGETHER = {"fields": ";", "dependencies": " "}
-"""What separates several values in one line, by the type of the answer."""
 _NEVER_WITH = {Role.NODE: Role.INTERFACE, Role.INTERFACE: Role.NODE}
 _ANYBODY = {
     "package": Given("package_to_be", ORIGIN),
@@ -75,8 +72,10 @@ def ask(
     found = {name: Given(value, f"{ORIGIN}: {name}") for name, value in answers.items()}
     base = {question.name: question for question in templates[BASE].questions}
     said = {name: one.value for name, one in given.items() if one.origin.startswith("--")}
-    words = _words({**said, **answers}, base, templates)
-    return Asked({**given, **found}, " ".join(quoted(word) for word in [*words, *options]))
+    words = answer_text.command({**said, **answers}, base, templates)
+    return Asked(
+        {**given, **found}, " ".join(answer_text.quoted(word) for word in [*words, *options])
+    )
 
 
 class _Interview:
@@ -174,7 +173,7 @@ class _Interview:
                 continue
             usual = self._type_so_far(template, question, entry, entries)
             value = self._ask(question, usual, definitions=definitions)
-            if not _is_default(question, value):
+            if not answer_text.is_default(question, value):
                 entry[question.name] = value
         return entry
 
@@ -221,21 +220,21 @@ class _Interview:
         if definitions is not None and question.type in INTERFACES:
             middle = f"/{INTERFACES[question.type]}/"
             words = [name for name in definitions.all_names() if middle in name]
-        shown = _shown(question, known)
+        usual = answer_text.shown(question, known)
 
         def judge(answer: str) -> str | None:
             if not answer and known is not None:
-                return None if shown not in refused else f"the package has {shown} already"
+                return None if usual not in refused else f"the package has {usual} already"
             if answer in refused:
                 return f"the package has {answer} already"
-            return self._fault(question, _split(question, answer))
+            return self._fault(question, answer_text.split(question, answer))
 
         made = more.rstrip(")") or "default: made of the other answers"
-        hint = made if known is not None and not shown else ""
-        answer = prompts.line(text, shown, judge, hint=hint, completions=words)
-        if not answer and shown:
-            prompts.say(f"taken: {shown}")
-        return _split(question, answer or shown)
+        hint = made if known is not None and not usual else ""
+        answer = prompts.line(text, usual, judge, hint=hint, completions=words)
+        if not answer and usual:
+            prompts.say(f"taken: {usual}")
+        return answer_text.split(question, answer or usual)
 
     def _fault(self, question: Question, value: object) -> str | None:
         """Return what is wrong with an answer."""
@@ -264,81 +263,7 @@ def _free(name: str, taken: Iterable[str]) -> str:
     return next(one for one in chain([name], numbered) if one not in taken)
 
 
-def _shown(question: Question, known: object) -> str:
-    """Return the default as text to edit; one that is made of other answers is not shown."""
-    if isinstance(known, bool):
-        return "yes" if known else "no"
-    if isinstance(known, list | tuple):
-        return f"{_TOGETHER.get(question.type, ' ')} ".join(map(str, known)).replace("  ", " ")
-    return "" if known is None or "{" in str(known) else str(known)
-
-
-def _is_default(question: Question, value: object) -> bool:
-    shown = _split(question, _shown(question, question.default))
-    return value in ("", [], question.default, shown)
-
-
-def _split(question: Question, answer: str) -> Any:  # noqa: ANN401  a text or several
-    separator = _TOGETHER.get(question.type)
-    if separator is None:
-        return answer
-    words = [word.strip() for word in answer.split(separator) if word.strip()]
-    return words[0] if len(words) == 1 else words
-
-
 def _definitions(directory: str) -> Definitions:
     from scaffold.generate import payload
 
     return payload.definitions(directory)
-
-
-def _words(
-    answers: Mapping[str, Any], base: Mapping[str, Question], templates: Mapping[str, Template]
-) -> list[str]:
-    """Return the command with what differs from the defaults."""
-    words = ["ros2-scaffold", "new", str(answers["package"])]
-    for name, value in answers.items():
-        if name == parts.ADD:
-            for entry in value:
-                part = entry if isinstance(entry, str) else _written(entry, templates)
-                words += ["--add", part]
-        elif name != "package" and not (name in base and _is_default(base[name], value)):
-            words += _flag(name, value)
-    return words
-
-
-def _flag(name: str, value: object) -> list[str]:
-    flag = questions.flag(name)
-    if isinstance(value, list):
-        return [flag, *map(str, value)]
-    # With a dash in front it would be taken for a flag.
-    return [f"{flag}={value}"] if str(value).startswith("-") else [flag, str(value)]
-
-
-def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
-    """Return a part as ``--add`` takes it."""
-    kind = str(entry[parts.KIND])
-    asked = templates[kind].name_question
-    words = [f"{kind}:{entry[asked]}"]
-    for name, value in entry.items():
-        if name not in {parts.KIND, asked}:
-            words += [f"{name}={one}" for one in (value if isinstance(value, list) else [value])]
-    return " ".join(_quoted_inside(word) for word in words)
-
-
-def _quoted_inside(word: str) -> str:
-    """Return a word for `shlex.split`, in quotes that need no others around it if possible."""
-    if not re.search(r"[\s'\"\\]", word):
-        return word
-    return quoted(word) if re.search(r'["\\]', word) else f'"{word}"'
-
-
-def quoted(word: str) -> str:
-    """Return a word as bash, zsh and fish read it.
-
-    In single quotes all is as it is written, but for the backslash in fish and the quote itself.
-    """
-    if re.fullmatch(r"[\w@+=:,./-]+", word, re.ASCII) and word[0] != "=":
-        return word
-    pieces = re.findall(r"[\\']|[^\\']+", word)
-    return "".join(f"\\{one}" if one in "\\'" else f"'{one}'" for one in pieces) or "''"

@@ -13,7 +13,7 @@ from scaffold.errors import ConflictError, InputError, MissingFileError, ParseEr
 from scaffold.generate import neighbours, own, piece
 from scaffold.generate.edit.addition import ByHand
 from scaffold.generate.edit.edit import edit
-from scaffold.generate.piece import Piece, Target, Wanted
+from scaffold.generate.piece import LAUNCH, Piece, Target, Wanted
 from scaffold.generate.provenance import Provenance
 from scaffold.generate.template import Role
 from scaffold.model.package import Package
@@ -168,7 +168,7 @@ def _start(package: Package, made: Piece) -> str | None:
     """Return the command that starts what is new."""
     if made.built is not None:
         return f"ros2 run {package.name} {made.built}"
-    launch = next((path for path in made.rendered.files if path.startswith(_LAUNCH)), None)
+    launch = next((path for path in made.rendered.files if path.startswith(LAUNCH)), None)
     return f"ros2 launch {package.name} {launch.rpartition('/')[2]}" if launch else None
 
 
@@ -224,14 +224,12 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
             f"{declared or 'none'!r}; --license gives them one"
         )
     if made.others:
-        launch = next(path for path in made.rendered.files if path.startswith(_LAUNCH))
+        launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
         yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
     if made.addition.program is not None:
         yield from neighbours.remarks(package, made.addition.program.path)
 
 
-_LAUNCH = "launch/"
-"""The directory of launch files."""
 _WITH_HEADER = (".py", ".cpp")
 """Files that have the header of a licence."""
 

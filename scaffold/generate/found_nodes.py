@@ -39,11 +39,11 @@ def find(
         compiled: The C++ programs that it was made with; they are no nodes.
     """
     programs = programs_of(package)
-    there = [
+    kept = [
         node for node in recorded if node["executable"] in programs.sources or not programs.complete
     ]
     known = {node["executable"] for node in recorded} | {one["name"] for one in compiled}
-    found: list[Mapping[str, Any]] = list(there)
+    found: list[Mapping[str, Any]] = list(kept)
     others: list[str] = []
     in_cpp = executables(package)
     for program, source in programs.sources.items():
@@ -59,6 +59,7 @@ def find(
 
 
 def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str, Any]:
+    """Return what a launch file needs to know of a program that makes nodes."""
     name = next(iter(names)) if len(names) == 1 else None
     file = _parameters(package, name) if isinstance(name, str) else ""
     return {

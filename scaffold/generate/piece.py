@@ -24,8 +24,13 @@ from scaffold.model.package import Package
 _TESTS = "test"
 EXTRAS = "extras"
 """The question for extras."""
+LAUNCH = "launch/"
+"""The directory of launch files."""
 _OF_README = "_readme.md"
 """What an extra has to say in the README of its package."""
+
+_Scope = tuple[Template, Mapping[str, Any]]
+"""A template, and the variables of its files."""
 
 
 class Target(NamedTuple):
@@ -94,6 +99,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
 
 
 def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | None) -> Piece:
+    """Render an extra for the nodes that the package has, ours and those of others."""
     package, template = target.package, wanted.template
     known = update.recorded(old, target.templates, package.directory, []) if old else {}
     chosen = {
@@ -116,11 +122,12 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
         macro = f"{{% import '{readme}' as readme with context %}}{{{{ readme.run() }}}}"
         text = composed.renderer.text(macro, context).strip("\n")
         addition = addition._replace(readme=f"## Run\n\n{text}\n" if text else "")
-    is_launch = any(path.startswith("launch/") for path in rendered.files)
+    is_launch = any(path.startswith(LAUNCH) for path in rendered.files)
     return Piece(template, composed, rendered, addition, found.others if is_launch else ())
 
 
 def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:
+    """Settle all questions; what the package has decided needs no answer."""
     package = target.package
     decided = facts.answers(package, licenses.names(target.roots))
     has_license = "license" in {**decided, **given}
@@ -140,9 +147,6 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         # Better the header of the author's other files, or none, than one with another licence.
         composed.context["header"] = facts.own_header(package)
     return composed
-
-
-_Scope = tuple[Template, Mapping[str, Any]]
 
 
 def _only(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
@@ -209,6 +213,7 @@ def _described(
 
 
 def _of_part(target: Target, composed: Composed, layout: Layout, rendered: Rendered) -> Addition:
+    """Return what the other files must know of a node, an interface or a program."""
     context, renderer = composed.context, composed.renderer
     ((layer, scope),) = _only(composed, PARTS)
     package = target.package.name

@@ -16,6 +16,7 @@ IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files that hide a directory from colcon."""
 
 _RESULTS = ("install", "build")
+"""What colcon makes beside the sources."""
 
 
 def package_directories(
@@ -78,7 +79,8 @@ def sources_around(disk: Disk, directory: str) -> str | None:
     """
     found = [one for one in _upwards(directory) if os.path.basename(one) == SOURCES]
     for sources in found if len(found) > 1 else ():
-        if any(disk.is_directory(os.path.join(os.path.dirname(sources), n)) for n in _RESULTS):
+        top = os.path.dirname(sources)
+        if any(disk.is_directory(os.path.join(top, result)) for result in _RESULTS):
             return sources
     return found[0] if found else None
 
