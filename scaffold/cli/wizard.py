@@ -7,7 +7,8 @@ from itertools import chain, count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.cli import answer_text, prompts
-from scaffold.cli.prompts import Choice
+from scaffold.cli.choice_list import Choice
+from scaffold.cli.screen import say, terminal
 from scaffold.errors import ScaffoldError
 from scaffold.generate import connections, names, parts, questions
 from scaffold.generate.defaults import LOGIN, User
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 ORIGIN = "your answer"
 _DONE = "nothing more"
 _NEVER_WITH = {Role.NODE: Role.INTERFACE, Role.INTERFACE: Role.NODE}
+"""What no package holds together: interfaces have a package of their own."""
 _ANYBODY = {
     "package": Given("package_to_be", ORIGIN),
     "maintainer_name": Given("Ada", ORIGIN),
@@ -65,7 +67,7 @@ def ask(
         KeyboardInterrupt: the user wants no more questions.
     """
     try:
-        with prompts.terminal():
+        with terminal():
             answers = _Interview(templates, given, user, trial).answers()
     except EOFError:
         raise KeyboardInterrupt from None
@@ -133,7 +135,7 @@ class _Interview:
             if fault is None:
                 entries.append(entry)
             else:
-                prompts.say(f"{fault}; asked again")
+                say(f"{fault}; asked again")
         self._answers[parts.ADD] = entries
 
     def _kind(self, taken: Sequence[str]) -> str:
@@ -233,7 +235,7 @@ class _Interview:
         hint = made if known is not None and not usual else ""
         answer = prompts.line(text, usual, judge, hint=hint, completions=words)
         if not answer and usual:
-            prompts.say(f"taken: {usual}")
+            say(f"taken: {usual}")
         return answer_text.split(question, answer or usual)
 
     def _fault(self, question: Question, value: object) -> str | None:
