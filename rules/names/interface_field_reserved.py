@@ -1,21 +1,22 @@
-"""NM024: fields of interfaces are no keywords of the generated languages."""
+"""NM024: names of interfaces are no keywords or macros of the generated languages."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.generated_code import reserved
+from scaffold.model.generated_code import reserved, reserved_constant, reserved_type
 from scaffold.model.interface_files import interface_files
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 
 
 class InterfaceFieldReserved(Rule):
-    """A field of an interface has the name of a keyword.
+    """A field, a constant or a type of an interface has the name of a keyword or macro.
 
-    **Why.** It becomes a member in generated code. With a keyword of C or C++ that does not
+    **Why.** A field becomes a member in generated code. With a keyword of C or C++ that does not
     compile; with one of Python ``message.from`` is a SyntaxError, and only ``getattr`` reads it.
+    A constant ``NULL`` is replaced before the compiler sees it, and no class is called ``None``.
 
     **Fix.** Choose another name, such as ``from_frame``.
 
@@ -32,12 +33,29 @@ class InterfaceFieldReserved(Rule):
             {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "string class\nint32 from\nbool ok\n"},
             at=("msg/Beat.msg:1", "msg/Beat.msg:2"),
         ),
+        Example(
+            "macros",
+            {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "int8 NULL=0\nint8 EIO=1\nint8 OK=2\n"},
+            at=("msg/Beat.msg:1", "msg/Beat.msg:2"),
+        ),
+        Example(
+            "a type that Python cannot have",
+            {"CMakeLists.txt": _LISTS.replace("Beat", "None"), "msg/None.msg": "int8 count\n"},
+            at=("msg/None.msg:1",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for file in interface_files(package):
+            message = reserved_type(file.name)
+            if message:
+                yield self.report(package.start_of(file.path), message)
             for section in file.definition.sections:
                 for field in section.fields:
                     message = reserved(field.name)
                     if message:
                         yield self.report(field, message)
+                for constant in section.constants:
+                    message = reserved_constant(constant.name)
+                    if message:
+                        yield self.report(constant, message)

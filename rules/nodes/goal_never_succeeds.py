@@ -1,0 +1,93 @@
+"""ND068: work on a goal ends with ``succeed()``."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import ActionServer
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.scopes import FunctionNode
+
+_ENDS = frozenset({"abort", "canceled"})
+_NODE = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(self, Fibonacci, 'count', self.work)\n\n"
+    "    def work(self, goal_handle):\n"
+    "        if goal_handle.is_cancel_requested:\n"
+    "            goal_handle.canceled()\n"
+    "            return Fibonacci.Result()\n"
+    "{}"
+    "        return Fibonacci.Result()\n"
+)
+
+
+class GoalNeverSucceeds(Rule):
+    """Work on a goal returns the result without a word on how it ended.
+
+    **Why.** rclpy takes the goal for failed: "Goal state not set, assuming aborted"; the client
+    gets ``STATUS_ABORTED``, with the result.
+
+    **Fix.** ``goal_handle.succeed()`` before the result is returned.
+
+    **Source.** ``rclpy/action/server.py``, ``_execute_goal``.
+    """
+
+    code = "ND068"
+    name = "goal-never-succeeds"
+    examples = (
+        Example("it succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
+        Example("it fails", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
+        Example("others end it", {"server.py": _NODE.format("        self.end(goal_handle)\n")}),
+        Example("nothing is said", {"server.py": _NODE.format("")}, at=("server.py:15",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files() if package.name != "rclpy" else ():
+            seen: set[FunctionNode] = set()
+            if facts.module.index.attributes("succeed"):
+                continue
+            for server in facts.action_servers:
+                function = _work(facts, server)
+                if function is not None and function not in seen:
+                    seen.add(function)
+                    if _leaves_open(function):
+                        line = server.location.line
+                        message = (
+                            "the result is returned without succeed(): the goals of the action "
+                            f"server made in line {line} end as aborted"
+                        )
+                        yield self.report(facts.module.location(function.body[-1]), message)
+
+
+def _work(facts: NodeFacts, server: ActionServer) -> FunctionNode | None:
+    """Return the function that works on goals, if it keeps the handle of the goal to itself."""
+    callback = server.callback
+    function = callback.function if callback else None
+    if callback is None or function is None or isinstance(function, ast.Lambda):
+        return None
+    arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
+    if callback.is_partial or callback.is_called or function.decorator_list or not arguments:
+        return None
+    name = arguments[0].arg
+    uses = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == name]
+    is_kept = all(isinstance(facts.module.parent(use), ast.Attribute) for use in uses)
+    return function if is_kept else None
+
+
+def _leaves_open(function: FunctionNode) -> bool:
+    """Tell whether the last statement returns a result, and none beside it ends the goal."""
+    last = function.body[-1]
+    if not isinstance(last, ast.Return) or last.value is None:
+        return False
+    return not any(
+        isinstance(node, ast.Attribute) and node.attr in _ENDS
+        for statement in function.body
+        if not isinstance(statement, ast.If | ast.For | ast.While)
+        for node in ast.walk(statement)
+    )
