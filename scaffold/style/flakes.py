@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from scaffold.style import local_names
 from scaffold.style.finding import Finding
 from scaffold.style.ruff import Said
 from scaffold.style.text import PythonText
@@ -32,11 +33,14 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
                 continue
         elif one.code == "F841":
             finding = _at(text, finding, handlers)
+        elif one.code == "F823":
+            finding = local_names.at_last_use(text, finding)
         if one.code not in OWN and not stricter.is_alone(one):
             yield finding
         if one.code == "F403" and not has_star_use and last_stars[one.message] == one.line:
             unused = "nothing of the star import is used"
             yield Finding("F401", finding.line, finding.column, unused)
+    yield from local_names.deleted_unused(text)
 
 
 def plain(said: Said) -> Finding:
@@ -77,6 +81,8 @@ class _Stricter:
             return said.line not in self._tuple_formats
         if said.code == "F821" and (said.line, said.column) in self._conditional_deletions:
             return True
+        if said.code == "F401" and said.message.split("`")[1:2] != []:
+            return said.message.split("`")[1] in self._used_by_alias
         rival = {"F502": "F506", "F523": "F525"}.get(said.code)
         return (said.line, rival) in self._codes
 
@@ -89,6 +95,10 @@ class _Stricter:
             and isinstance(node.op, ast.Mod)
             and isinstance(node.right, ast.Tuple)
         }
+
+    @cached_property
+    def _used_by_alias(self) -> set[str]:
+        return local_names.used_by_alias(self._text)
 
     @cached_property
     def _conditional_deletions(self) -> set[tuple[int, int]]:
