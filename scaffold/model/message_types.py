@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
 from scaffold.errors import ViewError
+from scaffold.model.action_messages import ActionMessages
 from scaffold.model.interface_syntax import Field, Section
 from scaffold.model.interface_values import FieldType
 from scaffold.model.interfaces import KINDS, Definitions, Interface
@@ -191,7 +192,7 @@ class MessageTypes:
     def _type_of_field(self, node: ast.Attribute) -> FieldType | MessageClass | None:
         owner = self.type_of(node.value)
         if owner is None:
-            return self._goal(node) or self._type_of_attribute(node)
+            return self._goal(node) or self._unwrapped(node) or self._type_of_attribute(node)
         field = owner.section.field(node.attr)
         return field.type if field else None
 
@@ -242,6 +243,20 @@ class MessageTypes:
         found = self.module.index.lookup(node.value.id, node.value)
         bindings = found[1] if found else ()
         return self._goal_handles.get(bindings[0].node) if len(bindings) == 1 else None
+
+    @cached_property
+    def action_messages(self) -> ActionMessages:
+        """What action clients are given."""
+        return ActionMessages(self.facts)
+
+    def _unwrapped(self, node: ast.Attribute) -> MessageClass | None:
+        """Return the part of an action for ``message.feedback`` and ``future.result().result``."""
+        if node.attr not in {"feedback", "result"}:
+            return None
+        found = self.action_messages.wrapped(node.value)
+        if found is None or found.field != node.attr:
+            return None
+        return self._class_of_endpoint(found.client, found.part)
 
     # -- parameters of callbacks
 
