@@ -581,6 +581,8 @@ NAMES: tuple[str, ...] = (
     "if f:\n\n    def f():\n        x = 1\n        del x\n",
     "import a\nimport a as b\n\nb()\n",
     "import a\nimport a as b\n",
+    "import a.b as c\n\n\ndef f(c):\n    c()\n",
+    "import a\nimport a as a\nimport b.c\nimport b.c as d\n\nd()\n",
     "import a\nimport a.b as c\n\nc()\n",
     "x = 1\n\n\ndef f():\n    print(x)\n    print(x + x)\n    x = x * 2\n",
     "x = 1\n\n\ndef f(a):\n    print(x)\n    for x in x:\n        a(x)\n",

@@ -81,8 +81,8 @@ class _Stricter:
             return said.line not in self._tuple_formats
         if said.code == "F821" and (said.line, said.column) in self._conditional_deletions:
             return True
-        if said.code == "F401" and said.message.split("`")[1:2] != []:
-            return said.message.split("`")[1] in self._used_by_alias
+        if said.code == "F401":
+            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._by_alias
         rival = {"F502": "F506", "F523": "F525"}.get(said.code)
         return (said.line, rival) in self._codes
 
@@ -97,7 +97,7 @@ class _Stricter:
         }
 
     @cached_property
-    def _used_by_alias(self) -> set[str]:
+    def _by_alias(self) -> set[tuple[int, str]]:
         return local_names.used_by_alias(self._text)
 
     @cached_property

@@ -13,25 +13,27 @@ _Inner = (*Function, ast.Lambda, ast.ClassDef, ast.ListComp, ast.SetComp, ast.Di
 _Conditional = (ast.If, ast.While)
 
 
-def used_by_alias(text: PythonText) -> set[str]:
-    """Return the modules whose other name is used at the top of the file.
+def used_by_alias(text: PythonText) -> set[tuple[int, str]]:
+    """Return the lines and modules of imports that another name of the module speaks for.
 
-    ``import a`` counts as used where ``import a as b`` is.
+    ``import a`` counts as used where ``import a as b`` is, both at the top of the file.
     """
     if " as " not in text.text or text.tree is None:
         return set()
-    aliases = {
-        alias.asname: alias.name
+    imports = [
+        (node.lineno, alias)
         for node in text.tree.body
         if isinstance(node, ast.Import)
         for alias in node.names
-        if alias.asname not in {None, alias.name}
-    }
-    return {
+        if "." not in alias.name
+    ]
+    aliases = {alias.asname: alias.name for _, alias in imports if alias.asname != alias.name}
+    used = {
         aliases[node.id]
         for node in text.nodes
         if isinstance(node, ast.Name) and node.id in aliases and isinstance(node.ctx, ast.Load)
     }
+    return {(line, one.name) for line, one in imports if not one.asname and one.name in used}
 
 
 def at_last_use(text: PythonText, finding: Finding) -> Finding:
