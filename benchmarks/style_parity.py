@@ -118,11 +118,12 @@ def union(flake8: Iterable[Finding], pep257: Iterable[Finding]) -> set[Finding]:
 def without_lines(mine: set[Finding], theirs: set[Finding]) -> set[Finding]:
     """Drop the line of a file that cannot be parsed where the linters have none.
 
-    That is so when a ``# noqa`` on that line silences flake8: ament_pep257 says it alone.
+    That is so for links to nothing, and when a ``# noqa`` on that line silences flake8, so that
+    ament_pep257 says it alone.
     """
     lineless = {path for path, line, _ in theirs if not line}
     return {
-        (path, 0 if path in lineless and code == "E999" else line, code)
+        (path, 0 if path in lineless and code in ("E999", "E902") else line, code)
         for path, line, code in mine
     }
 
@@ -137,7 +138,7 @@ class WholeTree(DiskTree):
         names = (
             path for path in root.rglob("*") if path.suffix == ".py" or path.name == "AMENT_IGNORE"
         )
-        return sorted(str(path.relative_to(root)) for path in names if path.is_file())
+        return sorted(str(path.relative_to(root)) for path in names if not path.is_dir())
 
 
 def ours(directory: Path) -> set[Finding]:

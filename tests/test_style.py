@@ -178,6 +178,15 @@ def test_selection_of_files(tmp_path: Path) -> None:
     assert chosen == {"a.py": both, "sub/b.py": both, "off/e.py": PEP257, "off/deep/f.py": PEP257}
 
 
+def test_links_to_nothing_cannot_be_read(tmp_path: Path) -> None:
+    (tmp_path / "a.py").symlink_to("gone.py")
+    real = {(found.path, found.code) for found in oracles.ament_flake8(tmp_path)}
+    assert real == {("a.py", "E902")}
+    (said,) = check(Package.at(tmp_path))
+    assert (said.location.path, said.location.line, said.code) == ("a.py", 1, "E902")
+    assert said.message == "the file cannot be read: it links to nothing"
+
+
 def test_ruff_configuration_of_the_user_is_not_read(tmp_path: Path) -> None:
     (tmp_path / "a.py").write_text("import os\n")
     (tmp_path / "ruff.toml").write_text('exclude = ["*.py"]\nlint.ignore = ["ALL"]\n')

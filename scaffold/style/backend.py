@@ -45,6 +45,12 @@ class _File:
         self.findings: list[Finding] | None = None
 
 
+def _unread(path: str, data: bytes, linters: int, why: str) -> _File:
+    file = _File(path, "", data, linters)
+    file.findings = [Finding("E902", 1, 1, why, linters=linters)]
+    return file
+
+
 class StyleCheck:
     """Checks the Python files of packages; ruff runs in the background from the start."""
 
@@ -112,17 +118,18 @@ class StyleCheck:
 
     def _read(self, package: Package) -> list[_File]:
         files: list[_File] = []
-        for path, linters in select(package.tree.files).items():
+        links = getattr(package.tree, "broken_links", ())
+        for path, linters in select((*package.tree.files, *links)).items():
             try:
                 data = package.tree.read(path)
-            except OSError:
+            except OSError as error:
+                why = "it links to nothing" if path in links else error.strerror or "it is no file"
+                files.append(_unread(path, b"", linters, f"the file cannot be read: {why}"))
+                continue
+            if why_unread(path, data):
+                files.append(_unread(path, data, linters, "the file is too large to be checked"))
                 continue
             file = _File(path, "", data, linters)
-            if why_unread(path, data):
-                said = "the file is too large to be checked"
-                file.findings = [Finding("E902", 1, 1, said, linters=linters)]
-                files.append(file)
-                continue
             if self._cache is not None:
                 file.key = self._cache.key(path.rpartition("/")[2], linters, data)
                 file.findings = self._cache.get(file.key)
