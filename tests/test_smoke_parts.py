@@ -273,6 +273,19 @@ def test_traceback() -> None:
     assert output.traceback("nothing of the kind") is None
 
 
+def test_traceback_that_python_ignores_is_none() -> None:
+    ignored = (
+        "Exception ignored in: <function Future.__del__ at 0x7f327814e0c0>\n"
+        "Traceback (most recent call last):\n"
+        '  File "rclpy/task.py", line 56, in __del__\n'
+        "AttributeError: 'Task' object has no attribute '_exception'\n"
+    )
+    assert output.traceback(ignored) is None
+    trace = output.traceback(CHAINED + ignored)
+    assert trace is not None
+    assert output.exception(trace) == "ValueError: second"
+
+
 def test_traceback_of_who_only_called_is_left_out() -> None:
     text = (
         "Traceback (most recent call last):\n"

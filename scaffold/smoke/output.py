@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 from pathlib import Path
 
 SHOWN_LINES = 24
@@ -56,8 +57,15 @@ def read(path: Path, start: int = 0) -> str:
 
 
 def traceback(text: str) -> str | None:
-    """Return the last Python traceback that tells a cause."""
-    for part in reversed(text.split(TRACEBACK)[1:]):
+    """Return the last Python traceback that tells a cause.
+
+    What Python itself calls ignored is none, such as a destructor of rclpy that a signal came upon
+    while its object was half made.
+    """
+    parts = text.split(TRACEBACK)
+    for before, part in reversed([*pairwise(parts)]):
+        if before.rstrip().rpartition("\n")[2].startswith("Exception ignored in"):
+            continue
         lines = part.splitlines()
         end = 1
         while end < len(lines) and (not lines[end].strip() or lines[end][0].isspace()):
