@@ -960,3 +960,13 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
         "test_talker": (2, 0),
         "two_runs": (1, 0),
     }
+
+
+def test_the_licence_of_the_repository_is_seen(
+    demo: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What is added in memory still stands where the package does."""
+    (demo / "LICENSE").unlink(missing_ok=True)
+    (demo.parent / "LICENSE").touch()
+    assert add(demo, "subscriber", "listener", "--diff") == 0
+    assert "LICENSE" not in capsys.readouterr().err

@@ -40,7 +40,7 @@ class LicenceFileMissing(Rule):
         names = [path for path in package.files if "/" not in path]
         if any(name.upper().startswith(NAMES) for name in names):
             return
-        if package.root is not None and self._is_above(package, package.root):
+        if package.place is not None and self._is_above(package, package.place):
             return
         yield self.report(package.start_of("package.xml"), "there is no LICENSE file here or above")
 

@@ -92,7 +92,7 @@ class RepositoryFileMissing(Rule):
 def _is_repository(package: Package) -> bool:
     if package.has(".git") or package.has(".hg"):
         return True
-    root = package.root
+    root = package.place
     places = [os.path.join(root, name) for name in (".git", ".hg")] if root is not None else []
     return any(package.outside.exists(place) for place in places)
 

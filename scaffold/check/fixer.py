@@ -40,6 +40,8 @@ class Overlay:
 
     def __init__(self, base: Tree) -> None:
         self._base = base
+        self.place: str | None = getattr(base, "root", None)
+        """The directory of what is below the changes, if it is on disk."""
         self.changed: dict[str, bytes] = {}
         self.removed: set[str] = set()
         self.executable: set[str] = set()

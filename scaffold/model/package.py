@@ -108,6 +108,11 @@ class Package:
         return self.tree.root if isinstance(self.tree, DiskTree) else None
 
     @property
+    def place(self) -> str | None:
+        """Where it stands on disk, also if changes to it are in memory; see ``root``."""
+        return getattr(self.tree, "place", self.root)
+
+    @property
     def files(self) -> tuple[str, ...]:
         """All files, relative to the root."""
         return tuple(self.tree.files)
