@@ -6,10 +6,15 @@ import os
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # The time of an example tells about the machine; the gate gives the same verdict every time.
-settings.register_profile("repository", deadline=None, derandomize="CI" in os.environ)
+settings.register_profile(
+    "repository",
+    deadline=None,
+    derandomize="CI" in os.environ,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 settings.load_profile("repository")
 
 

@@ -15,6 +15,8 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 
+from tests import PATIENCE
+
 REQUIRE_ALL = "SCAFFOLD_REQUIRE_ALL"
 """Environment variable: with ``1`` a test whose system linter is not installed fails."""
 
@@ -29,8 +31,6 @@ SYSTEM_LINTERS = {
 """The linters that no Python index has, and the packages of Debian and Ubuntu with them."""
 
 _GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
-_TIMEOUT = 300.0
-"""Seconds after which a linter hangs."""
 
 
 class Finding(NamedTuple):
@@ -82,7 +82,7 @@ def files_rejected_by_xmllint(directory: Path) -> set[str]:
         capture_output=True,
         text=True,
         errors="replace",
-        timeout=_TIMEOUT,
+        timeout=PATIENCE,
         check=False,
     )
     if "Traceback" in done.stderr:
@@ -160,7 +160,7 @@ def _run(
             capture_output=True,
             text=True,
             errors="replace",
-            timeout=_TIMEOUT,
+            timeout=PATIENCE,
             check=False,
         )
         if report.exists():

@@ -13,11 +13,10 @@ from textwrap import dedent
 from typing import IO, NamedTuple
 
 from scaffold.generate.payload import Payload
+from tests import PATIENCE
 
 MESSAGES = 3
 """That are received of each publisher."""
-TIMEOUT = 60.0
-"""Seconds that a publisher has; discovery is slow on a busy machine."""
 
 OBSERVER = dedent("""\
     import json
@@ -164,7 +163,7 @@ def _run(
         while waiting or running:
             while waiting and len(running) < jobs:
                 one = waiting.pop()
-                deadline = time.monotonic() + TIMEOUT
+                deadline = time.monotonic() + PATIENCE
                 running[one.topic] = (one, _start(one, variables, scratch), deadline)
             with news:
                 news.wait_for(lambda: any(topic in reports for topic in running), timeout=1.0)

@@ -244,11 +244,22 @@ GOOD = {
     "once": ONCE,
 }
 
+LATE_ONCE = talker(
+    "/late_once",
+    imports="import os\nimport time",
+    begin="""\
+    self.is_late = not os.path.exists('../has_run')
+    open('../has_run', 'a').close()
+    """,
+    tick="time.sleep(0.2 * self.is_late)",
+)
+
 BAD = {
     "crashes": CRASHES,
     "crashes_later": CRASHES_LATER,
     "hangs": HANGS,
     "ignores": IGNORES_SIGINT,
+    "late_once": LATE_ONCE,
     "parent": PARENT,
     "silent": talker("/silent", tick="return"),
     "slow": talker("/slow", imports="import time", tick="time.sleep(0.2)"),

@@ -331,7 +331,7 @@ def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[st
             "+install(PROGRAMS scripts/hello.py scripts/talker.py  # the first one",
             "+if(BUILD_TESTING)",
             "+  find_package(ament_cmake_pytest REQUIRED)",
-            "+  ament_add_pytest_test(test_talker test/test_talker.py)",
+            "+  ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300)",
             "+endif()",
             "+",
             "+  <exec_depend>std_msgs</exec_depend>",
@@ -445,7 +445,8 @@ def test_what_cannot_be_edited_is_said(tmp_path: Path, capsys: pytest.CaptureFix
     said = capsys.readouterr().err
     assert (
         f"    {demo}/CMakeLists.txt: find_package(ament_cmake_pytest REQUIRED) and "
-        "ament_add_pytest_test(test_talker test/test_talker.py) inside if(BUILD_TESTING)\n"
+        "ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300) "
+        "inside if(BUILD_TESTING)\n"
         "        because there is no ament_package() at the top level\n"
     ) in said
 

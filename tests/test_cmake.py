@@ -174,7 +174,7 @@ TEXTS = st.lists(st.sampled_from([*PIECES[0], *PIECES[1], *PIECES[2]]), max_size
 
 
 @with_cmake
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
 @given(TEXTS)
 @example("set(A b)#[[c]]set(D e)")
 @example("set(A [[b]]c)")

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests import PATIENCE
+
 MAKEFILE = Path(__file__).parent.parent / "Makefile"
 ABSENT = re.compile(
     r"git|cmake|ninja|colcon|ament|python|(.*-)?(cc|gcc|g\+\+|c\+\+|clang)(\W|\d|$)"
@@ -48,7 +50,7 @@ def run(arguments: list[str], directory: Path, programs: Path) -> str:
         env={"HOME": str(directory), "PATH": str(programs)},
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=PATIENCE,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

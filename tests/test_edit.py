@@ -183,7 +183,7 @@ def test_a_program_and_a_test_get_blocks_above_the_end() -> None:
 
         if(BUILD_TESTING)
           find_package(ament_cmake_pytest REQUIRED)
-          ament_add_pytest_test(test_talker test/test_talker.py)
+          ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300)
         endif()
 
         # the end
@@ -290,8 +290,9 @@ def test_a_test_joins_the_others() -> None:
     )
     before = source("CMakeLists.txt", text)
     outcome = cmake_edit(text, Addition("demo", test="test/test_b.py"))
-    assert added(before, outcome.source) == ("  ament_add_pytest_test(test_b test/test_b.py)\n")
-    assert outcome.source.lines[7] == "  ament_add_pytest_test(test_b test/test_b.py)"
+    line = "  ament_add_pytest_test(test_b test/test_b.py TIMEOUT 300)"
+    assert added(before, outcome.source) == f"{line}\n"
+    assert outcome.source.lines[7] == line
 
 
 @pytest.mark.parametrize(
@@ -313,7 +314,7 @@ def test_ament_auto_finds_what_tests_need() -> None:
     )
     outcome = cmake_edit(text, Addition("demo", test="test/test_b.py"))
     assert added(Source("CMakeLists.txt", text), outcome.source) == (
-        "  ament_add_pytest_test(test_b test/test_b.py)\n"
+        "  ament_add_pytest_test(test_b test/test_b.py TIMEOUT 300)\n"
     )
 
 
@@ -371,7 +372,8 @@ def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> Non
         "install(PROGRAMS scripts/talker.py DESTINATION lib/${PROJECT_NAME})",
         (
             "find_package(ament_cmake_pytest REQUIRED) and "
-            "ament_add_pytest_test(test_talker test/test_talker.py) inside if(BUILD_TESTING)"
+            "ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300) "
+            "inside if(BUILD_TESTING)"
         ),
     ]
     assert all(reason in one.reason and one.is_needed for one in outcome.by_hand)
@@ -381,7 +383,7 @@ def test_what_only_tests_would_install_is_left_to_the_user() -> None:
     early = "if(NOT BUILD_TESTING)\n  ament_package()\n  return()\nendif()\n"
     text = f"project(demo)\nfind_package(ament_cmake REQUIRED)\n{early}ament_package()\n"
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
-    assert "ament_add_pytest_test(test_talker test/test_talker.py)" in outcome.source.text
+    assert "(test_talker test/test_talker.py TIMEOUT 300)" in outcome.source.text
     assert [one.reason for one in outcome.by_hand] == [
         "what stands at the end is not always reached"
     ]

@@ -23,6 +23,7 @@ from scaffold.model.package_programs import programs_of
 from scaffold.model.share_files import share_of
 from scaffold.model.source import Source
 from scaffold.model.yaml_tree import Mapping, Scalar
+from tests import PATIENCE
 
 LAUNCH = """\
 import os
@@ -240,7 +241,7 @@ def test_types_are_those_of_rcl(tmp_path: Path) -> None:
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=PATIENCE,
     )
     file = parameter_files.parameter_file(Package.of({"a.yaml": path.read_text()}), "a.yaml")
     assert file is not None

@@ -24,6 +24,7 @@ from scaffold.model.python_module import PythonModule
 from scaffold.model.qos import PROFILES
 from scaffold.model.source import Location, Source
 from scaffold.model.values import UNKNOWN, Unknown
+from tests import PATIENCE
 
 TALKER = '''\
 """Publish greetings."""
@@ -954,7 +955,11 @@ def rclpy_says() -> Any:  # noqa: ANN401  JSON
     if importlib.util.find_spec("rclpy") is None:
         pytest.skip("rclpy is not installed")
     done = subprocess.run(
-        [sys.executable, "-c", ASK_RCLPY], check=True, capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", ASK_RCLPY],
+        check=True,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
     )
     return json.loads(done.stdout)
 

@@ -19,6 +19,7 @@ from scaffold.check import registry
 from scaffold.check.session import all_rules
 from scaffold.cli.main import VERBS
 from scaffold.generate import template
+from tests import PATIENCE
 from tests.oracles import system_environment
 
 ROOT = Path(__file__).parent.parent
@@ -102,7 +103,7 @@ def run(*command: str | Path, cwd: Path = ROOT) -> str:
         env=system_environment(),
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=PATIENCE,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

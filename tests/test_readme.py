@@ -16,6 +16,8 @@ from typing import NamedTuple
 
 import pytest
 
+from tests import PATIENCE
+
 README = Path(__file__).parent.parent / "README.md"
 
 
@@ -90,7 +92,7 @@ def run(command: str, directory: Path) -> str:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        timeout=300,
+        timeout=PATIENCE,
         check=False,
     )
     return done.stdout

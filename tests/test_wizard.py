@@ -15,6 +15,7 @@ import pytest
 
 from scaffold.cli.answer_text import quoted
 from scaffold.cli.main import main
+from tests import PATIENCE
 
 pexpect = pytest.importorskip("pexpect")
 ENTER, DOWN = "\r", "\x1b[B"
@@ -41,7 +42,7 @@ class Terminal:
             sys.executable,
             ["-m", "scaffold", "new", *arguments],
             encoding="utf-8",
-            timeout=30,
+            timeout=PATIENCE,
             dimensions=size,
             env={**os.environ, **more},
         )

@@ -35,10 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--timeout",
         type=_seconds,
-        default=10.0,
+        default=20.0,
         metavar="S",
         help="seconds from the start of an executable in which its node has to appear and its "
-        "first messages have to come (default: 10)",
+        "first messages have to come (default: 20)",
     )
     parser.add_argument(
         "--build-timeout",

@@ -104,6 +104,18 @@ def compare(
     return [*problems, *_not_offered(expectation, observation)], notes
 
 
+def wrong_rates(expectation: Expectation, observation: Observation) -> list[Problem]:
+    """Return the problems that a machine may have made that was too busy to be in time."""
+    return [
+        problem
+        for publication in expectation.publications
+        if (topic := observation.topic(publication.topic)) is not None
+        and topic.count
+        and publication.rate_hz
+        for problem in _wrong_rate(publication, topic, _said(publication, expectation))
+    ]
+
+
 def _not_offered(expectation: Expectation, observation: Observation) -> Iterator[Problem]:
     """Yield the services and actions that are missing, or of another type."""
     for offer in expectation.offers:

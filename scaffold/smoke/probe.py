@@ -46,7 +46,7 @@ _UNWATCHED = ("/rosout", "/parameter_events")
 
 
 class Topic:
-    """What was received on a topic; times are those of ``time.time``, in seconds."""
+    """What was received on a topic; times of sending are those of ``time.time``, in seconds."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -178,7 +178,7 @@ class Probe:
 
     def _subscribe(self, name: str, topic: Topic, message_type: Ros) -> Ros:
         def receive(data: bytes, info: dict[str, int]) -> None:
-            topic.last = _arrival(info)
+            topic.last = _sending(info)
             topic.count += 1
             if topic.count == 1:
                 topic.first = topic.last
@@ -272,9 +272,12 @@ def say(event: dict[str, object]) -> None:
         os._exit(1)
 
 
-def _arrival(info: dict[str, int]) -> float:
-    """Return when a message came, as the middleware knows it: this process may be late."""
-    stamp = info.get("received_timestamp") or info.get("source_timestamp")
+def _sending(info: dict[str, int]) -> float:
+    """Return when a message was sent, as the middleware knows it.
+
+    This process may be late, and what is kept for late subscribers comes all at once.
+    """
+    stamp = info.get("source_timestamp") or info.get("received_timestamp")
     return stamp / 1e9 if stamp else time.time()
 
 

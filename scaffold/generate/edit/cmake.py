@@ -15,6 +15,8 @@ from scaffold.model.source import Source
 PYTEST = "ament_cmake_pytest"
 PYTHON = "ament_cmake_python"
 ADD_PYTEST = "ament_add_pytest_test"
+TEST_TIMEOUT = 300
+"""Seconds that a test file gets: the 60 of ament are not enough for nodes on a busy machine."""
 INSTALL_PYTHON = "ament_python_install_package"
 _NAME = "${PROJECT_NAME}"
 
@@ -132,7 +134,7 @@ class Editor:
         if runs_test(self.lists, path):
             return
         name = path.rpartition("/")[2].removesuffix(".py")
-        line = f"{ADD_PYTEST}({name} {path})"
+        line = f"{ADD_PYTEST}({name} {path} TIMEOUT {TEST_TIMEOUT})"
         by_hand = f"find_package({PYTEST} REQUIRED) and {line} inside if(BUILD_TESTING)"
         if self.refused(by_hand, is_test=True):
             return
