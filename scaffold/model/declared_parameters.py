@@ -49,13 +49,13 @@ def declared_by(owner: NodeOwner, package: Package) -> Declared:
     complete = True
     current: NodeOwner | None = owner
     while current is not None:
-        is_dynamic = "dynamic_typing" in current.facts.module.source.text
+        is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
         for parameter in (*current.parameters, *_from_outside(package).get(current, ())):
             name = parameter.name
             if not isinstance(name, str) or parameter.has_unknown_arguments:
                 complete = False
                 continue
-            kind = None if is_dynamic else _fixed_type(parameter)
+            kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
             types[name] = kind if name not in types or types[name] == kind else None
             places.setdefault(name, parameter)
         complete = complete and not current.declares_automatically and not _escapes(current)
@@ -163,8 +163,16 @@ def own_nodes(package: Package) -> tuple[list[NodeOwner], bool]:
     return package.remember("own_nodes", find)
 
 
-def _fixed_type(parameter: Parameter) -> str | None:
-    """Return the type that overrides must have; an empty list has none that anyone expects."""
+def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
+    """Return the type that overrides must have; an empty list has none that anyone expects.
+
+    Args:
+        parameter: The parameter.
+        may_be_dynamic: Whether a descriptor that is not known may leave the type open.
+    """
+    descriptor = parameter.descriptor
+    if descriptor.is_dynamic if descriptor is not None else may_be_dynamic:
+        return None
     if "ignore_override" in parameter.arguments or parameter.type in {"byte_array", "not_set"}:
         return None
     return parameter.type

@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import parameter_type
-from scaffold.model.parameter_files import text_type
+from scaffold.model.parameter_files import number_in, text_type
 from scaffold.model.values import is_known
 from scaffold.record import NamedTuple
 
@@ -20,6 +20,8 @@ class GivenValue(NamedTuple):
     type: str
     text: str
     """For people."""
+    number: float | None = None
+    """What it is, if it is a number."""
 
 
 def value_given(launch: LaunchFile, node: ast.expr) -> GivenValue | None:
@@ -28,18 +30,22 @@ def value_given(launch: LaunchFile, node: ast.expr) -> GivenValue | None:
     A launch configuration is a text that launch reads as YAML, so ``10`` is an integer.
     """
     call = launch.call_of(node)
+    kind: str | None
     if call is not None:
         if call.kind != "LaunchConfiguration":
             return None
         default = launch.default_of(node)
         if not isinstance(default, str) or _is_more_than_a_word(default):
             return None
-        return GivenValue(text_type(default), f"the default {default!r} of the launch argument")
+        kind = text_type(default)
+        text = f"the default {default!r} of the launch argument"
+        return GivenValue(kind, text, number_in(default, kind))
     value = launch.evaluator.evaluate(node)
     if isinstance(value, list | tuple):
         return _list_given(value)
     kind = parameter_type(value) if is_known(value) else None
-    return GivenValue(kind, repr(value)) if kind else None
+    number = value if isinstance(value, int | float) and kind != "bool" else None
+    return GivenValue(kind, repr(value), number) if kind else None
 
 
 def _list_given(value: list[object] | tuple[object, ...]) -> GivenValue | None:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.descriptors import descriptor_of
 from scaffold.model.node_entities import (
     ActionClient,
     ActionServer,
@@ -23,9 +24,10 @@ from scaffold.model.node_entities import (
     Timer,
 )
 from scaffold.model.node_parameters import SIGNATURES as DECLARATIONS
+from scaffold.model.node_parameters import Declaration
 from scaffold.model.node_values import NOTE
 from scaffold.model.qos import qos_of
-from scaffold.model.values import UNKNOWN, Unknown
+from scaffold.model.values import UNKNOWN
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
@@ -198,24 +200,20 @@ class Creation:
         return self._facts.callback(argument.node) if argument else None
 
     def _declared(self, created: Created, method: str) -> Iterator[Parameter]:
-        for prefix, name, value in self._facts.declarations.declarations_in(created.call, method):
-            yield self._parameter(created, prefix, name, value)
+        for one in self._facts.declarations.declarations_in(created.call, method):
+            yield self._parameter(created, one)
 
-    def _parameter(
-        self,
-        created: Created,
-        prefix: str | Unknown,
-        name: ast.expr | None,
-        value: ast.expr | None,
-    ) -> Parameter:
+    def _parameter(self, created: Created, given: Declaration) -> Parameter:
+        name, value = given.name, given.value
+        is_open = created.has_unknown_arguments
         return Parameter(
             created,
-            name=self._facts.declarations.full_name(prefix, name),
-            name_node=name,
+            given,
+            name=self._facts.declarations.full_name(given.prefix, name),
             name_location=self._facts.module.location(name) if name else created.location,
             default=self._facts.evaluator.evaluate(value),
-            default_node=value,
             declared_type=self._type_named(value),
+            descriptor=None if is_open else descriptor_of(self._facts, given.descriptor),
         )
 
     def _type_named(self, node: ast.expr | None) -> str | None:

@@ -10,7 +10,9 @@ from scaffold.model.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.model.descriptors import Descriptor
     from scaffold.model.node_owners import NodeOwner
+    from scaffold.model.node_parameters import Declaration
     from scaffold.model.scopes import FunctionNode
     from scaffold.model.source import Location
 
@@ -218,25 +220,29 @@ class Parameter(Entity):
     def __init__(
         self,
         created: Created,
+        given: Declaration,
         *,
         name: str | Unknown,
-        name_node: ast.expr | None,
         name_location: Location,
         default: object,
-        default_node: ast.expr | None,
         declared_type: str | None,
+        descriptor: Descriptor | None,
     ) -> None:
         super().__init__(created)
         self.name = name
         """With the namespace of ``declare_parameters`` in front."""
-        self.name_node = name_node
+        self.name_node = given.name
         self.name_location = name_location
         self.default = default
         """Evaluated; ``UNKNOWN`` also when none is given."""
-        self.default_node = default_node
+        self.default_node = given.value
         """``None`` when no default is given."""
         self.declared_type = declared_type
         """The type, if that is given in place of a default: ``Parameter.Type.DOUBLE``."""
+        self.descriptor_node = given.descriptor
+        """``None`` when no descriptor is given."""
+        self.descriptor = descriptor
+        """``None`` when it is not known what it says."""
 
     @property
     def type(self) -> str | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.values import UNKNOWN, Unknown, same
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner
@@ -22,6 +23,16 @@ SIGNATURES = {
 }
 
 
+class Declaration(NamedTuple):
+    """What one parameter is declared with."""
+
+    prefix: str | Unknown
+    """The namespace of ``declare_parameters``."""
+    name: ast.expr | None
+    value: ast.expr | None
+    descriptor: ast.expr | None
+
+
 class Declarations:
     """The parameters that a file declares."""
 
@@ -29,23 +40,22 @@ class Declarations:
         self._facts = facts
         self._is_indexing = False
 
-    def declarations_in(
-        self, call: ast.Call, method: str
-    ) -> Iterator[tuple[str | Unknown, ast.expr | None, ast.expr | None]]:
-        """Yield prefix, name and default of the parameters that a call declares."""
+    def declarations_in(self, call: ast.Call, method: str) -> Iterator[Declaration]:
+        """Yield the parameters that a call declares."""
         given = dict(zip(SIGNATURES[method], call.args, strict=False))
         given.update({word.arg: word.value for word in call.keywords if word.arg})
         if method == "declare_parameter":
-            yield "", given.get("name"), given.get("value")
+            yield Declaration("", given.get("name"), given.get("value"), given.get("descriptor"))
             return
         prefix = self._facts.evaluator.text(given["namespace"]) if "namespace" in given else ""
         listed = given.get("parameters")
         for item in self._facts.evaluator.elements(listed).items if listed else ():
             if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
-                name, *rest = item.node.elts
-                yield prefix, name, rest[0] if rest else None
+                parts = item.node.elts
+                value, descriptor = (parts[at] if len(parts) > at else None for at in (1, 2))
+                yield Declaration(prefix, parts[0], value, descriptor)
             else:
-                yield UNKNOWN, None, None
+                yield Declaration(UNKNOWN, None, None, None)
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with the namespace in front."""
@@ -84,9 +94,9 @@ class Declarations:
             func = self._facts.method_of(call)
             if func is not None and func.attr in SIGNATURES:
                 owner = self._facts.owner_of(func.value)
-                for prefix, name, value in self.declarations_in(call, func.attr):
-                    text = self.full_name(prefix, name)
+                for one in self.declarations_in(call, func.attr):
+                    text = self.full_name(one.prefix, one.name)
                     if isinstance(text, str):
-                        found.setdefault(text, []).append((owner, value))
+                        found.setdefault(text, []).append((owner, one.value))
         self._is_indexing = False
         return found

@@ -237,6 +237,22 @@ def text_type(text: str) -> str:
     return "double" if is_double else "string"
 
 
+def number_of(node: YamlNode) -> float | None:
+    """Return the number that a value is for rcl; an integer stays one."""
+    kind = scalar_type(node) if isinstance(node, Scalar) else None
+    return number_in(node.text, kind) if kind and isinstance(node, Scalar) else None
+
+
+def number_in(text: str, kind: str) -> float | None:
+    """Return the number that a word of a type is; ``None`` for other types, and odd notations."""
+    if kind == "integer":
+        return _integer(text)
+    try:
+        return float(text) if kind == "double" else None
+    except ValueError:
+        return None
+
+
 def value_type(node: YamlNode) -> str | None:
     """Return the type of a value as rcl sees it: ``double``, ``string_array`` ..."""
     if isinstance(node, Scalar):
