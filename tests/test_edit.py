@@ -295,6 +295,18 @@ def test_a_test_joins_the_others() -> None:
     assert outcome.source.lines[7] == line
 
 
+def test_a_long_test_goes_over_two_lines() -> None:
+    name = "x" * 22
+    outcome = cmake_edit(dedent(PLAIN), Addition("demo", test=f"test/{name}_test.py"))
+    assert (
+        f"  ament_add_pytest_test({name}_test test/{name}_test.py TIMEOUT 300)\n"
+    ) in outcome.source.text
+    outcome = cmake_edit(dedent(PLAIN), Addition("demo", test=f"test/{name}x_test.py"))
+    assert (
+        f"  ament_add_pytest_test({name}x_test test/{name}x_test.py\n    TIMEOUT 300)\n"
+    ) in outcome.source.text
+
+
 @pytest.mark.parametrize(
     "call",
     [

@@ -416,7 +416,7 @@ def test_every_type_is_published(
     said = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
     received = {
         name.removeprefix("cmake_brief_"): messages
-        for name, messages in json.loads(said.stdout).items()
+        for name, messages in json.loads(said.stdout.splitlines()[-1]).items()
     }
     for name in ("int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "char"):
         assert_counts([int(value) for value in received[name]])

@@ -17,6 +17,8 @@ PYTHON = "ament_cmake_python"
 ADD_PYTEST = "ament_add_pytest_test"
 TEST_TIMEOUT = 300
 """Seconds that a test file gets: the 60 of ament are not enough for nodes on a busy machine."""
+LONG_CALL = 98
+"""Characters of a call, indented by two, from which on it goes over two lines."""
 INSTALL_PYTHON = "ament_python_install_package"
 _NAME = "${PROJECT_NAME}"
 
@@ -140,6 +142,8 @@ class Editor:
             return
         if not self.lists.finds_tests_automatically:
             self.edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
+        if len(line) > LONG_CALL:
+            line = line.replace(" TIMEOUT", f"{self.lists.source.newline}    TIMEOUT")
         self.edit(_behind_last_test(self.lists, line))
         if not runs_test(self.lists, path):
             self.edit(cmake_edit.insert_in_testing(self.lists, [line]))
