@@ -7,22 +7,8 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch_signatures import signature
 
-_PROCESS = (
-    "cmd prefix cwd env additional_env shell sigterm_timeout sigkill_timeout emulate_tty output "
-    "output_format cached_output log_cmd on_exit respawn respawn_delay respawn_max_retries "
-    "process_description condition"
-)
-_NODE = "executable package name namespace exec_name parameters remappings ros_arguments arguments"
-_KEYWORDS = {
-    "Node": f"{_NODE} {_PROCESS}",
-    "ComposableNode": (
-        "package plugin name namespace parameters remappings extra_arguments condition"
-    ),
-    "DeclareLaunchArgument": "name default_value description choices condition",
-    "IncludeLaunchDescription": "launch_description_source launch_arguments condition",
-    "LaunchConfiguration": "variable_name default",
-}
 _OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n\n\n"
@@ -57,12 +43,12 @@ class KeywordUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for launch in LaunchFile.of_package(package):
-            for call in launch.find(*_KEYWORDS):
-                known = _KEYWORDS[call.kind].split()
-                for name, word in call.words.items():
-                    if name in known or name in _OLD:
+            for call in launch.calls:
+                known = signature(call.kind)
+                for name, word in call.words.items() if known is not None else ():
+                    if known is None or name in known.names or name in _OLD:
                         continue
-                    near = get_close_matches(name, known, 1, 0.6)
+                    near = get_close_matches(name, sorted(known.names), 1, 0.6)
                     hint = f"; {near[0]!r} is meant" if near else ""
                     start, _ = launch.module.span(word)
                     at = launch.module.source.location(start, start + len(name))

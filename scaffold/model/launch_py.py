@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.constants import Evaluator
+from scaffold.model.launch_signatures import signature
 from scaffold.model.source import Location
 from scaffold.model.values import UNKNOWN, PathValue, Unknown, join_paths
 from scaffold.record import NamedTuple
@@ -26,17 +27,8 @@ SHARE = "/<share>/"
 _MODULES = ("launch.", "launch_ros.", "launch_xml.", "launch_yaml.", "ament_index_python.")
 _ROOTS = frozenset({"launch", "launch_ros"})
 _POSITIONAL: Mapping[str, tuple[str, ...]] = {
-    "DeclareLaunchArgument": ("name",),
-    "FindPackageShare": ("package",),
-    "IncludeLaunchDescription": ("launch_description_source",),
-    "LaunchConfiguration": ("variable_name",),
-    "LaunchDescription": ("initial_entities",),
     "ParameterFile": ("param_file",),
     "ParameterValue": ("value",),
-    "PathJoinSubstitution": ("substitutions",),
-    "PushRosNamespace": ("namespace",),
-    "SetLaunchConfiguration": ("name", "value"),
-    "TextSubstitution": ("text",),
     "get_package_share_directory": ("package_name",),
     "get_package_share_path": ("package_name",),
 }
@@ -328,13 +320,15 @@ class LaunchFile:
 
 def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
     """Return the view of a call if it is one of launch's."""
-    names = module.qualified_names(node.func)
-    kinds = {name.rpartition(".")[2] for name in names if name.startswith(_MODULES)}
-    if len(kinds) != 1 or any(".events." in name for name in names):
+    called = module.qualified_names(node.func)
+    kinds = {name.rpartition(".")[2] for name in called if name.startswith(_MODULES)}
+    if len(kinds) != 1 or any(".events." in name for name in called):
         return None
     kind = kinds.pop()
     words = {word.arg: word for word in node.keywords if word.arg}
-    given: dict[str, ast.expr] = dict(zip(_POSITIONAL.get(kind, ()), node.args, strict=False))
+    known = signature(kind)
+    names = known.positional if known is not None else _POSITIONAL.get(kind, ())
+    given: dict[str, ast.expr] = dict(zip(names, node.args, strict=False))
     given.update({name: word.value for name, word in words.items()})
     is_open = len(words) < len(node.keywords)
     is_open = is_open or any(isinstance(arg, ast.Starred) for arg in node.args)

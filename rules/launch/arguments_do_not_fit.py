@@ -1,0 +1,73 @@
+"""LF018: actions and substitutions get the arguments that they need, where they take them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch_signatures import signature
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import TimerAction\n"
+    "from launch.substitutions import PathJoinSubstitution\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    path = PathJoinSubstitution({})\n"
+    "    node = Node(package='talker', executable='node', parameters=[path])\n"
+    "    return LaunchDescription([TimerAction({}=1.0, actions=[node])])\n"
+)
+
+
+class ArgumentsDoNotFit(Rule):
+    """An action or a substitution lacks an argument, or gets one more than it takes.
+
+    **Why.** ``ros2 launch`` stops: ``TypeError: TimerAction.__init__() missing 1 required
+    keyword-only argument: 'period'``, ``LogInfo.__init__() takes 1 positional argument but 2 were
+    given``.
+
+    **Fix.** Give what is missing; give by name what is taken by name only; parts of a path are one
+    list.
+
+    **Source.** The modules of ``launch.actions``, ``launch.substitutions``,
+    ``launch.event_handlers``, ``launch.conditions`` and ``launch_ros.actions``.
+    """
+
+    code = "LF018"
+    name = "arguments-do-not-fit"
+    examples = (
+        Example("fitting", {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "period")}),
+        Example(
+            "two parts instead of a list",
+            {"launch/a.launch.py": _LAUNCH.format("'a', 'b'", "period")},
+            at=("launch/a.launch.py:8",),
+        ),
+        Example(
+            "no period",
+            {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "cancel_on_shutdown")},
+            at=("launch/a.launch.py:10",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.calls:
+                known = signature(call.kind)
+                if known is None or call.is_open:
+                    continue
+                count, most = len(call.call.args), len(known.positional)
+                if count > most and call.kind != "LaunchDescription":
+                    yield self.report(call, _too_many(call.kind, known.positional))
+                    continue
+                missing = [name for name in known.required if name not in call.given]
+                if missing and known.names.issuperset(call.words):
+                    names = " and ".join(f"{name}=..." for name in missing)
+                    yield self.report(call, f"{call.kind} needs {names}: TypeError")
+
+
+def _too_many(kind: str, positional: tuple[str, ...]) -> str:
+    if kind == "PathJoinSubstitution":
+        return "PathJoinSubstitution takes one list of parts: put them in [...]"
+    if not positional:
+        return f"{kind} takes arguments by name only: write the names"
+    one = "one argument" if len(positional) == 1 else f"{len(positional)} arguments"
+    return f"{kind} takes {one} without a name: {', '.join(positional)}"

@@ -1,0 +1,80 @@
+"""LF048: lists of actions hold actions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_entities import entities, what_it_is
+from scaffold.model.launch_py import LaunchFile
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
+    "from launch.event_handlers import OnProcessExit\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    name = LaunchConfiguration('name', default='a')\n"
+    "    node = Node(package='talker', executable='node', name=name)\n"
+    "    handler = OnProcessExit(target_action=node, on_exit=[])\n"
+    "    return LaunchDescription([{}])\n"
+)
+
+
+_ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "this is None"})
+"""What a handler takes instead of a list."""
+
+
+class NotAnAction(Rule):
+    """A list of actions holds something else.
+
+    **Why.** ``ros2 launch`` stops: ``'list' object has no attribute 'describe_sub_entities'``;
+    the same with ``'LaunchConfiguration'``, ``'OnProcessExit'`` or ``'NoneType'``.
+
+    **Fix.** ``*nodes`` for the items of a list; ``RegisterEventHandler(...)`` around a handler,
+    ``IncludeLaunchDescription(...)`` around a source; nothing for substitutions, which belong to
+    where they are used.
+
+    **Source.** ``launch/launch_description_entity.py``; ``launch/utilities``.
+    """
+
+    code = "LF048"
+    name = "not-an-action"
+    examples = (
+        Example(
+            "actions",
+            {"launch/a.launch.py": _LAUNCH.format("*[node], RegisterEventHandler(handler)")},
+        ),
+        Example(
+            "a list, a substitution, a handler",
+            {"launch/a.launch.py": _LAUNCH.format("[node],\n name,\n handler")},
+            at=(*(f"launch/a.launch.py:{line}" for line in (12, 13, 14)),),
+        ),
+        Example(
+            "a text, a class, None",
+            {"launch/a.launch.py": _LAUNCH.format("'node',\n Node,\n None")},
+            at=(*(f"launch/a.launch.py:{line}" for line in (12, 13, 14)),),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for item in entities(launch):
+                what = what_it_is(launch, item.node)
+                if what and not (item.is_alone and what in _ALONE):
+                    message = f"{what}, and {item.holder} takes actions{_hint(what)}"
+                    yield self.report(launch.location(item.node), message)
+
+
+def _hint(what: str) -> str:
+    """Return what to write instead."""
+    if what == "this is a list":
+        return ": write * in front of it"
+    if what == "this is an event":
+        return ": put it into EmitEvent(event=...)"
+    if "handler" in what:
+        return ": put it into RegisterEventHandler(...)"
+    if "Source" in what:
+        return ": put it into IncludeLaunchDescription(...)"
+    if "class" in what or "function" in what:
+        return ": call it"
+    return ""
