@@ -1,0 +1,117 @@
+"""LF051: conditions are about a text that launch can read as true or false."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_expressions import failure
+from scaffold.model.launch_py import LaunchCall, LaunchFile
+
+_TRUTHS = frozenset({"true", "false", "1", "0"})
+_CONDITIONS = ("IfCondition", "UnlessCondition")
+_BY_NAME = ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
+_LAUNCH = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument\n"
+    "from launch.conditions import IfCondition\n"
+    "from launch.substitutions import LaunchConfiguration, PythonExpression\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    use = LaunchConfiguration('use')\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('use', default_value='{}'),\n"
+    "        Node(package='a', executable='b', condition=IfCondition({})),\n    ])\n"
+)
+
+
+class ConditionUnusable(Rule):
+    """A condition is about something that launch cannot read as true or false.
+
+    **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for what Python decides,
+    ``invalid condition expression, expected one of [true, 1, false, 0]`` for other texts, ``name
+    'true' is not defined`` for ``not true`` in a PythonExpression.
+
+    **Fix.** ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
+    ``not``, quotes around what is text: ``PythonExpression(["'", mode, "' == 'fast'"])``.
+
+    **Source.** ``launch/conditions``; ``launch/substitutions/python_expression.py``.
+    """
+
+    code = "LF051"
+    name = "condition-unusable"
+    examples = (
+        Example("a launch argument", {"launch/a.launch.py": _LAUNCH.format("true", "use")}),
+        Example(
+            "an expression with quotes",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "fast", "PythonExpression([\"'\", use, \"' == 'fast'\"])"
+                )
+            },
+        ),
+        Example(
+            "a value of Python",
+            {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
+            at=("launch/a.launch.py:12",),
+        ),
+        Example(
+            "the name of the argument",
+            {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
+            at=("launch/a.launch.py:12",),
+        ),
+        Example(
+            "an expression without quotes",
+            {"launch/a.launch.py": _LAUNCH.format("true", "PythonExpression(['not ', use])")},
+            at=("launch/a.launch.py:12",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*_CONDITIONS, *_BY_NAME):
+                node = next(iter(call.given.values()), None)
+                problem = "" if node is None else _problem(launch, call, node)
+                if problem and node is not None:
+                    yield self.report(launch.location(node), problem)
+            for call in launch.calls:
+                listed = call.given.get("condition")
+                if isinstance(listed, ast.List | ast.Tuple):
+                    message = "a condition is one object such as IfCondition(...), not a list"
+                    yield self.report(launch.location(listed), message)
+            for call in launch.find("PythonExpression"):
+                why = failure(launch, call.given.get("expression"))
+                if why:
+                    yield self.report(call, why)
+
+
+def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
+    found = launch.call_of(node)
+    kind = found.kind if found is not None else ""
+    if call.kind in _BY_NAME:
+        is_value = kind == "LaunchConfiguration"
+        return f"{call.kind} takes the name of the launch argument, a text" if is_value else ""
+    if kind in _CONDITIONS:
+        return f"{call.kind} takes a text, not another condition"
+    match node:
+        case ast.Constant(value=bool() | int() | None as value):
+            return f"{value!r} is no text: write {str(value).lower()!r}, or no condition"
+        case ast.UnaryOp(op=ast.Not()) | ast.BoolOp():
+            return _by_python(launch, node)
+        case ast.Constant(value=str(text)) if text.strip().lower() not in _TRUTHS:
+            hint = f": LaunchConfiguration({text!r}) is meant" if text in launch.declared else ""
+            return f"{text!r} is neither true nor false{hint}"
+    return ""
+
+
+def _by_python(launch: LaunchFile, node: ast.UnaryOp | ast.BoolOp) -> str:
+    """Return what is wrong about operators of Python on substitutions."""
+    values = [node.operand] if isinstance(node, ast.UnaryOp) else node.values
+    for value in values:
+        call = launch.call_of(value)
+        if call is not None and call.kind in {"LaunchConfiguration", "PythonExpression"}:
+            what = "not" if isinstance(node, ast.UnaryOp) else "and, or"
+            use = "NotSubstitution" if what == "not" else "AndSubstitution, OrSubstitution"
+            return f"Python decides {what} before the {call.kind} has a value: write {use}"
+    return ""
