@@ -15,7 +15,8 @@ _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_
 class InterfaceFileMissing(Rule):
     """``rosidl_generate_interfaces`` lists a file that is not there, or is no interface.
 
-    **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``.
+    **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``. For a file beside
+    CMakeLists.txt it complains of ``get_filename_component``: a directory must stand in front.
 
     **Fix.** Write the path of the file relative to CMakeLists.txt; it ends in .msg, .srv, .action
     or .idl.
@@ -41,6 +42,11 @@ class InterfaceFileMissing(Rule):
             },
             at=("CMakeLists.txt:3", "CMakeLists.txt:4"),
         ),
+        Example(
+            "beside CMakeLists.txt",
+            {"CMakeLists.txt": _LISTS % "Beat.msg", "Beat.msg": "int32 count\n"},
+            at=("CMakeLists.txt:2",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -51,6 +57,9 @@ class InterfaceFileMissing(Rule):
                 path, ending = file.path, file.path.rpartition(".")[2]
                 if package.has(path) and ending not in {*SECTIONS, "idl"}:
                     message = f"{path} is no .msg, .srv, .action or .idl file"
+                    yield self.report(file.argument, message)
+                elif package.has(path) and "/" not in path:
+                    message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"
                     yield self.report(file.argument, message)
                 elif not package.has(path) and not any(path in values for values in made):
                     same = [one for one in there if one.lower().endswith(f"/{path.lower()}")]

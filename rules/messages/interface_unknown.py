@@ -50,6 +50,16 @@ class InterfaceUnknown(Rule):
             at=("talker.py:2", "talker.py:3", "talker.py:4", "talker.py:5", "talker.py:7"),
         ),
         Example(
+            "without the module, beside what the package really has",
+            {
+                "talker.py": "from sensor_msgs import msg\n"
+                "from std_msgs import Bool, msg as messages\n"
+                "from std_srvs import Trigger\n"
+                "from sensor_msgs_py import point_cloud2\n",
+            },
+            at=("talker.py:2", "talker.py:3"),
+        ),
+        Example(
             "of a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
             at=("talker.py:1",),
@@ -77,7 +87,7 @@ def _used(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
     module = types.module
     for import_ in module.imports:
         owner, _, kind = import_.module.partition(".")
-        if import_.level or import_.guarded or not kind or "." in kind:
+        if import_.level or import_.guarded or "." in kind:
             continue
         for imported in import_.names:
             yield imported.location, owner, kind, imported.name
@@ -89,6 +99,8 @@ def _used(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
 
 
 def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:
+    if not kind:
+        return _without_kind(definitions, owner, name)
     meant = _MISSPELT.get(kind.lower(), kind)
     known = definitions.names(owner, meant)
     if known is None or name.startswith("_") or name == "*":
@@ -102,3 +114,12 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
     if elsewhere and (not hint or not known):
         hint = f"; did you mean {' or '.join(elsewhere[:3])}?"
     return f"{owner}.{kind} has no {name!r}{hint}"
+
+
+def _without_kind(definitions: Definitions, owner: str, name: str) -> str | None:
+    """Say what is wrong with ``from std_msgs import String``."""
+    for kind in KINDS:
+        known = definitions.names(owner, kind) or ()
+        if name in known:
+            return f"{name!r} is in {owner}.{kind}, not in {owner}: ImportError"
+    return None

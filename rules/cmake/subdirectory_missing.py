@@ -1,0 +1,72 @@
+"""CM102: directories that are added have a CMakeLists.txt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.left_out import is_left_out
+
+_LISTS = "project(talker)\nadd_subdirectory({})\n"
+
+
+class SubdirectoryMissing(Rule):
+    """``add_subdirectory`` names a directory that is not there, or has no CMakeLists.txt.
+
+    **Why.** CMake stops: ``add_subdirectory given source "src" which is not an existing
+    directory``.
+
+    **Fix.** Correct the name, or remove the line: a Python package needs none.
+
+    **Source.** CMake documentation, ``add_subdirectory``.
+    """
+
+    code = "CM102"
+    name = "subdirectory-missing"
+    examples = (
+        Example(
+            "there",
+            {"CMakeLists.txt": _LISTS.format("src"), "src/CMakeLists.txt": "message(STATUS src)\n"},
+        ),
+        Example(
+            "a submodule of git, which a clone may not have",
+            {
+                "CMakeLists.txt": _LISTS.format("lib/json"),
+                ".gitmodules": '[submodule "json"]\n  path = lib/json\n',
+            },
+        ),
+        Example("not there", {"CMakeLists.txt": _LISTS.format("src")}, at=("CMakeLists.txt:2",)),
+        Example(
+            "without a CMakeLists.txt",
+            {"CMakeLists.txt": _LISTS.format("src"), "src/talker.py": ""},
+            at=("CMakeLists.txt:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        made = cmake.find(
+            "configure_file",
+            "file",
+            "execute_process",
+            "externalproject_add",
+            "fetchcontent_declare",
+            "fetchcontent_makeavailable",
+            "include",
+        )
+        for command in cmake.find("add_subdirectory"):
+            if made or command.blocks or not command.arguments:
+                continue
+            value = cmake.expand(command.arguments[0], command)
+            if value is None or set("$<*") & set(value) or value.startswith(("/", "..")):
+                continue
+            path = cmake.path_of(value)
+            if package.has(f"{path}/CMakeLists.txt") or is_left_out(package, path):
+                continue
+            if not package.has_directory(path):
+                message = f"adds the directory {path}/, which does not exist: CMake stops"
+            elif any(name.startswith(f"{path}/") for name in package.files):
+                message = f"adds {path}/, which has no CMakeLists.txt: CMake stops"
+            else:
+                continue  # a submodule that has not been cloned is an empty directory
+            yield self.report(command.arguments[0], message)

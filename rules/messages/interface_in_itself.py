@@ -1,0 +1,87 @@
+"""MS011: no message holds itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.interface_files import interface_files
+from scaffold.model.source import Location
+
+_LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Node.msg msg/Tree.msg)\n"
+_MANIFEST = "<package><name>my_msgs</name></package>\n"
+
+
+class InterfaceInItself(Rule):
+    """A message has a field of its own type, or of one that holds it in turn.
+
+    **Why.** The build stops: the generated structures would be endless. An array does not help.
+
+    **Fix.** Send a flat list, and name the parent of each element by its index.
+
+    **Source.** ``rosidl_generator_type_description``, which stops first (``KeyError``).
+    """
+
+    code = "MS011"
+    name = "interface-in-itself"
+    examples = (
+        Example(
+            "a list of others",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS,
+                "msg/Node.msg": "int32 parent\n",
+                "msg/Tree.msg": "Node[] nodes\n",
+            },
+        ),
+        Example(
+            "itself",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS,
+                "msg/Node.msg": "int32 id\nmy_msgs/Node[] children\n",
+                "msg/Tree.msg": "Node root\n",
+            },
+            at=("msg/Node.msg:2",),
+        ),
+        Example(
+            "each other",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS,
+                "msg/Node.msg": "Tree tree\n",
+                "msg/Tree.msg": "Node[] nodes\n",
+            },
+            at=("msg/Node.msg:1", "msg/Tree.msg:1"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        held: dict[str, dict[str, Location]] = {}
+        for file in interface_files(package):
+            if file.kind != "msg":
+                continue
+            inner = held.setdefault(file.name, {})
+            for section in file.definition.sections:
+                for field in section.fields:
+                    if field.type.package == package.name:
+                        inner.setdefault(field.type.name, field.type_location)
+        for name, inner in held.items():
+            for type_, at in inner.items():
+                if type_ == name:
+                    yield self.report(at, f"{name} holds itself: the build stops")
+                elif name in _reached(held, type_):
+                    message = f"{name} holds {type_}, which holds {name} in turn: the build stops"
+                    yield self.report(at, message)
+
+
+def _reached(held: Mapping[str, Mapping[str, Location]], name: str) -> set[str]:
+    """Return the messages of the package that a message holds, over any number of steps."""
+    found: set[str] = set()
+    pending = [name]
+    while pending:
+        for inner in held.get(pending.pop(), ()):
+            if inner not in found:
+                found.add(inner)
+                pending.append(inner)
+    return found
