@@ -6,47 +6,9 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_commands import BUILT_IN, OF_AMENT
 from scaffold.model.cmake_facts import uses_ament
 
-_BUILT_IN = frozenset(
-    """
-    add_compile_definitions add_compile_options add_custom_command add_custom_target add_definitions
-    add_dependencies add_executable add_library add_link_options add_subdirectory add_test
-    aux_source_directory block break build_command build_name cmake_host_system_information
-    cmake_language cmake_minimum_required cmake_parse_arguments cmake_path cmake_policy
-    configure_file continue create_test_sourcelist ctest_build ctest_configure ctest_coverage
-    ctest_empty_binary_directory ctest_memcheck ctest_read_custom_files ctest_run_script ctest_sleep
-    ctest_start ctest_submit ctest_test ctest_update ctest_upload define_property else elseif
-    enable_language enable_testing endblock endforeach endfunction endif endmacro endwhile
-    exec_program execute_process export export_library_dependencies file find_file find_library
-    find_package find_path find_program fltk_wrap_ui foreach function get_cmake_property
-    get_directory_property get_filename_component get_property get_source_file_property
-    get_target_property get_test_property if include include_directories include_external_msproject
-    include_guard include_regular_expression install install_files install_programs install_targets
-    link_directories link_libraries list load_cache load_command macro make_directory
-    mark_as_advanced math message option output_required_files project qt_wrap_cpp qt_wrap_ui remove
-    remove_definitions return separate_arguments set set_directory_properties set_property
-    set_source_files_properties set_target_properties set_tests_properties site_name source_group
-    string subdir_depends subdirs target_compile_definitions target_compile_features
-    target_compile_options target_include_directories target_link_directories target_link_libraries
-    target_link_options target_precompile_headers target_sources try_compile try_run unset
-    use_mangled_mesa utility_source variable_requires variable_watch while write_file
-    """.split()  # noqa: SIM905  a column of quoted names would hide them
-)
-_OF_ROS = frozenset(
-    """
-    ament_add_gmock ament_add_gtest ament_add_gtest_executable ament_add_gtest_test
-    ament_add_pytest_test ament_add_test ament_copyright
-    ament_environment_hooks ament_export_dependencies ament_export_include_directories
-    ament_export_libraries ament_export_targets ament_flake8 ament_index_register_resource
-    ament_lint_auto_find_test_dependencies ament_package ament_pep257 ament_python_install_module
-    ament_python_install_package ament_target_dependencies ament_uncrustify ament_xmllint
-    ament_auto_package ament_auto_add_executable ament_auto_add_library
-    ament_auto_find_build_dependencies rosidl_generate_interfaces rosidl_get_typesupport_target
-    rclcpp_components_register_node rclcpp_components_register_nodes add_launch_test
-    add_ros_test pluginlib_export_plugin_description_file
-    """.split()  # noqa: SIM905  a column of quoted names would hide them
-)
 _OF_ROS1 = {
     "add_action_files": "rosidl_generate_interfaces",
     "add_message_files": "rosidl_generate_interfaces",
@@ -61,7 +23,7 @@ _OF_ROS1 = {
     "generate_messages": "rosidl_generate_interfaces",
     "roslaunch_add_file_check": "add_launch_test",
 }
-MOST = 3
+_MOST = 3
 """Letters more or less that are no slip any more."""
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 
@@ -100,7 +62,7 @@ class CommandMisspelt(Rule):
             return
         for command in cmake.commands:
             name = command.name
-            if name in _BUILT_IN or name in _OF_ROS or name in own:
+            if name in BUILT_IN or name in OF_AMENT or name in own:
                 continue
             meant = _OF_ROS1.get(name)
             if meant and command.parent is None:
@@ -117,6 +79,6 @@ def _near(name: str) -> list[str]:
     if any(character.isdigit() for character in name):
         return []
     words = sorted(name.split("_"))
-    swapped = [one for one in _OF_ROS if sorted(one.split("_")) == words]
-    near = get_close_matches(name, _BUILT_IN | _OF_ROS, 1, 0.9)
-    return swapped[:1] or [one for one in near if abs(len(one) - len(name)) < MOST]
+    swapped = [one for one in OF_AMENT if sorted(one.split("_")) == words]
+    near = get_close_matches(name, BUILT_IN | OF_AMENT, 1, 0.9)
+    return swapped[:1] or [one for one in near if abs(len(one) - len(name)) < _MOST]
