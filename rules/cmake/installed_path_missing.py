@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake import Install, InstallItem
-from scaffold.model.cmake_parser import Command
+from scaffold.model.cmake_facts import is_made_by_build, runs_if_exists
 from scaffold.model.left_out import is_left_out
 from scaffold.model.near import nearest
 
@@ -65,9 +65,9 @@ class InstalledPathMissing(Rule):
 
     def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
         path = item.path
-        if not path or not self._is_own(path) or self._is_made(package, path):
+        if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if _is_asked_for(install.command) or is_left_out(package, path):
+        if runs_if_exists(install.command) or is_left_out(package, path):
             return None
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
@@ -87,36 +87,3 @@ class InstalledPathMissing(Rule):
     def _is_own(self, path: str) -> bool:
         """Tell whether a path surely lies in the package."""
         return not path.startswith(("/", "..")) and path != "." and not set("$<*") & set(path)
-
-    def _is_made(self, package: Package, path: str) -> bool:
-        """Tell whether the build itself makes the file, in the source directory."""
-        name = path.rpartition("/")[2]
-        makers = package.cmake.find(
-            "configure_file",
-            "file",
-            "add_custom_command",
-            "add_custom_target",
-            "execute_process",
-            "externalproject_add",
-            "fetchcontent_declare",
-            "generate_parameter_library",
-        )
-        if any(name in argument.value for maker in makers for argument in maker.arguments):
-            return True
-        # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
-        makers = [*package.cmake.find("set")] if makers else []
-        return any(f"/{path}/" in argument.value for one in makers for argument in one.arguments)
-
-
-def _is_asked_for(command: Command) -> bool:
-    """Tell whether a command runs only where a file is: ``if(EXISTS ...)``."""
-    at = command
-    while at.parent is not None and at.branch is not None:
-        if "EXISTS" in at.branch.values or (at.branch.name == "else" and _asks(at.parent)):
-            return True
-        at = at.parent
-    return False
-
-
-def _asks(opening: Command) -> bool:
-    return "EXISTS" in opening.values

@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 
 PACKAGE_COMMANDS = ("ament_package", "ament_auto_package", "autoware_package")
 """Commands that make ament's files: the index entry, the environment hooks."""
+_MAKERS = (
+    *("configure_file", "file", "add_custom_command", "add_custom_target", "execute_process"),
+    *("externalproject_add", "fetchcontent_declare", "generate_parameter_library"),
+)
+"""Commands that may make files in the source directory."""
 
 
 class Program(NamedTuple):
@@ -117,3 +122,25 @@ def installs_directory(package: Package, directory: str) -> bool | None:
 def _covers(item: InstallItem, directory: str) -> bool:
     path = item.path or ""
     return path in {directory, "."} or directory.startswith(f"{path}/")
+
+
+def is_made_by_build(package: Package, path: str) -> bool:
+    """Tell whether the build itself may make a file in the source directory."""
+    name = path.rpartition("/")[2]
+    makers = package.cmake.find(*_MAKERS)
+    if any(name in argument.value for maker in makers for argument in maker.arguments):
+        return True
+    # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
+    named = package.cmake.find("set") if makers else ()
+    return any(f"/{path}/" in argument.value for one in named for argument in one.arguments)
+
+
+def runs_if_exists(command: Command) -> bool:
+    """Tell whether a command runs only where a file is: ``if(EXISTS ...)``."""
+    at = command
+    while at.parent is not None and at.branch is not None:
+        asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
+        if any("EXISTS" in one.values for one in asked):
+            return True
+        at = at.parent
+    return False
