@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.cmake_facts import has_unknown_commands, programs
+from scaffold.model.cmake_facts import has_unknown_commands, is_used_by_build, programs
 from scaffold.model.near import nearest
 from scaffold.model.python_module import PythonModule
 
@@ -88,7 +88,7 @@ class ProgramNotInstalled(Rule):
                 continue
             if f"/{module.path}".endswith(used):
                 continue
-            if self._is_named(package, module.path) or self._is_misspelt(package, module.path):
+            if is_used_by_build(package, module.path) or self._is_misspelt(package, module.path):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
             message = (
@@ -110,21 +110,6 @@ class ProgramNotInstalled(Rule):
         """Tell whether an installed file that does not exist must be this one."""
         missing = [one.path for one in programs(package) if not package.has(one.path)]
         return bool(nearest(package, path, missing, 0.8))
-
-    def _is_named(self, package: Package, path: str) -> bool:
-        """Tell whether the file, or a directory around it, is installed in some other way."""
-        directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
-        for install in package.cmake.installs:
-            for item in install.items:
-                if item.path == path or (
-                    install.kind == "DIRECTORY"
-                    and item.path in directories
-                    and (install.destination or "").startswith("lib")
-                ):
-                    return True
-        name = path.rpartition("/")[2].removesuffix(".py")
-        others = [command for command in package.cmake.commands if command.name != "install"]
-        return any(name in one.value for command in others for one in command.arguments)
 
 
 def _imported_by(package: Package, paths: set[str]) -> tuple[str, ...]:

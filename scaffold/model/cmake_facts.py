@@ -144,3 +144,17 @@ def runs_if_exists(command: Command) -> bool:
             return True
         at = at.parent
     return False
+
+
+def is_used_by_build(package: Package, path: str) -> bool:
+    """Tell whether a file is installed, alone or in a directory of programs, or handed on."""
+    directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
+    for install in package.cmake.installs:
+        is_for_programs = (install.destination or "").startswith("lib")
+        for item in install.items:
+            is_around = install.kind == "DIRECTORY" and item.path in directories
+            if item.path == path or (is_around and is_for_programs):
+                return True
+    name = path.rpartition("/")[2].removesuffix(".py")
+    others = [command for command in package.cmake.commands if command.name != "install"]
+    return any(name in one.value for command in others for one in command.arguments)
