@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety, Severity, ViewError
-from scaffold.model.cmake_facts import has_unknown_commands, uses_ament
-from scaffold.model.cmake_interfaces import Generation, generations
-from scaffold.model.interface_files import is_commented_out, standing
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety, Severity
+from scaffold.model.cmake_facts import uses_ament
+from scaffold.model.cmake_interfaces import Generation, generations, may_generate_more
+from scaffold.model.interface_files import is_commented_out, standing, words_of_users
 
-_USERS = (".py", ".cpp", ".hpp", ".cc", ".h", ".msg", ".srv", ".action")
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 
 
@@ -78,7 +76,7 @@ class InterfaceNotGenerated(Rule):
                 yield self.report(package.start_of(path), message)
             return
         calls = generations(package)
-        if not all(call.is_complete for call in calls) or _is_elsewhere(package):
+        if not all(call.is_complete for call in calls) or may_generate_more(package):
             return
         if not calls:
             project = package.cmake.project
@@ -93,32 +91,8 @@ class InterfaceNotGenerated(Rule):
             name = path.rpartition("/")[2].rpartition(".")[0]
             message = f"{path} is not among the files: nobody can use {name}"
             found = self.report(calls[0].command.name_location, message, _add(calls[0], path))
-            named = package.remember("words_of_the_workspace", lambda: _named_types(package))
-            yield found if name in named else found._replace(severity=Severity.WARNING)
-
-
-def _named_types(package: Package) -> set[str]:
-    """Return the words of the workspace's code and interfaces that may name a type."""
-    found: set[str] = set()
-    for other in package.workspace:
-        for path in other.files:
-            if not path.endswith(_USERS):
-                continue
-            try:
-                words = set(re.findall(r"[A-Z]\w+", other.source(path).text))
-            except ViewError:
-                continue
-            found |= words - {path.rpartition("/")[2].partition(".")[0]}
-    return found
-
-
-def _is_elsewhere(package: Package) -> bool:
-    """Tell whether other CMake files or commands may generate interfaces, too."""
-    return has_unknown_commands(package) or any(
-        "generate" in command.name and "interfaces" in command.name
-        for command in package.cmake.commands
-        if command.name != "rosidl_generate_interfaces"
-    )
+            is_used = name in words_of_users(package)
+            yield found if is_used else found._replace(severity=Severity.WARNING)
 
 
 def _add(call: Generation, path: str) -> Fix | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -49,6 +50,15 @@ def generations(package: Package) -> list[Generation]:
 def generations_of(cmake: CMakeLists) -> list[Generation]:
     """Return the calls in a CMakeLists.txt."""
     return [_generation(cmake, command) for command in cmake.find(GENERATE) if command.arguments]
+
+
+def may_generate_more(package: Package) -> bool:
+    """Tell whether other CMake files or commands may generate interfaces, too."""
+    return has_unknown_commands(package) or any(
+        "generate" in command.name and "interfaces" in command.name
+        for command in package.cmake.commands
+        if command.name != GENERATE
+    )
 
 
 def is_interface_package(package: Package) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,9 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+
+_USERS = (".py", ".cpp", ".hpp", ".cc", ".h", ".msg", ".srv", ".action")
+"""Endings of files that use interfaces."""
 
 
 class InterfaceFile(NamedTuple):
@@ -40,6 +44,25 @@ def is_commented_out(package: Package, path: str) -> bool:
     cmake = package.cmake
     name = path.rpartition("/")[2]
     return any(name in cmake.text(token) for token in cmake.comments)
+
+
+def words_of_users(package: Package) -> set[str]:
+    """Return the words in the workspace's code and interfaces that may name a type."""
+    return package.remember("words_of_users", lambda: _words_of_users(package))
+
+
+def _words_of_users(package: Package) -> set[str]:
+    found: set[str] = set()
+    for other in package.workspace:
+        for path in other.files:
+            if not path.endswith(_USERS):
+                continue
+            try:
+                words = set(re.findall(r"[A-Z]\w+", other.source(path).text))
+            except ViewError:
+                continue
+            found |= words - {path.rpartition("/")[2].partition(".")[0]}
+    return found
 
 
 def interface_files(package: Package) -> list[InterfaceFile]:
