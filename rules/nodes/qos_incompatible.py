@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.node_entities import Endpoint, Publisher, Subscription
+from scaffold.model.node_entities import Endpoint, Publisher
+from scaffold.model.qos import conflict_of
 from scaffold.model.topics import topics_of
 
 _NODE = (
@@ -19,10 +19,6 @@ _NODE = (
     "        self.create_{}\n"
 )
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
-
-
-_Conflict = tuple[str, str]
-"""What is offered, and what is asked for instead."""
 
 
 class QosIncompatible(Rule):
@@ -71,7 +67,7 @@ class QosIncompatible(Rule):
             if not topic.publishers or not topic.is_plain:
                 continue
             for subscription in topic.subscriptions:
-                pairs = [(one, _conflict(one, subscription)) for one in topic.publishers]
+                pairs = [(one, conflict_of(one, subscription)) for one in topic.publishers]
                 publisher, conflict = pairs[0]
                 if conflict is None or not all(other for _, other in pairs):
                     continue
@@ -87,44 +83,3 @@ class QosIncompatible(Rule):
 
 def _kind(endpoint: Endpoint) -> str:
     return "the publisher" if isinstance(endpoint, Publisher) else "the subscription"
-
-
-def _conflict(publisher: Publisher, subscription: Subscription) -> _Conflict | None:
-    """Return what is offered and what is asked for, if that does not fit."""
-    offered, asked = publisher.qos, subscription.qos
-    if offered is None or asked is None:
-        return None
-    if offered.reliability == "BEST_EFFORT" and asked.reliability == "RELIABLE":
-        return ("is BEST_EFFORT", "wants RELIABLE")
-    if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
-        return ("is VOLATILE", "wants TRANSIENT_LOCAL")
-    return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
-
-
-def _conflict_of_time(
-    offered: dict[str, str] | None, asked: dict[str, str] | None
-) -> _Conflict | None:
-    if offered is None or asked is None:
-        return None
-    if "deadline" in asked and "deadline" not in offered:
-        return ("has no deadline", "wants a deadline")
-    if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
-        return ("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
-    return None
-
-
-def _profile_words(endpoint: Endpoint) -> dict[str, str] | None:
-    """Return what is given to the QoSProfile of an endpoint; none for a depth or a preset."""
-    argument = endpoint.argument("qos_profile")
-    if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
-        return None
-    if isinstance(argument.value, int) or endpoint.qos.profile is not None:
-        return {}
-    facts = endpoint.owner.facts if endpoint.owner else None
-    value = facts.evaluator.single_value(argument.node) if facts else None
-    if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
-        return None
-    names = ("deadline", "liveliness")
-    if facts is None or any(facts.evaluator.stores(name) for name in names):
-        return None
-    return {word.arg or "": ast.unparse(word.value) for word in value.keywords}

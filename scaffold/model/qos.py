@@ -1,4 +1,4 @@
-"""The quality of service that an expression stands for."""
+"""The quality of service that an expression stands for, and whether two of them fit."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from scaffold.model.node_entities import Qos
 from scaffold.model.values import UNKNOWN, Unknown
 
 if TYPE_CHECKING:
+    from scaffold.model.node_entities import Endpoint, Publisher, Subscription
     from scaffold.model.self_values import SelfEvaluator
     from scaffold.model.source import Location
 
@@ -24,6 +25,9 @@ PROFILES: Mapping[str, tuple[int, str, str, str]] = {
     "system_default": (0, "SYSTEM_DEFAULT", "SYSTEM_DEFAULT", "SYSTEM_DEFAULT"),
 }
 """Depth, history, reliability and durability of the predefined profiles of rclpy 7.1."""
+
+Conflict = tuple[str, str]
+"""What is offered, and what is asked for instead: ``is BEST_EFFORT``, ``wants RELIABLE``."""
 
 _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 
@@ -146,3 +150,47 @@ def _statement_of(evaluator: SelfEvaluator, node: ast.AST) -> ast.AST:
         if isinstance(parent, ast.stmt):
             return parent
     return node
+
+
+# -- what fits
+
+
+def conflict_of(publisher: Publisher, subscription: Subscription) -> Conflict | None:
+    """Return what is offered and what is asked for, if that does not fit."""
+    offered, asked = publisher.qos, subscription.qos
+    if offered is None or asked is None:
+        return None
+    if offered.reliability == "BEST_EFFORT" and asked.reliability == "RELIABLE":
+        return ("is BEST_EFFORT", "wants RELIABLE")
+    if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
+        return ("is VOLATILE", "wants TRANSIENT_LOCAL")
+    return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
+
+
+def _conflict_of_time(
+    offered: dict[str, str] | None, asked: dict[str, str] | None
+) -> Conflict | None:
+    if offered is None or asked is None:
+        return None
+    if "deadline" in asked and "deadline" not in offered:
+        return ("has no deadline", "wants a deadline")
+    if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
+        return ("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
+    return None
+
+
+def _profile_words(endpoint: Endpoint) -> dict[str, str] | None:
+    """Return what is given to the QoSProfile of an endpoint; none for a depth or a preset."""
+    argument = endpoint.argument("qos_profile")
+    if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
+        return None
+    if isinstance(argument.value, int) or endpoint.qos.profile is not None:
+        return {}
+    facts = endpoint.owner.facts if endpoint.owner else None
+    value = facts.evaluator.single_value(argument.node) if facts else None
+    if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
+        return None
+    names = ("deadline", "liveliness")
+    if facts is None or any(facts.evaluator.stores(name) for name in names):
+        return None
+    return {word.arg or "": ast.unparse(word.value) for word in value.keywords}
