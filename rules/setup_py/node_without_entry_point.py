@@ -1,12 +1,13 @@
-"""SP055: every node can be started, and every entry point has its own name."""
+"""SP055: every node can be started."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.own_modules import names_imported
 from scaffold.model.python_module import PythonModule
-from scaffold.model.setup_py import EntryPoint, SetupPy
+from scaffold.model.setup_py import SetupPy
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
@@ -24,10 +25,9 @@ _FILES = {
 
 
 class NodeWithoutEntryPoint(Rule):
-    """A module with a node and a ``main`` is in no entry point, or two entry points have one name.
+    """A module with a node and a ``main`` is in no entry point.
 
-    **Why.** ``ros2 run`` answers ``No executable found``; of two entry points with one name only
-    the last is made.
+    **Why.** ``ros2 run`` answers ``No executable found``.
 
     **Fix.** Add ``'other = talker.other:main'`` to ``console_scripts``.
 
@@ -39,7 +39,7 @@ class NodeWithoutEntryPoint(Rule):
     name = "node-without-entry-point"
     examples = (
         Example(
-            "both",
+            "both are",
             {"setup.py": _SETUP.format("        'other = talker.other:main',\n"), **_FILES},
         ),
         Example(
@@ -51,28 +51,16 @@ class NodeWithoutEntryPoint(Rule):
                 "talker/node_old.py": _NODE,
             },
         ),
-        Example("one", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:6",)),
-        Example(
-            "one name",
-            {"setup.py": _SETUP.format("        'node = talker.other:main',\n"), **_FILES},
-            at=("setup.py:8",),
-        ),
+        Example("one is not", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:6",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
-        entries = setup.entry_points
-        seen: dict[str, EntryPoint] = {}
-        for entry in setup.console_scripts:
-            first = seen.setdefault(entry.name, entry)
-            if first is not entry and entry.name:
-                message = f"{entry.name!r} is the name of another entry point: only one is made"
-                yield self.report(entry, message)
         keyword = setup.keyword("entry_points")
         if keyword is None or not _is_complete(package, setup):
             return
-        started = {entry.module for entry in entries}
-        used = _imported(package)
+        started = {entry.module for entry in setup.entry_points}
+        used = names_imported(package)
         copied = _started_classes(package, started)
         for facts in package.rclpy_files():
             module = facts.module
@@ -119,17 +107,3 @@ def _is_complete(package: Package, setup: SetupPy) -> bool:
     ):
         return False
     return not any(str(data.destination).startswith("lib") for data in setup.data_files)
-
-
-def _imported(package: Package) -> set[str]:
-    """Return the modules of the package that other modules import, by their full names."""
-    found: set[str] = set()
-    for module in package.modules():
-        for one in module.imports:
-            base = one.module
-            if one.level:
-                parts = module.path.split("/")[: -one.level]
-                base = ".".join([*parts, *([one.module] if one.module else [])])
-            found.add(base)
-            found |= {f"{base}.{name.name}" for name in one.names}
-    return found

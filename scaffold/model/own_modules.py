@@ -21,6 +21,16 @@ def absolute_name(module: PythonModule, one: Import) -> str:
     return ".".join([*directory, *([one.module] if one.module else [])])
 
 
+def names_imported(package: Package) -> set[str]:
+    """Return the full names of what modules of the package import: modules and what is in them."""
+    found: set[str] = set()
+    for module in package.modules():
+        for one in module.imports:
+            base = absolute_name(module, one)
+            found |= {base, *(f"{base}.{name.name}" for name in one.names)}
+    return found
+
+
 def file_of(package: Package, name: str) -> str:
     """Return the file of a module; empty if the package has none."""
     base = name.replace(".", "/")
