@@ -14,6 +14,8 @@ _FUNCTIONS = {
     "rclpy.spin_once": ("node",),
     "rclpy.spin_until_future_complete": ("node", "future"),
     "rclpy.create_node": ("node_name",),
+    "rclpy.action.ActionClient": ("node", "action_type", "action_name"),
+    "rclpy.action.ActionServer": ("node", "action_type", "action_name", "execute_callback"),
 }
 _OF_NODE = {
     "create_subscription": ("msg_type", "topic", "callback", "qos_profile"),
@@ -21,6 +23,7 @@ _OF_NODE = {
     "create_service": ("srv_type", "srv_name", "callback"),
     "create_client": ("srv_type", "srv_name"),
     "declare_parameter": ("name",),
+    "declare_parameters": ("namespace", "parameters"),
     "get_parameter": ("name",),
 }
 _OF_OBJECTS = {
@@ -60,6 +63,16 @@ class ArgumentMissing(Rule):
             "a callback, a node",
             {"talker.py": _NODE.format("0.1", "")},
             at=("talker.py:8", "talker.py:13"),
+        ),
+        Example(
+            "what an action server does",
+            {
+                "talker.py": "from rclpy.action import ActionServer\n"
+                + _NODE.format("0.1, print", "Talker()").replace(
+                    "self.create_timer(0.1, print)", "ActionServer(self, Count, 'count')"
+                )
+            },
+            at=("talker.py:9",),
         ),
     )
 

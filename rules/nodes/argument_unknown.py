@@ -52,6 +52,16 @@ class ArgumentUnknown(Rule):
             at=("server.py:11", "server.py:12"),
         ),
         Example(
+            "of clients and publishers",
+            {
+                "server.py": _RIGHT.replace(
+                    "self.create_timer(0.1, print)",
+                    "self.create_client(Trigger, 'a').wait_for_service(timeout=1.0)",
+                )
+            },
+            at=("server.py:12",),
+        ),
+        Example(
             "a message for what returns the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
             at=("server.py:10",),

@@ -14,6 +14,8 @@ from scaffold.model.node_entities import (
     Subscription,
     Timer,
 )
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -24,6 +26,20 @@ _NODE = (
     "    def hear(self{}):\n"
     "        pass\n"
 )
+_ASKING = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Asking(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('asking')\n"
+    "        self.client = self.create_client(Trigger, 'report')\n"
+    "        future = self.client.call_async(Trigger.Request({}))\n"
+    "        future.add_done_callback(self.one)\n"
+    "        future.add_done_callback(self.two)\n\n"
+    "    def one(self{}):\n"
+    "        pass\n\n"
+    "    def two(self{}):\n"
+    "        pass\n"
+).replace("def two(self{})", "def two(self, done{})")
 
 
 class CallbackArity(Rule):
@@ -41,22 +57,43 @@ class CallbackArity(Rule):
     code = "ND003"
     name = "callback-arity"
     examples = (
+        Example(
+            "the future that is done",
+            {"listener.py": _ASKING.format("", ", future", "")},
+        ),
+        Example(
+            "no future, one parameter too many",
+            {"listener.py": _ASKING.format("", "", ", future, other")},
+            at=("listener.py:10", "listener.py:11"),
+        ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
         Example("nothing", {"listener.py": _NODE.format("")}, at=("listener.py:8",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            for entity, callback in facts.callbacks:
-                given = _given(entity)
+            for given, callback in _given_callbacks(facts):
                 takes = _takes(callback)
-                if given is None or takes is None or any(n in takes for n in given[0]):
+                if takes is None or any(n in takes for n in given[0]):
                     continue
                 least, most = takes.start, takes.stop - 1
                 has = str(least) if least == most else f"{least} to {most}"
                 noun = "argument" if has == "1" else "arguments"
                 message = f"{callback.name or 'the callback'} takes {has} {noun}; {given[1]}"
                 yield self.report(callback, message)
+
+
+def _given_callbacks(facts: NodeFacts) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
+    """Yield the callbacks of a file, each with what it is given."""
+    for entity, callback in facts.callbacks:
+        given = _given(entity)
+        if given is not None:
+            yield given, callback
+    for attribute in facts.module.index.attributes("add_done_callback"):
+        match facts.module.parent(attribute):
+            case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
+                if class_of(facts, attribute.value) == "rclpy.task.Future":
+                    yield ((1,), "a future gives it itself"), facts.callback(passed)
 
 
 def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:

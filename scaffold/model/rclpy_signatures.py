@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_owners import NodeClass, NodeObject
+from scaffold.model.rclpy_names import class_of
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -97,6 +98,41 @@ METHODS: Mapping[str, Signature] = {
 }
 """Of ``rclpy.node.Node``, by name."""
 
+_CLIENT = "rclpy.client.Client"
+_ACTION_CLIENT = "rclpy.action.client.ActionClient"
+_EXECUTOR = _signature("timeout_sec")
+OBJECTS: Mapping[str, Mapping[str, Signature]] = {
+    "wait_for_service": {_CLIENT: _signature("timeout_sec")},
+    "service_is_ready": {_CLIENT: _signature("")},
+    "call": {_CLIENT: _signature("request timeout_sec")},
+    "call_async": {_CLIENT: _signature("request")},
+    "wait_for_server": {_ACTION_CLIENT: _signature("timeout_sec")},
+    "server_is_ready": {_ACTION_CLIENT: _signature("")},
+    "send_goal_async": {_ACTION_CLIENT: _signature("goal feedback_callback goal_uuid")},
+    "publish": {"rclpy.publisher.Publisher": _signature("msg")},
+    "get_subscription_count": {"rclpy.publisher.Publisher": _signature("")},
+    "now": {"rclpy.clock.Clock": _signature("")},
+    "to_msg": {"rclpy.time.Time": _signature(""), "rclpy.duration.Duration": _signature("")},
+    "seconds_nanoseconds": {"rclpy.time.Time": _signature("")},
+    "sleep": {"rclpy.timer.Rate": _signature("")},
+    "add_done_callback": {"rclpy.task.Future": _signature("callback")},
+    "result": {"rclpy.task.Future": _signature("")},
+    "done": {"rclpy.task.Future": _signature("")},
+    "add_node": {
+        "rclpy.executors.SingleThreadedExecutor": _signature("node"),
+        "rclpy.executors.MultiThreadedExecutor": _signature("node"),
+    },
+    "spin": {
+        "rclpy.executors.SingleThreadedExecutor": _signature(""),
+        "rclpy.executors.MultiThreadedExecutor": _signature(""),
+    },
+    "spin_once": {
+        "rclpy.executors.SingleThreadedExecutor": _EXECUTOR,
+        "rclpy.executors.MultiThreadedExecutor": _EXECUTOR,
+    },
+}
+"""Of other objects of rclpy, by the name of the method and by class."""
+
 
 class Excess(NamedTuple):
     """An argument that the called function does not take."""
@@ -128,6 +164,9 @@ def _called(facts: NodeFacts, call: ast.Call) -> tuple[str, Signature] | None:
         if name in FUNCTIONS:
             return name, FUNCTIONS[name]
     func = call.func
+    if isinstance(func, ast.Attribute) and func.attr in OBJECTS:
+        signature = OBJECTS[func.attr].get(class_of(facts, func.value) or "")
+        return (func.attr, signature) if signature is not None else None
     if not isinstance(func, ast.Attribute) or func.attr not in METHODS:
         return None
     return (func.attr, METHODS[func.attr]) if _is_plain(facts, func) else None

@@ -1,0 +1,109 @@
+"""ND069: times of messages are converted before they are computed with."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
+
+_SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
+_NODE = (
+    "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+    "from sensor_msgs.msg import Image\n\n\n"
+    "class Viewer(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('viewer')\n"
+    "        self.create_subscription(Image, 'image', self.on_image, 10)\n\n"
+    "    def on_image(self, msg):\n"
+    "        age = self.get_clock().now() - {}\n"
+    "        return age\n"
+)
+
+
+class StampComputedWith(Rule):
+    """The stamp of a message is added to, taken from or compared with a time.
+
+    **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message holds
+    a ``builtin_interfaces/Time``, which knows seconds and nanoseconds and cannot be computed with.
+
+    **Fix.** ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``.
+
+    **Source.** ``rclpy/time.py``, ``Time.from_msg``; ``builtin_interfaces/msg/Time.msg``.
+    """
+
+    code = "ND069"
+    name = "stamp-computed-with"
+    examples = (
+        Example("converted", {"viewer.py": _NODE.format("Time.from_msg(msg.header.stamp)")}),
+        Example(
+            "seconds of it",
+            {"viewer.py": _NODE.format("msg.header.stamp").replace("stamp\n", "stamp.sec\n")},
+        ),
+        Example("as it is", {"viewer.py": _NODE.format("msg.header.stamp")}, at=("viewer.py:12",)),
+        Example(
+            "two of them, and a number",
+            {
+                "viewer.py": _NODE.format("Time()") + "\n    def is_old(self, msg, other):\n"
+                "        stamp = msg.header.stamp\n"
+                "        return stamp < other.header.stamp or stamp - 0.1\n"
+            },
+            at=("viewer.py:17", "viewer.py:17"),
+        ),
+        Example(
+            "a header of an own class",
+            {
+                "viewer.py": _NODE.format("Time()") + "\n    def is_old(self, msg, other):\n"
+                "        msg.header.stamp = other\n"
+                "        return msg.header.stamp - 0.1\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if not any(facts.module.index.attributes("stamp")):
+                continue
+            for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:
+                if _is_flawed(facts, node):
+                    message = (
+                        "a stamp of a message is no Time of rclpy: TypeError; write "
+                        "Time.from_msg(...)"
+                    )
+                    yield self.report(facts.module.location(node), message)
+
+
+def _is_flawed(facts: NodeFacts, node: ast.AST) -> bool:
+    match node:
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
+            return _are_stamps(facts, left, right)
+        case ast.Compare(
+            left=left, ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE()], comparators=[right]
+        ):
+            return _are_stamps(facts, left, right)
+    return False
+
+
+def _are_stamps(facts: NodeFacts, *sides: ast.expr) -> bool:
+    """Tell whether one side is the stamp of a message, and the other one, a time or a number."""
+    stamps = [_is_stamp(facts, side) for side in sides]
+    return any(stamps) and all(
+        is_stamp or _is_time_or_number(facts, side)
+        for is_stamp, side in zip(stamps, sides, strict=True)
+    )
+
+
+def _is_stamp(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is the stamp of a header that nobody here fills."""
+    match facts.evaluator.single_value(node):
+        case ast.Attribute(attr="stamp", value=ast.Attribute(attr="header")) as stamp:
+            stores = [*facts.evaluator.stores("stamp"), *facts.evaluator.stores("header")]
+            text = f"{facts.module.text(stamp)}."
+            return not any(text.startswith(f"{facts.module.text(one.node)}.") for one in stores)
+    return False
+
+
+def _is_time_or_number(facts: NodeFacts, node: ast.expr) -> bool:
+    return class_of(facts, node) in _SPANS or type(facts.evaluator.evaluate(node)) in {int, float}
