@@ -9,24 +9,17 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import Argument, Client, Endpoint, Entity, Parameter, Service
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import UNKNOWN
+from scaffold.model.values import UNKNOWN, kind_of
 
 _TYPES = ("msg_type", "srv_type", "action_type")
 _NAMES = ("topic", "srv_name", "action_name")
 _CALLBACKS = ("callback", "execute_callback")
-_POLICIES = {
-    "reliability": "ReliabilityPolicy",
-    "durability": "DurabilityPolicy",
-    "history": "HistoryPolicy",
-    "liveliness": "LivelinessPolicy",
-}
 _NODE = (
-    "from rclpy.node import Node\nfrom rclpy.qos import DurabilityPolicy, QoSProfile\n"
-    "from std_msgs.msg import String\n\n\n"
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
     "    def __init__(self):\n"
     "        super().__init__('talker')\n"
-    "        self.create_publisher({}, 'chatter', {})\n"
+    "        self.create_publisher({}, 'chatter', 10)\n"
     "        self.create_timer(0.1, {})\n"
     "        self.declare_parameter('gains', {})\n\n"
     "    def tick(self):\n        pass\n"
@@ -39,46 +32,34 @@ _HELPER = {
     "class Pull(Helper):\n    def client(self) -> rclpy.node.Client:\n"
     "        return self.create_client(Trigger, ('mission', 'pull'))\n",
 }
-_LATCHED = "QoSProfile(depth=1, {}=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
 class ArgumentUnusable(Rule):
     """A function of rclpy gets a value of a kind that it cannot use.
 
-    **Why.** ``TypeError: Expected QoSProfile or int, but received <class 'str'>`` and the like,
-    at start or at the first call.
+    **Why.** ``TypeError: 'str' object is not callable`` and the like, at start or at the first
+    call.
 
-    **Fix.** Give what the parameter is for: a class for a type, a number or a QoSProfile for a
-    quality of service, a function for a callback.
+    **Fix.** Give what the parameter is for: a class for a type, a text for a name, a function for
+    a callback.
 
-    **Source.** ``rclpy/node.py``, ``rclpy/qos.py``, ``rclpy/parameter.py``.
+    **Source.** ``rclpy/node.py``, ``rclpy/parameter.py``.
     """
 
     code = "ND055"
     name = "argument-unusable"
     examples = (
-        Example(
-            "usable",
-            {
-                "talker.py": _NODE.format(
-                    "String", _LATCHED.format("durability"), "self.tick", "[1.0, 2.0]"
-                )
-            },
-        ),
+        Example("usable", {"talker.py": _NODE.format("String", "self.tick", "[1.0, 2.0]")}),
         Example("a method of the same name", _HELPER),
         Example(
-            "an object, a text, a text, two types",
-            {"talker.py": _NODE.format("String()", "'10'", "'tick'", "[1, 2.0]")},
-            at=("talker.py:9", "talker.py:9", "talker.py:10", "talker.py:11"),
+            "an object, a text, two types",
+            {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
+            at=("talker.py:8", "talker.py:9", "talker.py:10"),
         ),
         Example(
-            "a policy of another kind, a dictionary",
-            {
-                "talker.py": _NODE.format(
-                    "String", _LATCHED.format("reliability"), "self.tick", "{'p': 1.0}"
-                )
-            },
-            at=("talker.py:9", "talker.py:11"),
+            "a dictionary",
+            {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
+            at=("talker.py:10",),
         ),
     )
 
@@ -89,21 +70,10 @@ class ArgumentUnusable(Rule):
                     problem = _problem(facts, entity, argument)
                     if problem:
                         yield self.report(argument, problem)
-            yield from self._check_profiles(facts)
-
-    def _check_profiles(self, facts: NodeFacts) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            if facts.module.qualified_name(call.func) != "rclpy.qos.QoSProfile":
-                continue
-            for word in call.keywords:
-                problem = _policy_problem(facts, word)
-                if problem:
-                    yield self.report(facts.module.location(word.value), problem)
 
 
 def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
     name, node, value = argument.name, argument.node, argument.value
-    kind = type(value).__name__
     problem = ""
     if isinstance(entity, Parameter):
         return _default_problem(value) if name == "value" else ""
@@ -113,13 +83,11 @@ def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
     elif isinstance(entity, Service | Client) and name == "srv_type":
         problem = _service_problem(facts, node)
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
-        problem = f"a name is text, and this is {_said(value)}: TypeError"
+        problem = f"a name is text, and this is {kind_of(value)}: TypeError"
     elif name in _CALLBACKS and isinstance(value, str):
-        problem = f"a callback is a function, and this is {_said(value)}: TypeError"
-    elif name == "qos_profile" and isinstance(entity, Endpoint):
-        problem = _qos_problem(facts, node, value)
+        problem = f"a callback is a function, and this is {kind_of(value)}: TypeError"
     elif name == "callback_group" and isinstance(value, str):
-        problem = f"a callback group is an object of rclpy, and this is a {kind}: AttributeError"
+        problem = "a callback group is an object of rclpy, and this is a str: AttributeError"
     elif name == "callback_group":
         full = facts.module.qualified_name(node) or ""
         is_class = full.startswith("rclpy.callback_groups.")
@@ -131,29 +99,9 @@ def _service_problem(facts: NodeFacts, node: ast.expr) -> str:
     """Return what is wrong about a type that should be that of a service."""
     full = facts.module.qualified_name(node) or ""
     if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
-        whole = ".".join(full.split(".")[2:3])
-        return f"this is a part of a service; the type is {whole}: RuntimeError"
+        return f"this is a part of a service; the type is {full.split('.')[2]}: RuntimeError"
     if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):
         return f"{full.rpartition('.')[2]} is no service: RuntimeError"
-    return ""
-
-
-def _said(value: object) -> str:
-    return "None" if value is None else f"a {type(value).__name__}"
-
-
-def _qos_problem(facts: NodeFacts, node: ast.expr, value: object) -> str:
-    if isinstance(value, str | float) or value is None:
-        return f"a quality of service is a depth or a QoSProfile, not {_said(value)}: TypeError"
-    if type(value) is int and value < 0:
-        return "a depth is at least 0: ValueError"
-    name = facts.module.qualified_name(node) or ""
-    if name == "rclpy.qos.QoSProfile":
-        return "this is the class: write QoSProfile(depth=10)"
-    if name.startswith("rclpy.qos.") and "Policy." in name:
-        return f"a policy alone is no profile: write QoSProfile(depth=10, ...={name[10:]})"
-    if isinstance(node, ast.Attribute | ast.Name) and facts.callback(node).function is not None:
-        return "this is a function, but a depth or a QoSProfile belongs here: TypeError"
     return ""
 
 
@@ -165,18 +113,4 @@ def _default_problem(value: object) -> str:
         if len(kinds) > 1 or kinds & {list, dict, tuple}:
             names = ", ".join(sorted(kind.__name__ for kind in kinds))
             return f"the values of a parameter have one type, and these are {names}: TypeError"
-    return ""
-
-
-def _policy_problem(facts: NodeFacts, word: ast.keyword) -> str:
-    value = facts.evaluator.evaluate(word.value)
-    if word.arg == "depth" and isinstance(value, str | float):
-        return f"a depth is an int, and this is {_said(value)}: AssertionError"
-    wanted = _POLICIES.get(word.arg or "")
-    if wanted and isinstance(value, str):
-        return f"{word.arg} is a {wanted}, and this is a str: AssertionError"
-    name = facts.module.qualified_name(word.value) or ""
-    given = name.split(".")[2] if name.startswith("rclpy.qos.") else ""
-    if wanted and given.endswith("Policy") and not given.endswith(wanted):
-        return f"{word.arg} is a {wanted}, and this is a {given}: another policy than is meant"
     return ""

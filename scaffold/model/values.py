@@ -129,6 +129,11 @@ def is_known(value: object) -> bool:
     return True
 
 
+def kind_of(value: object) -> str:
+    """Return what a value is, in words: ``a str``, ``None``."""
+    return "None" if value is None else f"a {type(value).__name__}"
+
+
 def same(first: object, second: object) -> bool:
     """Tell whether two values are equal and of the same type: 1 and True are not."""
     return type(first) is type(second) and first == second
