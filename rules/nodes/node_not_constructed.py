@@ -11,10 +11,9 @@ from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has
 
 _MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
-_CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
 _NODE = (
     "from rclpy.node import Node\n\n\n"
-    "class Talker({}):\n"
+    "class Talker(Node):\n"
     "    def {}(self):\n"
     "{}"
     "        self.create_timer(1.0, print)\n"
@@ -23,13 +22,12 @@ _INIT = "        super().__init__('talker')\n"
 
 
 class NodeNotConstructed(Rule):
-    """The constructor of a node gives it no name, comes too late, or is none.
+    """The constructor of a node gives it no name, calls that of Node too late, or is none.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
     or ``AttributeError: 'Talker' object has no attribute '_Node__...'`` when the node is used.
 
-    **Fix.** Begin ``def __init__(self):`` of a class that inherits from Node with
-    ``super().__init__('talker')``.
+    **Fix.** Begin ``def __init__(self):`` with ``super().__init__('talker')``.
 
     **Source.** ``rclpy/node.py``, ``Node.__init__``; Python documentation, ``super``.
     """
@@ -37,31 +35,26 @@ class NodeNotConstructed(Rule):
     code = "ND054"
     name = "node-not-constructed"
     examples = (
-        Example("first", {"talker.py": _NODE.format("Node", "__init__", _INIT)}),
+        Example("first", {"talker.py": _NODE.format("__init__", _INIT)}),
         Example(
             "without a name",
-            {"talker.py": _NODE.format("Node", "__init__", _INIT.replace("'talker'", ""))},
+            {"talker.py": _NODE.format("__init__", _INIT.replace("'talker'", ""))},
             at=("talker.py:6",),
         ),
         Example(
             "without parentheses",
-            {"talker.py": _NODE.format("Node", "__init__", _INIT.replace("super()", "super"))},
+            {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "super"))},
             at=("talker.py:6",),
         ),
         Example(
             "too late",
-            {"talker.py": _NODE.format("Node", "__init__", "") + _INIT},
+            {"talker.py": _NODE.format("__init__", "") + _INIT},
             at=("talker.py:6",),
         ),
         Example(
             "misspelt",
-            {"talker.py": _NODE.format("Node", "_init_", _INIT)},
+            {"talker.py": _NODE.format("_init_", _INIT)},
             at=("talker.py:5",),
-        ),
-        Example(
-            "of no node",
-            {"talker.py": _NODE.format("object", "__init__", _INIT)},
-            at=("talker.py:4",),
         ),
     )
 
@@ -69,10 +62,6 @@ class NodeNotConstructed(Rule):
         for facts in package.rclpy_files():
             for node in facts.classes:
                 yield from self._check(facts, node)
-            for class_ in facts.module.classes.values():
-                if _lacks_base(facts, class_.node):
-                    message = f"{class_.name} uses methods of Node, but does not inherit from it"
-                    yield self.report(class_, message)
 
     def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
         for name, method in node.methods.items():
@@ -117,27 +106,3 @@ def _used_before(facts: NodeFacts, node: NodeClass, call: ast.Call) -> list[ast.
             if is_self and has(NODE, func.attr) and not facts.is_conditional(call):
                 return [func]
     return []
-
-
-def _lacks_base(facts: NodeFacts, class_: ast.ClassDef) -> bool:
-    """Tell whether a class without bases treats itself as a node."""
-    bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
-    if [one for one in bases if one != "object"] or class_.keywords or class_.decorator_list:
-        return False
-    text = facts.module.source.text
-    if class_.name in {base for other in facts.module.walk(ast.ClassDef) for base in _bases(other)}:
-        return False
-    own = {*facts.module.index.bindings(class_)}
-    return any(
-        f"self.{name}(" in text
-        and name not in own
-        and any(
-            facts.evaluator.self_class(one.value) is class_ and not facts.evaluator.stores(name)
-            for one in facts.module.index.attributes(name)
-        )
-        for name in _CREATES
-    )
-
-
-def _bases(class_: ast.ClassDef) -> list[str]:
-    return [base.id for base in class_.bases if isinstance(base, ast.Name)]
