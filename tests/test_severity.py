@@ -28,6 +28,7 @@ _FORGOTTEN = {"CMakeLists.txt": _CMAKE.format(""), "config/talker.yaml": ""}
         ("PX067", {"package.xml": _NAMED.format("the-talker", "")}, WARNING),
         ("PX067", {"package.xml": _NAMED.format("the-msgs", ""), "msg/Beat.msg": ""}, ERROR),
         ("CM060", {**_BEATS, "talker.py": "from talker.msg import Old\n"}, ERROR),
+        ("CM060", {**_BEATS, "talker.py": "from other.msg import Old\n"}, WARNING),
         ("CM060", _BEATS, WARNING),
         ("CM018", {**_FORGOTTEN, "launch.py": "path = 'talker.yaml'\n"}, ERROR),
         ("CM018", _FORGOTTEN, WARNING),

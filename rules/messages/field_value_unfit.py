@@ -9,10 +9,12 @@ from scaffold.model.message_types import MessageTypes
 from scaffold.model.message_values import Misfits
 
 _CODE = (
+    "from rclpy.node import Node\n"
     "from sensor_msgs.msg import Imu, Temperature\nfrom std_msgs.msg import Bool, String, UInt8\n"
-    "\n\nclass Talker:\n"
+    "\n\nclass Talker(Node):\n"
     "    def __init__(self):\n"
-    "        self.count = 0\n\n"
+    "        self.count = 0\n"
+    "        self.create_timer(0.5, self.talk)\n\n"
     "    def talk(self):\n"
     "        reading = Temperature()\n"
     "        reading.temperature = {}\n"
@@ -45,9 +47,17 @@ class FieldValueUnfit(Rule):
     examples = (
         Example("values of their types", {"talker.py": _CODE.format(*_RIGHT)}),
         Example(
+            "a counter of what somebody presses",
+            {
+                "talker.py": _CODE.replace("create_timer(0.5, self.talk)", "on_press(self.talk)")
+                .format(*_RIGHT)
+                .replace("min(self.count, 255)", "self.count")
+            },
+        ),
+        Example(
             "text for a float, 8 of 9 elements, a counter in 8 bits, an int for a bool, a number",
             {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
-            at=("talker.py:11", "talker.py:13", "talker.py:15", "talker.py:17", "talker.py:17"),
+            at=("talker.py:13", "talker.py:15", "talker.py:17", "talker.py:19", "talker.py:19"),
         ),
         Example(
             "an int for a float, another message, a single number for an array, out of range",

@@ -35,6 +35,15 @@ class InterfaceMalformed(Rule):
             },
         ),
         Example(
+            "a file that rosidl does not read",
+            {
+                "CMakeLists.txt": _LISTS,
+                "msg/Beat.msg": "int32 count\n",
+                "msg/Old.msg": "time stamp\n",
+                "srv/Add.srv": "---\n",
+            },
+        ),
+        Example(
             "a type of C, a default out of range, an indented line, no separator",
             {
                 "CMakeLists.txt": _LISTS,

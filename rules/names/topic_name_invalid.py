@@ -41,6 +41,15 @@ class TopicNameInvalid(Rule):
                 )
             },
         ),
+        Example(
+            "a part of the name is a parameter that somebody sets",
+            {
+                "talker.py": _NODE.replace("'{}'", "f'robot/{name}/scan'").replace(
+                    "        self.create",
+                    "        name = self.declare_parameter('name', '').value\n        self.create",
+                )
+            },
+        ),
         Example("a dash", {"talker.py": _NODE.format("front-scan")}, at=("talker.py:8",)),
         Example("a digit first", {"talker.py": _NODE.format("scan/2d")}, at=("talker.py:8",)),
     )
@@ -52,13 +61,17 @@ class TopicNameInvalid(Rule):
                 if argument is None or not isinstance(entity.name, str):
                     continue
                 # An empty default is there to be replaced.
-                if not entity.name and (
-                    entity.from_parameter
-                    or is_asked_about(facts.module, entity.call, argument.node)
-                ):
+                if entity.from_parameter and _has_gap(entity.name):
+                    continue
+                if not entity.name and is_asked_about(facts.module, entity.call, argument.node):
                     continue
                 problem = topic_problem(entity.name)
                 if problem:
                     yield self.report(
                         argument, f"ROS 2 refuses the name {entity.name!r}: {problem}"
                     )
+
+
+def _has_gap(name: str) -> bool:
+    """Tell whether a part of a name is empty."""
+    return not name or "//" in name or name.endswith("/")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.loggers import is_of_rclpy
 from scaffold.model.nodes import NodeFacts
 
 _METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
@@ -35,6 +36,13 @@ class LogKeywordUnknown(Rule):
     name = "log-keyword-unknown"
     examples = (
         Example("known", {"talker.py": _NODE.format("f'{text}', throttle_duration_sec=1.0")}),
+        Example(
+            "known to a logger of one's own",
+            {
+                "talker.py": _NODE.format("text, internal=True")
+                + "\n    def get_logger(self):\n        return self.log\n"
+            },
+        ),
         Example("unknown", {"talker.py": _NODE.format("text, throttle=1.0")}, at=("talker.py:6",)),
         Example("no f", {"talker.py": _NODE.format("'heard {text}'")}, at=("talker.py:6",)),
         Example("a number", {"talker.py": _NODE.format("'heard ' + 1")}, at=("talker.py:6",)),
@@ -44,7 +52,7 @@ class LogKeywordUnknown(Rule):
         for facts in package.rclpy_files():
             for attribute in facts.module.index.attributes("get_logger"):
                 call = _log_call(facts, attribute)
-                if call is not None:
+                if call is not None and is_of_rclpy(facts, attribute):
                     yield from self._check(facts, call)
 
     def _check(self, facts: NodeFacts, call: ast.Call) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.model.loggers import is_of_rclpy
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import UNKNOWN
 
@@ -33,6 +34,13 @@ class LogMessageNotText(Rule):
     examples = (
         Example("text", {"talker.py": _NODE.format("f'{1}'")}),
         Example(
+            "a logger of one's own",
+            {
+                "talker.py": _NODE.format("'%d', 42")
+                + "\n    def get_logger(self):\n        return self.log\n"
+            },
+        ),
+        Example(
             "a number",
             {"talker.py": _NODE.format("42")},
             at=("talker.py:6",),
@@ -43,7 +51,8 @@ class LogMessageNotText(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for call in facts.module.walk(ast.Call):
-                if not _is_logger(call) or not call.args:
+                method = _get_logger(call)
+                if method is None or not call.args or not is_of_rclpy(facts, method):
                     continue
                 message = call.args[0]
                 if len(call.args) > 1 and not isinstance(message, ast.Starred):
@@ -68,9 +77,10 @@ class LogMessageNotText(Rule):
         return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
 
 
-def _is_logger(call: ast.Call) -> bool:
+def _get_logger(call: ast.Call) -> ast.expr | None:
+    """Return the ``get_logger`` of a call that logs with what it returns."""
     match call.func:
-        case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
-            return call.func.attr in METHODS
+        case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger") as method)):
+            return method if call.func.attr in METHODS else None
         case _:
-            return False
+            return None

@@ -47,26 +47,34 @@ def is_commented_out(package: Package, path: str) -> bool:
 
 
 def words_of_users(package: Package) -> set[str]:
-    """Return the words in the workspace's code and interfaces that may name a type."""
+    """Return the words in the workspace's code and interfaces that may name a type of a package.
+
+    ``Beat`` of ``from my_msgs.msg import Beat``, ``my_msgs::msg::Beat``, ``my_msgs/Beat``, or alone
+    in an interface of the package that is generated.
+    """
     return package.remember("words_of_users", lambda: _words_of_users(package))
 
 
 def _words_of_users(package: Package) -> set[str]:
     found: set[str] = set()
+    section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
+    use = rf"\b{re.escape(package.name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
+    own = {file.path for call in generations(package) for file in call.files}
     for other in package.workspace:
         for path in other.files:
             if not path.endswith(_USERS):
                 continue
             try:
-                words = set(re.findall(r"[A-Z]\w+", other.source(path).text))
+                text = other.source(path).text
             except ViewError:
                 continue
-            found |= words - {path.rpartition("/")[2].partition(".")[0]}
+            names = [text] if other.name == package.name and path in own else re.findall(use, text)
+            found.update(word for one in names for word in re.findall(r"[A-Z]\w+", one))
     return found
 
 
 def interface_files(package: Package) -> list[InterfaceFile]:
-    """Return the files that ``rosidl_generate_interfaces`` reads, or is meant to.
+    """Return the files that ``rosidl_generate_interfaces`` reads, or may read.
 
     None when nothing is generated: then they may be of ROS 1. Raises ViewError.
     """
@@ -78,8 +86,9 @@ def _read(package: Package) -> Iterator[InterfaceFile]:
     if not calls:
         return
     listed = {file.path for call in calls for file in call.files}
-    standard = {path for path in standing(package) if not is_test_data(path)}
-    for path in sorted(listed | standard):
+    knows_all = all(call.is_complete for call in calls)
+    others = () if knows_all else standing(package)
+    for path in sorted({*listed, *(path for path in others if not is_test_data(path))}):
         if path not in listed and is_commented_out(package, path):
             continue
         stem, _, kind = path.rpartition("/")[2].rpartition(".")

@@ -273,7 +273,7 @@ class Misfits:
         return None
 
     def _endless_counter(self, node: ast.expr) -> ast.expr | None:
-        """Return the attribute in a sum that is only ever counted up, and never compared."""
+        """Return the attribute in a sum that is counted up for ever, and never compared."""
         for part in _summands(node):
             if isinstance(part, ast.Attribute) and self._counts_up(part):
                 return self._counting(part)
@@ -300,10 +300,21 @@ class Misfits:
                 step = evaluator.evaluate(above.value)
                 if not (isinstance(above.op, ast.Add) and isinstance(step, int) and step > 0):
                     return False
-                counted = True
+                counted = counted or self._runs_again(store.node)
             elif store.value is None or not self._is_start(store.node, store.value):
                 return False
         return counted and not self._is_watched(node.attr)
+
+    def _runs_again(self, node: ast.AST) -> bool:
+        """Tell whether a loop or the executor runs a node: nobody presses a button for ever."""
+        module, facts = self._types.module, self._types.facts
+        if any(isinstance(one, ast.While) for one in module.parents(node)):
+            return True
+        function = facts.function_of(node)
+        return any(
+            callback.function is not None and function in facts.reached(callback.function)
+            for _, callback in facts.callbacks
+        )
 
     def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
         """Tell whether an assignment stands in ``__init__``: it starts and resets nothing."""
