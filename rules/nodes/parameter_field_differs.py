@@ -6,13 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
-from scaffold.model.node_entities import ParameterRead
+from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import FIELDS, parameter_read
 
-FIELDS = frozenset(
-    {"bool_value", "integer_value", "double_value", "string_value", "byte_array_value"}
-    | {"bool_array_value", "integer_array_value", "double_array_value", "string_array_value"}
-)
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -20,6 +17,15 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.declare_parameter('period', 0.2)\n"
     "        self.period = self.get_parameter('period').get_parameter_value().{}\n"
+)
+_VARIABLES = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.parameter = self.declare_parameter('period', 0.2)\n"
+    "        value = self.parameter.get_parameter_value()\n"
+    "        self.period = value.{}\n"
 )
 
 
@@ -43,40 +49,44 @@ class ParameterFieldDiffers(Rule):
             at=("talker.py:8",),
             fixed={"talker.py": _NODE.format("double_value")},
         ),
+        Example(
+            "through variables",
+            {"talker.py": _VARIABLES.format("string_value")},
+            at=("talker.py:9",),
+            fixed={"talker.py": _VARIABLES.format("double_value")},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            for read in facts.parameter_reads:
-                field = _field_read(facts, read)
-                declared = _declared(facts, read) if field is not None else ""
-                if field is None or not declared or field.attr == f"{declared}_value":
-                    continue
-                _, end = facts.module.span(field)
-                edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
-                message = f"{read.name!r} is declared as {declared}, so {field.attr} stays empty"
-                fix = Fix("read the field of its type", (edit,), Safety.UNSAFE)
-                yield self.report(facts.module.location(field), message, fix)
+            for name in FIELDS:
+                for field in facts.module.index.attributes(name):
+                    read, declared = _read(package, facts, field)
+                    if not declared or field.attr == f"{declared}_value":
+                        continue
+                    _, end = facts.module.span(field)
+                    edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
+                    message = f"{read!r} is declared as {declared}, so {field.attr} stays empty"
+                    fix = Fix("read the field of its type", (edit,), Safety.UNSAFE)
+                    yield self.report(facts.module.location(field), message, fix)
 
 
-def _field_read(facts: NodeFacts, read: ParameterRead) -> ast.Attribute | None:
-    """Return ``....get_parameter_value().integer_value`` around a read."""
-    asked = facts.module.parent(read.call)
-    called = facts.module.parent(asked) if asked else None
-    field = facts.module.parent(called) if called else None
-    match field:
-        case ast.Attribute(
-            attr=name, value=ast.Call(func=ast.Attribute(attr="get_parameter_value", value=value))
-        ) if name in FIELDS and value is read.call and read.method == "get_parameter":
-            return field
-    return None
+def _read(package: Package, facts: NodeFacts, field: ast.Attribute) -> tuple[str, str]:
+    """Return name and declared type of the parameter that ``....integer_value`` is read of.
+
+    Both empty when that is not sure.
+    """
+    match facts.evaluator.single_value(field.value):
+        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
+            owner, name = parameter_read(facts, parameter)
+            if owner is not None and isinstance(name, str):
+                declared = declared_by(owner, package)
+                return name, declared.types.get(name) or _of_empty_list(declared, name)
+    return "", ""
 
 
-def _declared(facts: NodeFacts, read: ParameterRead) -> str:
-    """Return the type that the one declaration in the file gives; empty if that is not sure."""
-    if read.owner is None:
-        return ""
-    found = [item for item in facts.parameters if item.name == read.name]
-    if len(found) != 1 or found[0].owner is not read.owner or found[0].argument("descriptor"):
-        return ""
-    return found[0].type or ""
+def _of_empty_list(declared: Declared, name: str) -> str:
+    """Return what rclpy takes an empty list for, if the default is one."""
+    place = declared.places.get(name)
+    is_empty = place is not None and place.default == [] and place.descriptor_node is None
+    return "byte_array" if is_empty else ""

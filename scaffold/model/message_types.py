@@ -14,7 +14,7 @@ from scaffold.model.interfaces import KINDS, Definitions, Interface
 from scaffold.model.node_entities import ActionServer, Endpoint, Service, Subscription
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.package import Package
-from scaffold.model.rclpy_names import future_given
+from scaffold.model.rclpy_names import PARAMETER, class_of, future_given
 from scaffold.model.scopes import Binding
 from scaffold.model.self_values import Store
 from scaffold.record import NamedTuple
@@ -26,6 +26,7 @@ PARTS = {
 }
 """The classes inside of the class of a service or an action, and what they are."""
 _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
+_PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
 _MOST_BINDINGS = 200  # of one name or attribute; with more nobody knows what it is
 _EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
@@ -106,7 +107,7 @@ class MessageTypes:
         """Whether the file imports interfaces and is not of ROS 1."""
         if "rospy" in self.module.imports_by_root:
             return False
-        return any(
+        return self.module.mentions("get_parameter_value(") or any(
             not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
             for import_ in self.module.imports
         )
@@ -165,10 +166,8 @@ class MessageTypes:
 
     def _infer(self, node: ast.expr) -> FieldType | MessageClass | None:
         match node:
-            case ast.Call(func=ast.Attribute(attr="result", value=future), args=[]):
-                return self._answer(future)
-            case ast.Call(func=func):
-                return self.class_of(func)
+            case ast.Call():
+                return self._made(node)
             case ast.Name():
                 return self._type_of_name(node)
             case ast.Subscript(value=value, slice=index) if not isinstance(index, ast.Slice):
@@ -176,6 +175,16 @@ class MessageTypes:
             case ast.Attribute():
                 return self._type_of_field(node)
         return None
+
+    def _made(self, node: ast.Call) -> MessageClass | None:
+        """Return what a call gives."""
+        match node.func:
+            case ast.Attribute(attr="result", value=future) if not node.args:
+                return self._answer(future)
+            case ast.Attribute(attr="get_parameter_value", value=parameter):
+                is_known = class_of(self.facts, parameter) == PARAMETER
+                return self.class_named(_PARAMETER_VALUE) if is_known else None
+        return self.class_of(node.func)
 
     def _answer(self, node: ast.expr) -> MessageClass | None:
         """Return what the future of a service call gives."""

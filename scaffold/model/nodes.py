@@ -66,6 +66,8 @@ class NodeFacts:
         self._modules = modules
         self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
+        self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
+        """Kept by `parameter_objects`."""
         self._creation = Creation(self)
         self._base_depth = 0
 

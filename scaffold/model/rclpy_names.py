@@ -8,11 +8,14 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING
 
+from scaffold.model.parameter_objects import is_listed_parameter
+
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
     from scaffold.model.scopes import FunctionNode
 
 NODE = "rclpy.node.Node"
+PARAMETER = "rclpy.parameter.Parameter"
 PLACES: Mapping[str, str] = {
     "Node": "rclpy.node",
     "LifecycleNode": "rclpy.lifecycle",
@@ -43,8 +46,9 @@ _MADE: Mapping[str, str] = {
     "create_rate": "rclpy.timer.Rate",
     "get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
     "get_clock": "rclpy.clock.Clock",
-    "get_parameter": "rclpy.parameter.Parameter",
-    "declare_parameter": "rclpy.parameter.Parameter",
+    "get_parameter": PARAMETER,
+    "get_parameter_or": PARAMETER,
+    "declare_parameter": PARAMETER,
 }
 """What the methods of a node give."""
 _GIVEN: Mapping[str, str] = {
@@ -151,6 +155,8 @@ def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
     argument = facts.parameter_of(node)
     if argument is not None and _is_goal_handle(facts, argument):
         return GOAL_HANDLE
+    if is_listed_parameter(facts, node):
+        return PARAMETER
     future = future_given(facts, node)
     return class_of(facts, future) if future is not None else None
 

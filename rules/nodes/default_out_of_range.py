@@ -1,0 +1,76 @@
+"""ND082: defaults of parameters are in the range of their descriptor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.node_entities import Parameter
+from scaffold.model.parameter_objects import is_of_node
+
+_RIGHT = {"integer": "integer_range", "double": "floating_point_range"}
+_NODE = (
+    "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        limits = FloatingPointRange(from_value=0.0, to_value=1.0{})\n"
+    "        descriptor = ParameterDescriptor(floating_point_range=[limits])\n"
+    "        self.declare_parameter('gain', {}, descriptor)\n"
+)
+
+
+class DefaultOutOfRange(Rule):
+    """The default of a parameter is not in the range of its own descriptor.
+
+    **Why.** The node ends at start: ``InvalidParameterValueException: Invalid parameter value (5.0)
+    for parameter. Reason: Parameter gain out of range Min: 0.0, Max: 1.0, value: 5.0``. A range of
+    the other kind of numbers is not looked at: any value is taken.
+
+    **Fix.** Change the default or the range; write ``1.0`` for a floating_point_range.
+
+    **Source.** ``rclpy/node.py``, ``_apply_descriptor``.
+    """
+
+    code = "ND082"
+    name = "default-out-of-range"
+    examples = (
+        Example("in the range", {"talker.py": _NODE.format("", "0.55")}),
+        Example("on a step", {"talker.py": _NODE.format(", step=0.1", "0.7")}),
+        Example("too much", {"talker.py": _NODE.format("", "5.0")}, at=("talker.py:10",)),
+        Example(
+            "between two steps",
+            {"talker.py": _NODE.format(", step=0.1", "0.25")},
+            at=("talker.py:10",),
+        ),
+        Example("an integer", {"talker.py": _NODE.format("", "1")}, at=("talker.py:10",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for one in (one for one in facts.parameters if is_of_node(facts, one)):
+                message = _problem(one) if one.default_node is not None else ""
+                if message and not is_harmless(
+                    facts.module, one.call, "InvalidParameterValueException"
+                ):
+                    yield self.report(facts.module.location(one.default_node or one.call), message)
+
+
+def _problem(parameter: Parameter) -> str:
+    default, kind = parameter.default, parameter.type
+    ranges = parameter.descriptor.ranges if parameter.descriptor is not None else []
+    if not isinstance(default, int | float) or kind not in _RIGHT:
+        return ""
+    for limits in ranges:
+        if limits.type == kind and not limits.allows(default):
+            return (
+                f"the default {default} is not in the range of the descriptor, {limits.text}: "
+                "the node dies"
+            )
+    if ranges and all(limits.type != kind for limits in ranges):
+        article = "an" if kind == "integer" else "a"
+        return (
+            f"the default {default} is {article} {kind}, so the descriptor's range of "
+            f"{ranges[0].type}s holds for nothing; it takes {_RIGHT[kind]}"
+        )
+    return ""

@@ -1,0 +1,106 @@
+"""ND081: parameters are declared in a form that rclpy takes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.descriptors import DESCRIPTOR, message_made
+from scaffold.model.handlers import is_harmless
+from scaffold.model.node_entities import Parameter
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import is_of_node
+from scaffold.model.values import UNKNOWN
+
+_RANGES = ("floating_point_range", "integer_range")
+_NODE = (
+    "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter({}, 1.0, {})\n"
+    "        self.declare_parameters('', [('mode', 'slow'{}), ('gain', 1.0)])\n"
+)
+_TEXT = "ParameterDescriptor(description='Hz')"
+_RANGE = "FloatingPointRange(from_value=0.0, to_value=9.0)"
+
+
+class ParameterDeclaredWrongly(Rule):
+    """A parameter is declared with something else than a name, a default and a descriptor.
+
+    **Why.** ``TypeError: Third element ... is not a ParameterDescriptor``, ``TypeError: Invalid
+    parameter tuple length``, ``TypeError: 'FloatingPointRange' object is not subscriptable``.
+
+    **Fix.** ``ParameterDescriptor(description=...)``; ranges are lists of one.
+
+    **Source.** ``rclpy/node.py``, ``declare_parameters``; ``ParameterDescriptor.msg``.
+    """
+
+    code = "ND081"
+    name = "parameter-declared-wrongly"
+    examples = (
+        Example("a descriptor", {"talker.py": _NODE.format("'rate'", _TEXT, f", {_TEXT}")}),
+        Example(
+            "a text; four values",
+            {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
+            at=("talker.py:8", "talker.py:9"),
+        ),
+        Example(
+            "a range that is no list; the class",
+            {
+                "talker.py": _NODE.format(
+                    "'rate'",
+                    f"ParameterDescriptor(floating_point_range={_RANGE})",
+                    ", ParameterDescriptor",
+                )
+            },
+            at=("talker.py:8", "talker.py:9"),
+        ),
+        Example(
+            "a class that is no node",
+            {
+                "state.py": "import rclpy\nfrom yasmin import State\n\n\n"
+                "class Wait(State):\n    def __init__(self):\n"
+                "        self.declare_parameter('topic', 'what to wait for', 'chatter')\n"
+            },
+        ),
+        Example("a number", {"talker.py": _NODE.format("1.0", "None", "")}, at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for one in (one for one in facts.parameters if is_of_node(facts, one)):
+                for node, problem in _problems(facts, one):
+                    if not is_harmless(facts.module, one.call, problem.rpartition(": ")[2]):
+                        yield self.report(facts.module.location(node), problem)
+
+
+def _problems(facts: NodeFacts, one: Parameter) -> Iterator[tuple[ast.expr, str]]:
+    name = facts.evaluator.evaluate(one.name_node)
+    if one.name_node is not None and name is not UNKNOWN and (not name or type(name) is not str):
+        yield one.name_node, f"the name of a parameter is text, not {name!r}: TypeError"
+        return
+    entry = facts.module.parent(one.name_node) if one.name_node is not None else None
+    if isinstance(entry, ast.Tuple | ast.List) and len(entry.elts) > 3:  # noqa: PLR2004  see Fix
+        count = len(entry.elts)
+        yield entry, f"a parameter is name, default and descriptor, not {count} values: TypeError"
+    if one.descriptor_node is not None:
+        problem = _descriptor_problem(facts, one, one.descriptor_node)
+        if problem:
+            yield one.descriptor_node, problem
+
+
+def _descriptor_problem(facts: NodeFacts, one: Parameter, node: ast.expr) -> str:
+    value = facts.evaluator.evaluate(node)
+    is_listed = "parameters" in one.arguments
+    if value is not UNKNOWN and (value is not None or is_listed):
+        return f"a ParameterDescriptor belongs here, not {value!r}: TypeError"
+    if facts.module.qualified_name(node) == DESCRIPTOR:
+        return "this is the class ParameterDescriptor: make an object of it: TypeError"
+    fields = message_made(facts, node, DESCRIPTOR) or {}
+    for name in _RANGES:
+        made = facts.evaluator.single_value(fields[name]) if name in fields else None
+        func = facts.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+        if func is not None and func.startswith("rcl_interfaces.msg."):
+            return f"{name} is a list of one range, and this is a range alone: TypeError"
+    return ""

@@ -1,0 +1,120 @@
+"""Which expressions are objects of rclpy's Parameter, and of which parameter of the node."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from scaffold.model.values import UNKNOWN, Unknown
+
+if TYPE_CHECKING:
+    from scaffold.model.node_entities import Entity
+    from scaffold.model.node_owners import NodeOwner
+    from scaffold.model.nodes import NodeFacts
+    from scaffold.model.scopes import FunctionNode
+
+FIELDS = frozenset(
+    {"bool_value", "integer_value", "double_value", "string_value", "byte_array_value"}
+    | {"bool_array_value", "integer_array_value", "double_array_value", "string_array_value"}
+)
+"""The fields of ParameterValue that hold values."""
+CALLBACKS = (
+    "add_on_set_parameters_callback",
+    "add_post_set_parameters_callback",
+    "add_pre_set_parameters_callback",
+)
+"""The methods of a node that take a function to call with a list of parameters."""
+_GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
+
+
+def parameter_read(facts: NodeFacts, node: ast.expr) -> tuple[NodeOwner | None, str | Unknown]:
+    """Return the node and the name of the parameter that an expression is the object of.
+
+    Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
+
+    Returns:
+        Node and name; ``None`` and ``UNKNOWN`` when the expression is no such call.
+    """
+    made = facts.evaluator.single_value(node)
+    if isinstance(made, ast.Subscript):
+        return _listed(facts, made)
+    if not isinstance(made, ast.Call):
+        return None, UNKNOWN
+    func = facts.method_of(made)
+    if func is None or func.attr not in _GIVING:
+        return None, UNKNOWN
+    named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
+    return facts.owner_of(func.value), facts.evaluator.text(named[0]) if named else UNKNOWN
+
+
+def _listed(facts: NodeFacts, node: ast.Subscript) -> tuple[NodeOwner | None, str | Unknown]:
+    """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
+    call = facts.evaluator.single_value(node.value)
+    index = facts.evaluator.evaluate(node.slice)
+    match call:
+        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
+            names = facts.evaluator.evaluate(given)
+            if isinstance(names, list | tuple) and type(index) is int and index < len(names):
+                name = names[index]
+                return facts.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
+    return None, UNKNOWN
+
+
+def is_of_node(facts: NodeFacts, created: Entity) -> bool:
+    """Tell whether a method is called on a node, by what is known or by the name of the object."""
+    if created.owner is not None:
+        return True
+    func = facts.method_of(created.call)
+    receiver = func.value if func is not None else None
+    if isinstance(receiver, ast.Attribute):
+        return receiver.attr.lstrip("_") == "node"
+    return isinstance(receiver, ast.Name) and receiver.id.lstrip("_") == "node"
+
+
+def is_parameter_list(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is surely a list of rclpy's parameters."""
+    made = facts.evaluator.single_value(node)
+    match made:
+        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
+            return facts.owner_of(receiver) is not None
+    argument = facts.parameter_of(made)
+    return argument is not None and argument in callback_arguments(facts)
+
+
+def is_listed_parameter(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is an item of such a list: of a loop, or by its number."""
+    if isinstance(node, ast.Subscript):
+        is_number = type(facts.evaluator.evaluate(node.slice)) is int
+        return is_number and is_parameter_list(facts, node.value)
+    if not isinstance(node, ast.Name):
+        return False
+    found = facts.module.index.lookup(node.id, node)
+    loops = [facts.module.parent(binding.node) for binding in found[1]] if found else []
+    return bool(loops) and all(
+        isinstance(loop, ast.For | ast.comprehension)
+        and isinstance(loop.target, ast.Name)
+        and is_parameter_list(facts, loop.iter)
+        for loop in loops
+    )
+
+
+def callback_arguments(facts: NodeFacts) -> dict[ast.arg, FunctionNode | ast.Lambda]:
+    """Return what rclpy calls with a list of parameters: the argument, and its function."""
+    known = facts.parameter_callbacks
+    if known is not None:
+        return known
+    found: dict[ast.arg, FunctionNode | ast.Lambda] = {}
+    facts.parameter_callbacks = found
+    for method in CALLBACKS:
+        for attribute in facts.module.index.attributes(method):
+            call = facts.module.parent(attribute)
+            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
+                continue
+            callback = facts.callback(call.args[0])
+            if callback.function is None or callback.is_partial or callback.is_called:
+                continue
+            arguments = callback.function.args
+            names = [*arguments.posonlyargs, *arguments.args][int(callback.is_bound) :]
+            if names:
+                found[names[0]] = callback.function
+    return found
