@@ -6,10 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import RclpyCall
 from scaffold.model.node_owners import NodeOwner
 from scaffold.model.nodes import NodeFacts
 
-_RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait", "sleep")
+_RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -21,7 +22,7 @@ _NODE = (
     "def main():\n"
     "    rclpy.init()\n"
     "    node = Talker()\n"
-    "{}    node.destroy_node()\n"
+    "{}    node.destroy_node()\n\n\nif __name__ == '__main__':\n    main()\n"
 )
 
 
@@ -41,13 +42,26 @@ class NodeNeverSpun(Rule):
     examples = (
         Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
         Example("never", {"talker.py": _NODE.format("")}, at=("talker.py:16",)),
+        Example("asleep", {"talker.py": _NODE.format("    time.sleep(9)\n")}, at=("talker.py:16",)),
+        Example(
+            "in a loop",
+            {"talker.py": _NODE.format("    while rclpy.ok():\n        rclpy.spin_once(node)\n")},
+        ),
+        Example(
+            "once", {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")}, at=("talker.py:17",)
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            if not facts.init_calls or facts.spin_calls or self._may_run(facts):
-                continue
             waiting = {node.name: node for node in facts.classes if _waits(node)}
+            if not facts.init_calls or not waiting:
+                continue
+            if len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
+                message = "spin_once() runs one callback at most, and no loop is around it"
+                yield self.report(facts.spin_calls[0], message)
+            if facts.spin_calls or self._may_run(facts):
+                continue
             for call in facts.module.walk(ast.Call):
                 if isinstance(call.func, ast.Name) and call.func.id in waiting:
                     message = f"nothing spins this {call.func.id}: its callbacks never run"
@@ -58,6 +72,17 @@ class NodeNeverSpun(Rule):
         names = {node.attr for node in facts.module.walk(ast.Attribute)}
         names |= {node.id for node in facts.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
+
+
+def _is_once(facts: NodeFacts, spin: RclpyCall) -> bool:
+    """Tell whether a program that begins here spins its node a single time, and ends."""
+    if spin.name != "spin_once" or spin.function is None or not facts.module.has_main_guard:
+        return False
+    in_loop = any(
+        isinstance(parent, ast.For | ast.While) and parent.lineno > spin.function.lineno
+        for parent in facts.module.parents(spin.call)
+    )
+    return not in_loop and spin.function in {one.function for one in facts.init_calls}
 
 
 def _waits(node: NodeOwner) -> bool:

@@ -1,0 +1,112 @@
+"""ND070: own methods are called with the arguments that they take."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.node_entities import Callback
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
+    "        self.talk({})\n\n"
+    "    def talk(self, text, times=1):\n"
+    "        for _ in range(times):\n"
+    "            self.pub.publish(String(data=text))\n"
+)
+
+
+class OwnCallUnfit(Rule):
+    """A method of the node, or a function of the file, gets other arguments than it takes.
+
+    **Why.** ``TypeError: Talker.talk() missing 1 required positional argument: 'text'`` when the
+    line is reached; in a callback that ends the node.
+
+    **Fix.** Give what it takes.
+
+    **Source.** Python documentation, "Function definitions".
+    """
+
+    code = "ND070"
+    name = "own-call-unfit"
+    examples = (
+        Example("what it takes", {"talker.py": _NODE.format("'hello', times=2")}),
+        Example("nothing", {"talker.py": _NODE.format("")}, at=("talker.py:9",)),
+        Example("too much", {"talker.py": _NODE.format("'a', 2, 3")}, at=("talker.py:9",)),
+        Example("another name", {"talker.py": _NODE.format("txt='a'")}, at=("talker.py:9",)),
+        Example(
+            "replaced in a class that inherits, or by hand",
+            {
+                "talker.py": _NODE.format("")
+                + "\n\nclass Loud(Talker):\n    def talk(self):\n        pass\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                if not isinstance(call.func, ast.Name | ast.Attribute):
+                    continue
+                callback = facts.callback(call.func)
+                problem = _problem(facts, call, callback)
+                if problem and not is_harmless(facts.module, call, "TypeError"):
+                    message = f"{callback.name}() {problem}: TypeError"
+                    yield self.report(facts.module.location(call), message)
+
+
+def _problem(facts: NodeFacts, call: ast.Call, callback: Callback) -> str:
+    """Say what does not fit, if it is known for sure which function is called."""
+    function = callback.function
+    if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
+        return ""
+    if callback.is_called or callback.is_partial or not _is_only_one(facts, call.func, function):
+        return ""
+    if any(isinstance(one, ast.Starred) for one in call.args):
+        return ""
+    if any(word.arg is None for word in call.keywords):
+        return ""
+    return _misfit(call, function.args, bound=int(callback.is_bound))
+
+
+def _is_only_one(
+    facts: NodeFacts, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
+) -> bool:
+    """Tell whether no class that inherits, and no assignment, puts another function in place."""
+    others = [one for one in facts.module.function_nodes if one.name == function.name]
+    if len(others) != 1 or facts.evaluator.stores(function.name):
+        return False
+    if not isinstance(func, ast.Attribute):
+        return True
+    class_ = facts.evaluator.self_class(func.value)
+    return class_ is not None and function in class_.body
+
+
+def _misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
+    positional = [*takes.posonlyargs, *takes.args][bound:]
+    names = [one.arg for one in positional]
+    if len(call.args) > len(names) and takes.vararg is None:
+        count = len(names)
+        noun = "argument" if count == 1 else "arguments"
+        return f"takes {count or 'no'} {noun}, not {len(call.args)}"
+    words = {word.arg for word in call.keywords if word.arg}
+    by_name = {one.arg for one in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
+    by_name |= {one.arg for one in takes.kwonlyargs}
+    unknown = sorted(words - by_name)
+    if unknown and takes.kwarg is None:
+        return f"has no argument {unknown[0]!r}"
+    needed = names[len(call.args) : len(names) - len(takes.defaults)]
+    needed += [
+        one.arg
+        for one, default in zip(takes.kwonlyargs, takes.kw_defaults, strict=True)
+        if default is None
+    ]
+    missing = [name for name in needed if name not in words]
+    return f"needs {', '.join(missing)} as well" if missing else ""
