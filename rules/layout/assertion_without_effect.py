@@ -1,0 +1,139 @@
+"""LY043: what a test states is looked at."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.python_module import PythonModule
+from scaffold.model.scopes import FunctionNode
+from scaffold.model.test_files import test_functions, test_modules
+
+_TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
+_ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
+_MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
+
+
+class AssertionWithoutEffect(Rule):
+    """A test states something that is never looked at, or that is always true.
+
+    **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
+    with nothing to call, a function that is not called, ``assert`` in a ``try`` that drops the
+    AssertionError, a test inside a test.
+
+    **Fix.** Write ``assert``; ``with pytest.raises(...):``; call the function.
+
+    **Source.** pytest documentation, "How to write and report assertions in tests".
+    """
+
+    code = "LY043"
+    name = "assertion-without-effect"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "looked at",
+            {
+                "test/test_text.py": _TEST.format(
+                    "    assert ready()\n    with pytest.raises(ValueError):\n        1 < ready()\n"
+                )
+            },
+        ),
+        Example(
+            "a comparison, a function, an error that nothing raises",
+            {
+                "test/test_text.py": _TEST.format(
+                    "    1 == ready()\n    assert ready\n    pytest.raises(ValueError)\n"
+                )
+            },
+            at=(*(f"test/test_text.py:{line}" for line in (9, 10, 11)),),
+        ),
+        Example(
+            "an error that is dropped, a test in a test",
+            {
+                "test/test_text.py": _TEST.format(
+                    "    try:\n        assert ready()\n    except Exception:\n        pass\n\n"
+                    "    def test_more():\n        assert ready()\n"
+                )
+            },
+            at=("test/test_text.py:11", "test/test_text.py:14"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in test_modules(package):
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    at, problem = _problem(module, test.node, node)
+                    if problem:
+                        yield self.report(module.location(at), problem)
+
+
+def _problem(module: PythonModule, test: FunctionNode, node: ast.AST) -> tuple[ast.AST, str]:
+    problem = ""
+    match node:
+        case ast.Expr(value=value):
+            problem = _statement_problem(module, value)
+        case ast.Assert(test=condition):
+            problem = _condition_problem(module, condition)
+        case ast.Try(body=body, handlers=handlers) if any(
+            isinstance(one, ast.Assert) for one in body
+        ):
+            for handler in handlers:
+                if _drops(module, handler):
+                    return handler, "this drops the AssertionError: the test passes all the same"
+        case ast.FunctionDef(name=name) if node is not test and name.startswith("test_"):
+            if not module.index.names(name) and not node.decorator_list:
+                problem = f"{name} stands in {test.name}: pytest does not collect it"
+    return node, problem
+
+
+def _statement_problem(module: PythonModule, value: ast.expr) -> str:
+    match value:
+        case ast.Compare() if not _in_with(module, value):
+            return "nothing looks at this comparison: write assert in front of it"
+        case ast.Call(args=[_], keywords=[]) if (
+            module.qualified_name(value.func) == "pytest.raises"
+        ):
+            return "nothing is called here: write `with pytest.raises(...):`"
+        case ast.Attribute(attr=name) if (
+            name.startswith("assert_") or module.qualified_name(value) in _ENDS
+        ):
+            return f"{module.text(value)} is not called: parentheses are missing"
+    return ""
+
+
+def _in_with(module: PythonModule, node: ast.expr) -> bool:
+    """Tell whether something may be expected to raise here."""
+    return any(isinstance(parent, ast.With | ast.Try) for parent in module.parents(node))
+
+
+def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
+    match condition:
+        case ast.Constant(value=str(text)) if text:
+            return "a text is always true: nothing is asserted"
+        case ast.BoolOp(op=ast.Or(), values=values) if any(map(_is_true, values)):
+            return "one side of this `or` is always true: compare with it as well"
+        case ast.Call(func=ast.Attribute(attr=name)) if name in _MOCKED:
+            return f"a mock has no {name}(): it fails, or is always true; assert_{name}() is meant"
+        case ast.Name(id=name):
+            function = module.functions.get(name)
+            found = module.index.lookup(name, condition)
+            if function is not None and found is not None and found[0] is module.tree:
+                plain = not function.node.decorator_list and len(found[1]) == 1
+                return f"{name} is a function, which is always true: call it" if plain else ""
+        case ast.Attribute() if module.qualified_name(condition) == "rclpy.ok":
+            return "rclpy.ok is a function, which is always true: call it"
+    return ""
+
+
+def _is_true(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str | int) and bool(node.value)
+
+
+def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
+    """Tell whether a handler catches an AssertionError and does nothing."""
+    kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    names = {module.qualified_name(kind) if kind is not None else "Exception" for kind in kinds}
+    nothing = all(isinstance(one, ast.Pass | ast.Continue) for one in handler.body)
+    return nothing and not names.isdisjoint({"Exception", "BaseException", "AssertionError"})

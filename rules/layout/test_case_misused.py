@@ -1,0 +1,123 @@
+"""LY045: a TestCase is called as unittest does, and has the methods of Python 3.12."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import PythonModule
+from scaffold.model.scopes import FunctionNode
+from scaffold.model.test_files import LAUNCH, arguments, is_test_case, marks, methods, test_modules
+
+_GONE = {
+    "assertEquals": "assertEqual",
+    "assertNotEquals": "assertNotEqual",
+    "assertAlmostEquals": "assertAlmostEqual",
+    "assertNotAlmostEquals": "assertNotAlmostEqual",
+    "assertRegexpMatches": "assertRegex",
+    "assertNotRegexpMatches": "assertNotRegex",
+    "assertRaisesRegexp": "assertRaisesRegex",
+    "assertItemsEqual": "assertCountEqual",
+    "assert_": "assertTrue",
+    "failUnless": "assertTrue",
+    "failUnlessEqual": "assertEqual",
+    "failIf": "assertFalse",
+}
+_SET_UP = ("setUp", "tearDown", "setUpClass", "tearDownClass")
+_PLAIN = {"setUp": "setup_method", "tearDown": "teardown_method"}
+_TEST = (
+    "import unittest\n\n\nclass TestText({}):\n"
+    "    def {}(self):\n        self.text = 'a'\n\n"
+    "    def test_text(self{}):\n        self.{}(self.text, 'a')\n"
+)
+_CASE = "unittest.TestCase"
+
+
+class TestCaseMisused(Rule):
+    """A TestCase has a method that unittest never calls, or that it calls in another way.
+
+    **Why.** ``set_up`` is never called, nor is ``setUp`` in a class without TestCase:
+    AttributeError in the tests. unittest gives a test no arguments, so neither fixtures nor
+    ``parametrize`` work: TypeError. ``assertEquals`` and others are gone in Python 3.12.
+
+    **Fix.** ``setUp``, ``tearDown``; ``@classmethod`` for ``setUpClass``; ``assertEqual``; a plain
+    class or function for fixtures.
+
+    **Source.** Python documentation, ``unittest``, and "What's New In Python 3.12"; pytest
+    documentation, "How to use unittest-based tests with pytest".
+    """
+
+    code = "LY045"
+    name = "test-case-misused"
+    examples = (
+        Example("right", {"test/test_text.py": _TEST.format(_CASE, "setUp", "", "assertEqual")}),
+        Example(
+            "set_up, a fixture, a method that is gone",
+            {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path", "assertEquals")},
+            at=("test/test_text.py:5", "test/test_text.py:8", "test/test_text.py:9"),
+        ),
+        Example(
+            "setUp without TestCase",
+            {"test/test_text.py": _TEST.format("object", "setUp", "", "check")},
+            at=("test/test_text.py:5",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in test_modules(package):
+            launched = LAUNCH in module.functions
+            for class_ in module.classes.values():
+                is_case = is_test_case(module, class_.node)
+                is_plain = class_.name.startswith("Test") and _has_no_base(class_.node)
+                for method in methods(class_.node) if is_case or is_plain else ():
+                    problem = (
+                        _case_problem(module, method, launched=launched)
+                        if is_case
+                        else _plain(method)
+                    )
+                    if problem and not module.index.attributes(method.name):
+                        yield self.report(module.name_location(method), problem)
+                if is_case:
+                    yield from self._check_calls(module, class_.node)
+
+    def _check_calls(self, module: PythonModule, class_: ast.ClassDef) -> Iterator[Diagnostic]:
+        own = {method.name for method in methods(class_)}
+        for node in ast.walk(class_):
+            match node:
+                case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name)):
+                    if name in _GONE and name not in own:
+                        message = f"{name} is gone in Python 3.12; {_GONE[name]} is meant"
+                        yield self.report(module.location(node.func), message)
+
+
+def _has_no_base(class_: ast.ClassDef) -> bool:
+    return all(isinstance(base, ast.Name) and base.id == "object" for base in class_.bases)
+
+
+def _plain(method: FunctionNode) -> str:
+    name = _PLAIN.get(method.name)
+    return f"pytest calls {method.name} in a TestCase only; here it is {name}" if name else ""
+
+
+def _case_problem(module: PythonModule, method: FunctionNode, *, launched: bool) -> str:
+    """Return what is wrong about a method of a TestCase."""
+    name, given = method.name, arguments(method)
+    decorated = {module.qualified_name(one) for one in method.decorator_list}
+    static = "staticmethod" in decorated
+    problem = ""
+    for right in _SET_UP:
+        if name != right and name.replace("_", "").lower() == right.lower():
+            return f"unittest never calls {name}; {right} is meant"
+    if name in {"setUpClass", "tearDownClass"} and not decorated:
+        problem = f"unittest calls {name} on the class: @classmethod is missing"
+    elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
+        problem = f"unittest calls {name} with self alone, and it takes {len(given)} arguments"
+    elif name == "__init__" and len(given) == 1 and not method.args.vararg:
+        problem = "unittest gives __init__ the name of a test: use setUp instead"
+    elif name.startswith("test") and not launched and not static:
+        if any(mark == "parametrize" for mark, _ in marks(module, method)):
+            problem = f"parametrize does nothing in a TestCase: {name} fails with TypeError"
+        elif len(given) > 1 and not decorated:
+            problem = f"unittest gives {name} no arguments, and it takes {given[1]!r}: TypeError"
+    return problem
