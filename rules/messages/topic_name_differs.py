@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.node_entities import Endpoint
-from scaffold.model.topics import topics_of
+from scaffold.model.topics import is_private, is_remapped, topics_of
 
 _SHORTEST = 5
 _NODE = (
@@ -48,13 +48,34 @@ class TopicNameDiffers(Rule):
             },
             at=("b.py:8",),
         ),
+        Example(
+            "private to the node that publishes it",
+            {
+                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+            at=("b.py:8",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         topics = topics_of(package)
         sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
         awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
+        private = [
+            one for facts in package.rclpy_files() for one in facts.publishers if is_private(one)
+        ]
         for topic in awaited:
+            here = topic.subscriptions[0]
+            for there in private if topic.is_plain else ():
+                if _is_same_but_private(here, there) and not is_remapped(package, there):
+                    place = f"{there.location.path}:{there.location.line}"
+                    message = (
+                        f"nobody publishes {here.name!r}; {place} publishes {there.name!r}, and ~ "
+                        "stands for the name of its node"
+                    )
+                    yield self.report(here.name_argument or here, message)
+                    break
             for other in sent:
                 here, there = topic.subscriptions[0], other.publishers[0]
                 if topic.is_plain and other.is_plain and _is_slip(here, there):
@@ -62,6 +83,12 @@ class TopicNameDiffers(Rule):
                     message = f"nobody publishes {here.name!r}; {place} publishes {there.name!r}"
                     yield self.report(here.name_argument or here, message)
                     break
+
+
+def _is_same_but_private(here: Endpoint, there: Endpoint) -> bool:
+    if here.interface is None or here.interface != there.interface:
+        return False
+    return str(here.name).strip("/") == str(there.name).removeprefix("~/")
 
 
 def _is_slip(here: Endpoint, there: Endpoint) -> bool:

@@ -20,6 +20,11 @@ _NODE = (
     "    def ask(self):\n"
     "{}"
 )
+_BLOCKING = {
+    "call": ("rclpy.client.Client", "a service"),
+    "send_goal": ("rclpy.action.client.ActionClient", "the result of an action"),
+    "get_result": ("rclpy.action.client.ClientGoalHandle", "the result of an action"),
+}
 
 
 class CallInCallback(Rule):
@@ -51,6 +56,16 @@ class CallInCallback(Rule):
             at=("caller.py:12",),
         ),
         Example(
+            "an action",
+            {
+                "caller.py": "from rclpy.action import ActionClient\n"
+                + _NODE.format(
+                    "        ActionClient(self, Count, 'count').send_goal(Count.Goal())\n"
+                )
+            },
+            at=("caller.py:13",),
+        ),
+        Example(
             "a loop",
             {
                 "caller.py": _NODE.format(
@@ -78,9 +93,10 @@ class CallInCallback(Rule):
 def _waits(facts: NodeFacts, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
     for node in ast.walk(function):
         match node:
-            case ast.Call(func=ast.Attribute(attr="call", value=client)):
-                if class_of(facts, client) == "rclpy.client.Client":
-                    yield node, "waits for a service"
+            case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
+                class_, what = _BLOCKING[method]
+                if class_of(facts, asked) == class_:
+                    yield node, f"waits for {what}"
             case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
                 if isinstance(func, ast.Attribute) and _loops_until_done(facts, func, node):
                     yield node, "loops until a future is done"

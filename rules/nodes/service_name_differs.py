@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
-from scaffold.model.node_entities import Client, Endpoint
+from scaffold.model.node_entities import Endpoint
+from scaffold.model.topics import is_private, is_remapped
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -39,32 +40,44 @@ class ServiceNameDiffers(Rule):
     examples = (
         Example("one name", {"nodes.py": _NODE.format("report")}),
         Example("a slip", {"nodes.py": _NODE.format("reports")}, at=("nodes.py:17",)),
+        Example("private on one side", {"nodes.py": _NODE.format("~/report")}, at=("nodes.py:17",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         files = list(package.rclpy_files())
-        offered = [item for facts in files for item in facts.services]
-        wanted = [item for facts in files for item in facts.clients]
+        offered = [one for facts in files for one in (*facts.services, *facts.action_servers)]
+        wanted = [one for facts in files for one in (*facts.clients, *facts.action_clients)]
         served = {item.name for item in offered}
         clients = {item.name for item in wanted}
         for client in wanted:
             for service in offered if client.name not in served else ():
                 # A service that has its own client is no misspelling of another one.
                 if service.name not in clients and _is_slip(client, service):
+                    if any(
+                        is_private(one) and is_remapped(package, one) for one in (client, service)
+                    ):
+                        continue
                     at = client.name_argument.location if client.name_argument else client.location
                     place = f"{service.location.path}:{service.location.line}"
                     message = f"nobody offers {client.name!r}; {place} offers {service.name!r}"
+                    if "~" in f"{client.name}{service.name}":
+                        message += ": ~ stands for the name of each node itself"
                     yield self.report(at, message)
                     break
 
 
-def _is_slip(client: Client, service: Endpoint) -> bool:
-    """Tell whether two names of one type differ by one letter, dropped, added or changed."""
+def _is_slip(client: Endpoint, service: Endpoint) -> bool:
+    """Tell whether two names of one type differ by one letter, dropped, added or changed.
+
+    Or by ``~/`` alone, which makes a name private.
+    """
     one, other = client.name, service.name
     if not isinstance(one, str) or not isinstance(other, str):
         return False
     if client.interface is None or client.interface != service.interface:
         return False
+    if one.startswith("~") is not other.startswith("~"):
+        return one.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
     short, long = sorted((one, other), key=len)
     if len(short) < _ALIKE or len(long) - len(short) > 1 or any(map(str.isdigit, one + other)):
         return False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from scaffold.errors import ViewError
 from scaffold.model.node_entities import Client, Endpoint, Publisher, Service, Subscription
 from scaffold.model.values import Unknown
 from scaffold.record import NamedTuple
@@ -38,6 +39,24 @@ def topics_of(package: Package) -> Mapping[str, Topic]:
 def services_of(package: Package) -> Mapping[str, ServiceName]:
     """Return the services by their names as written, a leading slash aside."""
     return package.remember("services", lambda: _services(package))
+
+
+def is_private(endpoint: Endpoint) -> bool:
+    """Tell whether a name is below that of its node: ``~/chatter``."""
+    return isinstance(endpoint.name, str) and endpoint.name.startswith("~/")
+
+
+def is_remapped(package: Package, endpoint: Endpoint) -> bool:
+    """Tell whether a launch file of the package names what an endpoint is called: it remaps it."""
+    for path in package.files:
+        if ".launch." in path or path.endswith("_launch.py"):
+            try:
+                text = package.source(path).text
+            except ViewError:
+                continue
+            if str(endpoint.name) in text:
+                return True
+    return False
 
 
 def _topics(package: Package) -> Mapping[str, Topic]:
