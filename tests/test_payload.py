@@ -370,9 +370,8 @@ def test_a_message_of_nothing_but_an_enum_changes(own: Fill) -> None:
 def test_bounds_are_kept(own: Fill) -> None:
     filled = own("string<=4 code\nfloat32[<=2] gains\nint8[5] cells\nstring<=3[<=8] tags\n")
     assert filled.statements == (
-        "wave = math.sin(self.count / 10.0)  # -1.0 to 1.0",
         "msg.code = str(self.count % 1000)",
-        "msg.gains = [wave, wave]",
+        "msg.gains = [math.sin(self.count / 10.0)] * 2",
         "msg.cells = [(self.count + index) % 100 for index in range(5)]",
         "msg.tags = ['1', '2', '3']",
     )
@@ -400,6 +399,66 @@ def test_nested_messages_have_lengths_that_fit(own: Fill) -> None:
     assert "msg.right.header = msg.left.header" in filled.statements
     assert filled.statements[-1] == "msg.gain.data = math.sin(self.count / 10.0)"
     assert filled.is_stamped
+
+
+def test_what_lies_deep_gets_a_local_name(own: Fill) -> None:
+    filled = own("Rig rig\n", Rig="sensor_msgs/LaserScan scan\n")
+    assert filled.statements[:4] == (
+        "msg.rig.scan.header.stamp = self.get_clock().now().to_msg()",
+        "msg.rig.scan.header.frame_id = self.frame_id",
+        "scan = msg.rig.scan",
+        "scan.angle_min = -math.pi  # radians",
+    )
+    assert filled.frame == "laser"
+
+
+def test_long_names_of_fields_do_not_make_long_lines(own: Fill) -> None:
+    name = "polygons_of_the_areas_that_nobody_may_enter"
+    inner = "corners_of_the_polygon_as_they_are_drawn"
+    filled = own(f"Area {name}\n", Area=f"geometry_msgs/Polygon {inner}\nfloat64 {name}_now\n")
+    assert filled.statements == (
+        "wave = math.sin(self.count / 10.0)  # -1.0 to 1.0",
+        f"drawn = msg.{name}.{inner}  # noqa: E501",
+        "side = 2.0 + wave  # metres",
+        "corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]",
+        "drawn.points = [Point32(x=x, y=y) for x, y in corners]",
+        f"msg.{name}.{name}_now = wave  # noqa: E501",
+    )
+
+
+def test_headers_of_elements_are_filled(own: Fill) -> None:
+    filled = own("std_msgs/Header header\nstd_msgs/Header[2] seen\n")
+    assert filled.statements[2:] == (
+        "for header in msg.seen:",
+        "    header.stamp = msg.header.stamp",
+        "    header.frame_id = self.frame_id",
+    )
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("uint64 timestamp", "self.get_clock().now().nanoseconds"),
+        ("uint64 timestamp_us", "self.get_clock().now().nanoseconds // 1000"),
+        ("uint64 timestamp # in microseconds", "self.get_clock().now().nanoseconds // 1000"),
+        ("int64 timestamp_ms", "self.get_clock().now().nanoseconds // 1_000_000"),
+    ],
+)
+def test_timestamps_have_the_unit_of_their_name(own: Fill, field: str, value: str) -> None:
+    assert own(field + "\n").statements[0].partition(" = ")[2].partition("  #")[0] == value
+
+
+def test_checks_tell_what_they_import(own: Fill) -> None:
+    filled = own("visualization_msgs/InteractiveMarkerControl control\nfloat64 math\n")
+    assert filled.checks[0] == (
+        "message.control.interaction_mode == InteractiveMarkerControl.MOVE_AXIS"
+    )
+    assert filled.check_imports == ("from visualization_msgs.msg import InteractiveMarkerControl",)
+
+
+def test_poses_are_given_in_the_map(own: Fill) -> None:
+    assert own("std_msgs/Header header\ngeometry_msgs/Pose[] poses\n").frame == "map"
+    assert payload.service("nav_msgs/srv/GetPlan", BUNDLED).request.frame == "map"
 
 
 def test_names_that_mean_two_things(own: Fill) -> None:
@@ -587,6 +646,30 @@ def test_outcomes_are_good() -> None:
     assert response.statements[-1] == "response.result = LoadMap.Response.RESULT_SUCCESS"
     response = payload.service("action_msgs/srv/CancelGoal", BUNDLED).response
     assert "response.return_code = CancelGoal.Response.ERROR_NONE" in response.statements
+
+
+def test_interfaces_with_the_name_of_something_else(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "robot_msgs"
+    (package / "srv").mkdir(parents=True)
+    (package / "action").mkdir()
+    (package / "package.xml").write_text("<package><name>robot_msgs</name></package>")
+    (package / "CMakeLists.txt").write_text(
+        "project(robot_msgs)\n"
+        'rosidl_generate_interfaces(robot_msgs "srv/Client.srv" "action/Event.action")\n'
+    )
+    (package / "srv" / "Client.srv").write_text("uint8 ON=1\nuint8 mode\n---\nbool success\n")
+    (package / "action" / "Event.action").write_text(
+        "actionlib_msgs/GoalStatus status\n---\n---\nfloat32 progress\n"
+    )
+    known = payload.definitions(str(tmp_path))
+    service = payload.service("robot_msgs/Client", known)
+    assert service.import_line == "from robot_msgs.srv import Client as RobotMsgsClient"
+    assert service.type == "robot_msgs/srv/Client"
+    assert service.request.statements == ("request.mode = RobotMsgsClient.Request.ON",)
+    action = payload.action("robot_msgs/Event", known)
+    assert action.import_line == "from robot_msgs.action import Event as RobotMsgsEvent"
+    assert action.type == "robot_msgs/action/Event"
+    assert "goal.status.status = ActionlibMsgsGoalStatus.ACTIVE" in action.goal.statements
 
 
 def test_recipes_are_for_messages_that_exist() -> None:

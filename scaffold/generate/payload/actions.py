@@ -49,7 +49,8 @@ def _by_recipe(types: Types, found: ActionRecipe) -> ActionPayload:
     start.embed(found.start, "feedback")
     return ActionPayload(
         package=own.package,
-        name=own.name,
+        name=types.own_name,
+        action=types.own_alias,
         says=found.says,
         goal=section.by_recipe(types, own.goal, found.goal, found.goal_log),
         refused=found.refused,
@@ -64,7 +65,8 @@ def _by_fields(types: Types) -> ActionPayload:
     own = types.interface
     return ActionPayload(
         package=own.package,
-        name=own.name,
+        name=types.own_name,
+        action=types.own_alias,
         says=f"works on {own.name} goals in {section.STEPS} steps",
         goal=section.asked(types, own.goal),
         refused="",

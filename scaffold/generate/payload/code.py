@@ -31,6 +31,7 @@ class Block:
         self._items: list[str | tuple[str, Block]] = []
         self._locals: dict[str, str] = {}
         self._comment = ""
+        self._uncounted = ""
 
     @property
     def is_loop(self) -> bool:
@@ -45,11 +46,22 @@ class Block:
             self._comment = comment
         self._items.append(f"{line}  # {comment}" if comment else line)
 
-    def loop(self, head: str, counter: str) -> Block:
-        """Add a loop and return its body, whose elements count with a variable of the loop."""
-        body = Block(self, counter)
+    def loop(self, head: str, uncounted: str) -> Block:
+        """Add a loop and return its body, whose elements count with the loop's ``count``.
+
+        Args:
+            head: The line that starts the loop.
+            uncounted: The same for a body that does not count.
+        """
+        body = Block(self, "count")
+        body._uncounted = uncounted
         self._items.append((head, body))
         return body
+
+    @property
+    def is_counting(self) -> bool:
+        """Whether the count is used."""
+        return any(COUNT in text or WAVE in text for text in self.texts())
 
     def embed(self, code: str, target: str) -> None:
         """Add the code of a recipe, which fills ``msg``, for another target.
@@ -63,8 +75,11 @@ class Block:
             .replace(_CLOCK, NOW)
         )
         text = re.sub(r"(?<![.\w'/])msg\b", target, text).replace(_SINE.format(COUNT), WAVE)
-        for name, value in re.findall(r"(?m)^([a-z]\w*) = (.*)$", text):
-            definition = self._placed(value)
+        for name in re.findall(r"(?m)^([a-z]\w*) = ", text):
+            value = re.search(rf"(?m)^{name} = (.*)$", text)
+            if value is None:
+                continue
+            definition = self._placed(value[1])
             known = self.local(name)
             if known == definition:
                 text = re.sub(rf"(?m)^{name} = .*\n", "", text, count=1)
@@ -107,7 +122,8 @@ class Block:
         now = "".join(self.texts()).count(NOW) > 1
         clock = "now" if now else _CLOCK
         head = [f"now = {_CLOCK}"] if now else []
-        return [*head, *self.indented(clock, WIDTH)]
+        lines = [*head, *self.indented(clock, WIDTH)]
+        return [line if len(line) <= WIDTH else f"{line}  # noqa: E501" for line in lines]
 
     def texts(self) -> Iterator[str]:
         """Yield the lines with their tokens, those of loops too."""
@@ -134,12 +150,16 @@ class Block:
         for item in self._items:
             if not isinstance(item, str) and not item[1].size:
                 continue
-            text = item if isinstance(item, str) else item[0]
+            text = item if isinstance(item, str) else item[1].head(item[0])
             text = text.replace(WAVE, sine).replace(NOW, clock).replace(COUNT, self._counter)
             yield from wrapped(text, width)
             if not isinstance(item, str):
                 for line in item[1].indented(clock, width - len(INDENT)):
                     yield INDENT + line
+
+    def head(self, counting: str) -> str:
+        """Return the line that starts the loop of this body."""
+        return counting if self.is_counting else self._uncounted
 
 
 def wrapped(line: str, width: int) -> Iterator[str]:
@@ -158,14 +178,21 @@ def wrapped(line: str, width: int) -> Iterator[str]:
         yield code
         return
     start = _opening(code)
-    if start < 0:
-        yield from _in_brackets(code, margin)
+    if not 0 <= start < width:
+        yield from _in_brackets(code, margin, width)
         return
-    pieces = _pieces(code[start + 1 : -1])
-    if len(pieces) > 1:
-        pieces[-1] += ","
+    inside = code[start + 1 : -1]
+    if not inside:
+        yield from _in_brackets(code, margin, width)
+        return
+    parts = list(_split(inside, " for "))
     yield code[: start + 1]
-    yield from _filled(pieces, margin + INDENT, width)
+    if len(parts) > 1:  # a comprehension
+        yield from (margin + INDENT + part for part in parts)
+    else:
+        pieces = [piece + "," for piece in _split(inside, ",")]
+        one = pieces[0].removesuffix(",") if len(pieces) == 1 else ""
+        yield from _filled([one] if one else pieces, margin + INDENT, width)
     yield margin + code[-1]
 
 
@@ -179,35 +206,38 @@ def _opening(code: str) -> int:
     return -1
 
 
-def _in_brackets(code: str, margin: str) -> Iterator[str]:
-    """Yield an assignment with its value on lines of its own, broken before operators."""
+def _in_brackets(code: str, margin: str, width: int) -> Iterator[str]:
+    """Yield an assignment with its value on lines of its own, if that makes them short enough."""
     target, equals, value = code.partition(" = ")
-    if not equals:
+    pieces = [f"{margin}{INDENT}{piece}" for piece in _split(value, " + ", " - ", " * ")]
+    lines = [f"{target} = (", *pieces, f"{margin})"]
+    if not equals or max(map(len, lines)) > width:
         yield code
-        return
-    yield f"{target} = ("
-    for piece in value.replace(" + ", "\n+ ").split("\n"):
-        yield f"{margin}{INDENT}{piece}"
-    yield f"{margin})"
+    else:
+        yield from lines
 
 
-def _pieces(text: str) -> list[str]:
-    """Split a text behind the commas that stand in no further bracket or quote."""
-    pieces: list[str] = []
+def _split(text: str, *marks: str) -> Iterator[str]:
+    """Yield the pieces of a text between marks that stand in no further bracket or quote.
+
+    A mark that is a word or an operator starts the piece behind it.
+    """
     depth, start, quote = 0, 0, ""
     for at, character in enumerate(text):
         if quote:
             quote = "" if character == quote else quote
         elif character in "'\"":
             quote = character
-        elif character in "([{":
-            depth += 1
-        elif character in ")]}":
-            depth -= 1
-        elif character == "," and depth == 0:
-            pieces.append(text[start : at + 1].strip())
-            start = at + 1
-    return [*pieces, text[start:].strip()]
+        else:
+            depth += (character in "([{") - (character in ")]}")
+        if depth == 0 and not quote and (mark := _mark(text, at, marks)):
+            yield text[start:at].strip()
+            start = at + (len(mark) if mark == "," else 1)
+    yield text[start:].strip()
+
+
+def _mark(text: str, at: int, marks: Iterable[str]) -> str:
+    return next((mark for mark in marks if text.startswith(mark, at)), "")
 
 
 def _filled(pieces: Iterable[str], margin: str, width: int) -> Iterator[str]:

@@ -16,9 +16,7 @@ ELEMENTS = 3
 
 def several(expression: str, size: int) -> str:
     """Return a list of a value."""
-    if size <= ELEMENTS:
-        return f"[{', '.join([expression] * size)}]"
-    return f"[{expression}] * {size}"
+    return f"[{expression}] * {size}" if size > 1 else f"[{expression}]"
 
 
 def singular(name: str) -> str:
@@ -36,7 +34,9 @@ def singular(name: str) -> str:
 
 ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
 """The variables that are filled."""
-_TAKEN = frozenset({"self", "count", "step", *ROOTS, *MODULES}) | {
+_MODULES = ("os", "pytest", "rclpy", "re", "signal", "subprocess", "sys", "time", *MODULES)
+"""What nodes and their tests import."""
+_TAKEN = frozenset({"self", "count", "step", *ROOTS, *_MODULES}) | {
     name for name in dir(builtins) if name[0].islower()
 }
 """What a local name must not be."""
@@ -46,14 +46,21 @@ _LONGEST = 20
 
 def variable(field: Field) -> str:
     """Return a local name for an element of an array of messages."""
-    name = singular(field.name)
-    if len(name) > _LONGEST:
-        name = name.rpartition("_")[2]
-    bad = _TAKEN
-    if name == field.name or iskeyword(name) or name in bad:
+    name = shortened(singular(field.name))
+    if name == field.name or not is_free(name):
         snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", "_", field.type.name).lower()
-        name = snake if snake not in bad else "element"
+        name = snake if is_free(snake) else "element"
     return name
+
+
+def shortened(name: str) -> str:
+    """Return a name, or its last word if it is too long for a local name."""
+    return name if len(name) <= _LONGEST else name.rpartition("_")[2]
+
+
+def is_free(name: str) -> bool:
+    """Tell whether a local variable may have a name."""
+    return name.isidentifier() and not iskeyword(name) and name not in _TAKEN
 
 
 def numbered(name: str, size: int, bound: int | None) -> Iterable[str]:

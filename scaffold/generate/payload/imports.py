@@ -24,7 +24,8 @@ def imports(
     """
     names = _names("\n".join(code))
     messages = set(used)
-    aliases: dict[str, str] = {}
+    aliases = {name: types.class_name(name) for name in messages}
+    aliases = {name: alias for name, alias in aliases.items() if not name.endswith(f"/{alias}")}
     for name in sorted(names):
         full_name = types.full_name(name)
         if full_name is not None and "/msg/" in full_name:

@@ -14,8 +14,18 @@ WORDS = {"msg": "message", "srv": "service", "action": "action"}
 HEADER = "std_msgs/msg/Header"
 TIME = "builtin_interfaces/msg/Time"
 DURATION = "builtin_interfaces/msg/Duration"
-TAKEN = frozenset({"Node"})
-"""Names that mean something else in every node."""
+_MEANT = {"GoalStatus": "action_msgs/msg/GoalStatus", "Transition": "lifecycle_msgs/msg/Transition"}
+"""Messages that generated code imports for its own sake."""
+_TAKEN = {
+    "msg": frozenset({"LifecycleNode", "Node", "Source", "Transition"}),
+    "srv": frozenset({"Client", "Node", "Server"}),
+    "action": frozenset(
+        {"ActionClient", "ActionServer", "CancelResponse", "Client", "Event", "Future"}
+        | {"GoalResponse", "GoalStatus", "MultiThreadedExecutor", "Node", "Server"}
+        | {"SignalHandlerOptions"}
+    ),
+}
+"""Names that mean something else where interfaces of a kind are used."""
 VECTOR = "geometry_msgs/msg/Vector3"
 
 
@@ -38,14 +48,27 @@ class Types:
         package, _, name = full_name.split("/")
         if self.full_name(name) == full_name:
             return name
-        return "".join(word.capitalize() for word in package.split("_")) + name
+        own = self.interface
+        is_double = (package, name) == (own.package, own.name) and full_name != own.full_name
+        longer = "".join(word.capitalize() for word in package.split("_")) + name
+        return f"{longer}Message" if is_double else longer
+
+    @property
+    def own_name(self) -> str:
+        """What the interface itself is called in code."""
+        return self.class_name(self.interface.full_name)
+
+    @property
+    def own_alias(self) -> str:
+        """The name of the interface, if it is called something else in code."""
+        return self.interface.name if self.own_name != self.interface.name else ""
 
     def renamed(self, code: str, full_name: str) -> str:
         """Return the code of a recipe with the names that messages have here."""
         package = full_name.partition("/")[0]
         for name in set(re.findall(r"(?<![.\w])[A-Z]\w+", code)):
             meant = [one for one in sorted(self._messages) if one.endswith(f"/{name}")]
-            if len(meant) > 1:
+            if meant:
                 own = f"{package}/msg/{name}"
                 new = self.class_name(own if own in meant else min(meant, key=_is_uncommon))
                 code = re.sub(rf"(?<![.\w]){name}\b", new, code)
@@ -57,9 +80,10 @@ class Types:
         The interface itself goes first, then the messages that it is made of, then those of
         the same packages.
         """
-        if class_name in TAKEN:
-            return None
         own = self.interface
+        if class_name in _TAKEN[own.kind]:
+            meant = _MEANT.get(class_name, "")
+            return meant if meant in self._messages else None
         if class_name == own.name:
             return own.full_name
         candidates = sorted(self._messages)

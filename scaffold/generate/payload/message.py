@@ -42,7 +42,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
         package=own.package,
-        name=(name := types.class_name(own.full_name)),
+        name=types.own_name,
         imports=lines_of_imports,
         statements=tuple(lines),
         log=words_.log,
@@ -51,10 +51,10 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
-        frame=words_.frame,
+        frame=words_.frame or recipe.FRAME,
         constants=walk.constants,
         is_changing=changes(lines),
-        message=own.name if name != own.name else "",
+        message=types.own_alias,
     )
 
 
@@ -114,6 +114,7 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
         says=enumerated(names, "example values for ", MAX_SAYS) if names else "nothing",
         log=joined(walk.logged)
         or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
+        frame=walk.frame,
         checks=tuple(
             re.sub(r"\bmsg\b", "message", one) for one in walk.checks if "header.stamp" not in one
         ),

@@ -49,6 +49,11 @@ class Payload(NamedTuple):
         return f"{self.package}/msg/{self.message or self.name}"
 
     @property
+    def check_imports(self) -> tuple[str, ...]:
+        """Import statements that the checks need."""
+        return _needed(self.imports, self.checks)
+
+    @property
     def class_names(self) -> tuple[str, ...]:
         """What the imports call the messages: a node's class has another name."""
         return _class_names(self.imports)
@@ -64,8 +69,7 @@ class Payload(NamedTuple):
     @property
     def import_line(self) -> str:
         """The import of the message alone."""
-        alias = f" as {self.name}" if self.message else ""
-        return f"from {self.package}.msg import {self.message or self.name}{alias}"
+        return _import(f"{self.package}.msg", self.message, self.name)
 
 
 class SectionPayload(NamedTuple):
@@ -92,6 +96,13 @@ class SectionPayload(NamedTuple):
     """Whether the statements use ``self.count``."""
     constants: tuple[str, ...] = ()
     """Lines of the module that the statements need, such as ``WIDTH = 64  # pixels``."""
+    frame: str = "base_link"
+    """The default of the parameter ``frame_id``."""
+
+    @property
+    def check_imports(self) -> tuple[str, ...]:
+        """Import statements that the checks need, that of the interface left out."""
+        return _needed(self.imports, self.checks)
 
 
 class ServicePayload(NamedTuple):
@@ -106,16 +117,18 @@ class ServicePayload(NamedTuple):
     response: SectionPayload
     """Filled by the server from ``request``: ``response``; the checks may use both.
     ``self.count`` is the number of requests answered so far."""
+    service: str = ""
+    """The name of the service, if ``name`` is another one."""
 
     @property
     def type(self) -> str:
         """The full name, as ``ros2 service type`` shows it."""
-        return f"{self.package}/srv/{self.name}"
+        return f"{self.package}/srv/{self.service or self.name}"
 
     @property
     def import_line(self) -> str:
         """The import of the service alone."""
-        return f"from {self.package}.srv import {self.name}"
+        return _import(f"{self.package}.srv", self.service, self.name)
 
     @property
     def class_names(self) -> tuple[str, ...]:
@@ -161,16 +174,23 @@ class ActionPayload(NamedTuple):
     result: SectionPayload
     """Filled by the server at the end: ``result``, from ``goal`` and ``feedback``; the checks
     may use ``goal`` and ``result``."""
+    action: str = ""
+    """The name of the action, if ``name`` is another one."""
+
+    @property
+    def frame(self) -> str:
+        """The frame of what the server sends: of the feedback, unless only the result has one."""
+        return (self.feedback if self.feedback.is_stamped else self.result).frame
 
     @property
     def type(self) -> str:
         """The full name, as ``ros2 action type`` shows it."""
-        return f"{self.package}/action/{self.name}"
+        return f"{self.package}/action/{self.action or self.name}"
 
     @property
     def import_line(self) -> str:
         """The import of the action alone."""
-        return f"from {self.package}.action import {self.name}"
+        return _import(f"{self.package}.action", self.action, self.name)
 
     @property
     def class_names(self) -> tuple[str, ...]:
@@ -185,6 +205,23 @@ class ActionPayload(NamedTuple):
         """All interface packages that server and client need, in alphabetical order."""
         sections = (self.goal, self.feedback, self.result)
         return _union([(self.package,), *(section.packages for section in sections)])
+
+
+def _import(module: str, interface: str, name: str) -> str:
+    """Return the import of an interface, by its name in code if that is another one."""
+    return f"from {module} import " + (f"{interface} as {name}" if interface else name)
+
+
+def _needed(imports: Iterable[str], checks: Iterable[str]) -> tuple[str, ...]:
+    """Return imports of the names that expressions use, one name each."""
+    used = set(re.findall(r"(?<![.\w'])[A-Za-z]\w*", " ".join(checks)))
+    parts = (line.partition("import ") for line in imports)
+    return tuple(
+        f"{head}{word}{name}"
+        for head, word, names in parts
+        for name in names.split(", ")
+        if name.rpartition(" as ")[2] in used
+    )
 
 
 def _class_names(imports: Iterable[str]) -> tuple[str, ...]:

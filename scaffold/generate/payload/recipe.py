@@ -8,6 +8,9 @@ from typing import Any
 
 from scaffold.record import NamedTuple
 
+FRAME = "base_link"
+"""Of what has no frame of its own."""
+
 
 class Recipe(NamedTuple):
     """How to fill one message: what stands in the method that publishes it.
@@ -26,8 +29,8 @@ class Recipe(NamedTuple):
     """As in `Payload.log`; empty: the fields that change."""
     checks: tuple[str, ...] = ()
     """As in `Payload.checks`."""
-    frame: str = "base_link"
-    """The default of the parameter ``frame_id``."""
+    frame: str = FRAME
+    """The default of the parameter ``frame_id``; empty: the header has a time only."""
 
 
 def find(full_name: str) -> Recipe | None:

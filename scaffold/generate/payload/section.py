@@ -78,12 +78,12 @@ def _filled(
             break
     log = joined(walk.logged) or _first_scalar(section)
     payload = _payload(types, section, block.lines(), log, [*checks, *walk.checks][:3])
-    return payload._replace(constants=walk.constants)
+    return payload._replace(constants=walk.constants, frame=walk.frame)
 
 
 def _owner(types: Types, section: Section) -> str:
     """Return the class of a section."""
-    return f"{types.interface.name}.{section.name.capitalize()}"
+    return f"{types.own_name}.{section.name.capitalize()}"
 
 
 def _answer(field: Field, given: Sequence[Section]) -> str | None:
@@ -139,11 +139,16 @@ def _progress(field: Field) -> str | None:
 
 
 def _first_scalar(section: Section) -> str:
-    """Return a replacement field for the log."""
+    """Return a replacement field for the log; the length of an array for want of a number."""
     for field in section.fields:
         if field.type.is_primitive and not field.type.is_array:
             return f"{{{section.name}.{field.name}}}"
-    return ""
+    lengths = (
+        f"{{len({section.name}.{field.name})}} {words.phrase(field.name)}"
+        for field in section.fields
+        if field.type.is_array
+    )
+    return joined(lengths)
 
 
 def _payload(

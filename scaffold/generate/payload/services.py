@@ -26,4 +26,6 @@ def of_service(text: str, interfaces: Definitions) -> ServicePayload:
             types, own.response, found.response, found.response_log, found.checks
         )
         says = found.says
-    return ServicePayload(own.package, own.name, says, request, response)
+    return ServicePayload(
+        own.package, types.own_name, says, request, response, service=types.own_alias
+    )

@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from textwrap import dedent
 
 from scaffold.generate.payload import elements, enums, recipe, words
-from scaffold.generate.payload.code import COUNT, NOW, Block
+from scaffold.generate.payload.code import COUNT, NOW, WIDTH, Block
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
-from scaffold.generate.payload.recipe import Recipe
+from scaffold.generate.payload.recipe import FRAME, Recipe
 from scaffold.model.interface_syntax import Constant, Field, Section
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 
 WRAPPERS = ("std_msgs", "example_interfaces")
 """Packages with messages that hold nothing but a primitive value."""
-_STAMP = (f"{{}}.stamp = {NOW}", "{}.frame_id = self.frame_id")
-_TIMESTAMP = "self.get_clock().now().nanoseconds"
 
 
 class Walk:
@@ -37,6 +35,7 @@ class Walk:
         self._stamped: list[str] = []
         self.checks: list[str] = []
         """Expressions that are true of the root."""
+        self._frames: list[str] = []
         self._constants: dict[str, str] = {}
         self._shown: list[str] = []
         self._spare: list[str] = []
@@ -45,6 +44,11 @@ class Walk:
     def logged(self) -> list[str]:
         """Replacement fields of an f-string for the root: what changes, the best first."""
         return self._shown or self._spare
+
+    @property
+    def frame(self) -> str:
+        """The frame that what is filled is given in: that of the first part that tells one."""
+        return next((one for one in self._frames if one not in {"", FRAME}), FRAME)
 
     def _is_root(self, target: str) -> bool:
         """Tell whether a target is, or is a part of, what is filled, and not a local name."""
@@ -97,10 +101,12 @@ class Walk:
         elif found is not None:
             header = section.field("header")
             if header is not None and header.type.full_name == HEADER:
-                self._header(block, f"{target}.header")
-            code = self._with_constants(found, target)
-            block.embed(self._types.renamed(code, full_name), target)
-            self._judge(found, target)
+                self._header(block, f"{target}.header", has_frame=bool(found.frame))
+            code = self._types.renamed(self._with_constants(found, target), full_name)
+            block.embed(code, _near(block, target, code))
+            self._frames.append(found.frame)
+            checks = tuple(self._types.renamed(one, full_name) for one in found.checks)
+            self._judge(found._replace(checks=checks), target)
         else:
             self.fill(block, section, self._types.class_name(full_name), target)
 
@@ -126,16 +132,22 @@ class Walk:
                 code = re.sub(rf"\b{name}\b", new, code)
         return code
 
-    def _header(self, block: Block, target: str) -> None:
+    def _header(self, block: Block, target: str, *, has_frame: bool = True) -> None:
         """Fill a header; one that belongs to an element is that of the whole."""
         if self._stamped:
-            block.add(f"{target} = {self._stamped[0]}")
+            first = self._stamped[0]
+            if "." in target:
+                block.add(f"{target} = {first}")
+            else:  # an element: another name for it would not fill it
+                block.add(f"{target}.stamp = {first}.stamp")
+                block.add(f"{target}.frame_id = self.frame_id")
             return
         if self._is_root(target):
             self._stamped.append(target)
             self.checks.append(f"{target}.stamp.sec > 0")
-        for line in _STAMP:
-            block.add(line.format(target))
+        block.add(f"{target}.stamp = {NOW}")
+        if has_frame:
+            block.add(f"{target}.frame_id = self.frame_id")
 
     # -- fields
 
@@ -159,7 +171,7 @@ class Walk:
             block.add(f"{target} = {value}", said(field, ""))
             if COUNT in value:
                 self._show(target, "")
-            elif owner.partition(".")[0] == self._types.interface.name:
+            elif owner.partition(".")[0] == self._types.own_name:
                 self._expect(target, f"{{}} == {value}")
         else:
             self._scalar(block, field, target)
@@ -207,8 +219,8 @@ class Walk:
             value = "b'\\x01'" if words.is_true(name) else f"bytes([{COUNT} % 256])"
         elif type_.name in INTEGER_RANGES:
             value = self._integer(name, type_)
-            if value == _TIMESTAMP and re.search("us$|micro", f"{name} {field.comment.lower()}"):
-                value += " // 1000"
+            if value == words.TIMESTAMP:
+                value += words.per_unit(name, field.comment)
         else:
             value = self._text(name, type_)
         block.add(f"{target} = {value}", said(field, ""))
@@ -225,7 +237,7 @@ class Walk:
         if constant is not None and constant <= limit and not self._changing:
             return str(constant)
         if limit >= INTEGER_RANGES["int64"][1]:
-            return _TIMESTAMP if "timestamp" in name else COUNT
+            return words.TIMESTAMP if "timestamp" in name else COUNT
         return f"{COUNT} % {1000 if limit >= 1000 else 100}"  # noqa: PLR2004  round numbers
 
     def _text(self, name: str, type_: FieldType) -> str:
@@ -297,18 +309,36 @@ class Walk:
                 self.message(block, full_name, f"{target}[0]")
                 return
             head = f"for count, {name} in enumerate({target}, {COUNT}):"
-            self.message(block.loop(head, "count"), full_name, name)
+            body = block.loop(head, f"for {name} in {target}:")
+            self.message(body, full_name, name)
             return
         if block.is_loop:  # one element each is enough
             size = 1
         head = f"for count in range({COUNT}, {COUNT} + {size}):"
-        body = block.loop(head, "count") if size > 1 else block
+        body = block.loop(head, f"for _ in range({size}):") if size > 1 else block
         value = f"{self._types.class_name(full_name)}()"
         name = body.define(name, value)
         self.message(body, full_name, name)
         body.add(f"{target}.append({name})")
 
 
+def _near(block: Block, target: str, code: str) -> str:
+    """Return a local name for what lies deep in the root, if the code mentions it often."""
+    owner, _, name = target.rpartition(".")
+    lines = [line.strip() for line in code.splitlines()]
+    longest = max((len(line) + line.count("msg.") * len(target) for line in lines), default=0)
+    is_often = "." in owner and code.count("msg.") >= _OFTEN
+    if not (is_often or ("." in target and longest > WIDTH)):
+        return target
+    short = elements.shortened(name)
+    for local in (short, f"{elements.shortened(owner.rpartition('.')[2])}_{short}"):
+        is_used = re.search(rf"(?<![.\w]){local}\b", code) or block.local(local)
+        if elements.is_free(local) and not is_used:
+            return block.define(local, target)
+    return target
+
+
+_OFTEN = 4
 _DIAGONALS = {4: 3, 9: 4, 16: 5, 36: 7}
 """The distance of the elements on the diagonal of a square matrix, by its size."""
 _COARSE = 0.1

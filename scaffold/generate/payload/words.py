@@ -225,6 +225,19 @@ def whole(name: str) -> int | None:
     return next((_FEW[word] for word in reversed(split(name)) if word in _FEW), None)
 
 
+TIMESTAMP = "self.get_clock().now().nanoseconds"
+_PER_UNIT = {"us|microsec[a-z]*": "1000", "ms|millisec[a-z]*": "1_000_000"}
+
+
+def per_unit(name: str, comment: str) -> str:
+    """Return what divides nanoseconds, as the name or the comment of a timestamp tells."""
+    said = f"{name} {comment.lower()}".replace("_", " ")
+    for unit, nanoseconds in _PER_UNIT.items():
+        if re.search(rf"\b({unit})\b", said):
+            return f" // {nanoseconds}"
+    return ""
+
+
 # -- flags
 
 _TRUE = re.compile(

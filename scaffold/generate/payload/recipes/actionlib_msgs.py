@@ -39,5 +39,6 @@ RECIPES: dict[str, Recipe] = {
             "len(message.status_list) == 2",
             "all(goal.goal_id.id.startswith('goal_') for goal in message.status_list)",
         ),
+        frame="",
     ),
 }

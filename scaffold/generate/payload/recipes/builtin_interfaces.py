@@ -6,9 +6,9 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "Duration": Recipe(
-        says="the time since the node was started, as its timer counts it",
+        says="a duration that grows by half a second each time",
         code="""
-            msg.sec = self.count // 2  # seconds; the timer ticks twice a second
+            msg.sec = self.count // 2  # seconds
             msg.nanosec = self.count % 2 * 500_000_000
         """,
         log="{msg.sec}.{msg.nanosec:09d} s",

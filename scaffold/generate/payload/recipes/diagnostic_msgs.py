@@ -25,6 +25,7 @@ RECIPES: dict[str, Recipe] = {
             "[status.name for status in message.status] == ['motor']",
             "message.status[0].message in ('ok', 'hot')",
         ),
+        frame="",
     ),
     "DiagnosticStatus": Recipe(
         says="the state of a motor that gets hot now and then",

@@ -218,6 +218,6 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="x {msg.force.x:.2f} N, z {msg.force.z:.2f} N",
         checks=("-1.0 <= message.force.x <= 1.0",),
-        frame="tool",
+        frame="tool0",
     ),
 }

@@ -57,7 +57,7 @@ RECIPES: dict[str, Recipe] = {
             "len(message.d) == 5",
             "message.k[8] == 1.0",
         ),
-        frame="camera",
+        frame="camera_optical_frame",
     ),
     "ChannelFloat32": Recipe(
         says="the intensities of three points",
@@ -90,7 +90,7 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="a {msg.format} image of {len(msg.data)} bytes",
         checks=("message.format == 'png'", "bytes(message.data[1:4]) == b'PNG'"),
-        frame="camera",
+        frame="camera_optical_frame",
     ),
     "FluidPressure": Recipe(
         says="the pressure of the air",
@@ -129,12 +129,13 @@ RECIPES: dict[str, Recipe] = {
             "message.encoding == 'mono8'",
             "len(message.data) == message.height * message.step == 64 * 48",
         ),
-        frame="camera",
+        frame="camera_optical_frame",
     ),
     "Imu": Recipe(
         says="the motion of a sensor that turns about the vertical axis",
         code="""
-            angle = self.count / 10.0  # radians
+            seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
+            angle = 0.2 * seconds  # radians
             msg.orientation.z = math.sin(angle / 2.0)
             msg.orientation.w = math.cos(angle / 2.0)
             msg.orientation_covariance[::4] = 1e-4  # the diagonal
@@ -149,15 +150,16 @@ RECIPES: dict[str, Recipe] = {
             "message.linear_acceleration.z == 9.81",
             "message.orientation_covariance[0] > 0.0",
         ),
-        frame="imu",
+        frame="imu_link",
     ),
     "JointState": Recipe(
         says="the state of two joints that swing",
         code="""
             msg.name = ['shoulder', 'elbow']
-            angle = math.sin(self.count / 10.0)
+            seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
+            angle = math.sin(0.2 * seconds)
             msg.position = [angle, -angle]  # radians
-            velocity = 0.2 * math.cos(self.count / 10.0)
+            velocity = 0.2 * math.cos(0.2 * seconds)
             msg.velocity = [velocity, -velocity]  # radians per second
             msg.effort = [0.5, 0.2]  # newton metres
         """,
@@ -166,6 +168,7 @@ RECIPES: dict[str, Recipe] = {
             "message.name == ['shoulder', 'elbow']",
             "len(message.position) == len(message.velocity) == len(message.effort) == 2",
         ),
+        frame="",
     ),
     "Joy": Recipe(
         says="the axes and buttons of a gamepad that is played with",
@@ -176,6 +179,7 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="axes {msg.axes[0]:.2f} {msg.axes[1]:.2f}",
         checks=("len(message.axes) == len(message.buttons) == 4", "message.buttons[0] in (0, 1)"),
+        frame="",
     ),
     "JoyFeedback": Recipe(
         says="a rumble that swells and fades",
@@ -234,12 +238,13 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="x {msg.magnetic_field.x * 1e6:.1f} uT",
         checks=("message.magnetic_field.z == -4e-5", "message.magnetic_field_covariance[0] > 0.0"),
-        frame="imu",
+        frame="imu_link",
     ),
     "MultiDOFJointState": Recipe(
         says="the state of a joint that floats and circles",
         code="""
-            angle = self.count / 10.0  # radians
+            seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
+            angle = 0.2 * seconds  # radians
             transform = Transform()
             transform.translation.x = math.cos(angle)  # metres
             transform.translation.y = math.sin(angle)
@@ -399,6 +404,6 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="{msg.time_ref.sec} s from {msg.source}",
         checks=("message.time_ref.sec > 0", "message.source == 'gps'"),
-        frame="gps",
+        frame="",
     ),
 }

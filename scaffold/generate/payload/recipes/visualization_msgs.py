@@ -29,7 +29,7 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="a circle at x {msg.position.x:.1f}",
         checks=("message.type == ImageMarker.CIRCLE", "220.0 <= message.position.x <= 420.0"),
-        frame="camera",
+        frame="camera_optical_frame",
     ),
     "InteractiveMarker": Recipe(
         says="a marker that can be moved along an axis, and circles by itself",
