@@ -1,0 +1,105 @@
+"""CM107: what CMake finds is there when the package is built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.errors import ViewError
+from scaffold.model.brought_along import provided_by
+from scaffold.model.known import ROS_PACKAGES
+
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+_LISTS = "project(talker)\nfind_package(std_msgs REQUIRED)\n"
+_EXEC = "  <exec_depend>std_msgs</exec_depend>\n"
+
+
+class FoundWhenRunOnly(Rule):
+    """``find_package`` looks for a package that the manifest declares for running alone.
+
+    **Why.** The build farm, and ``rosdep install --dependency-types build``, leave it out, and
+    CMake stops.
+
+    **Fix.** Add a ``<build_depend>``, or write ``<depend>`` instead of the ``<exec_depend>``. A
+    package of Python code alone need not be found at all.
+
+    **Source.** REP-149, ``exec_depend``; bloom, whose ``Build-Depends`` are those of
+    ``buildtool_depend``, ``build_depend``, ``depend`` and ``test_depend``.
+    """
+
+    code = "CM107"
+    name = "found-when-run-only"
+    examples = (
+        Example(
+            "for the build",
+            {
+                "package.xml": _MANIFEST.format("  <depend>std_msgs</depend>\n"),
+                "CMakeLists.txt": _LISTS,
+            },
+        ),
+        Example(
+            "brought along by what the build has",
+            {
+                "package.xml": _MANIFEST.format("  <depend>sensor_msgs</depend>\n" + _EXEC),
+                "CMakeLists.txt": _LISTS,
+            },
+        ),
+        Example(
+            "where it is there",
+            {
+                "package.xml": _MANIFEST.format(_EXEC),
+                "CMakeLists.txt": "project(talker)\nfind_package(std_msgs)\n",
+            },
+        ),
+        Example(
+            "for running",
+            {"package.xml": _MANIFEST.format(_EXEC), "CMakeLists.txt": _LISTS},
+            at=("package.xml:3",),
+            fixed={
+                "package.xml": _MANIFEST.format("  <build_depend>std_msgs</build_depend>\n" + _EXEC)
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        kinds: dict[str, set[str]] = {}
+        for one in manifest.dependencies:
+            kinds.setdefault(one.name, set()).add(one.kind)
+        only = {name for name, found in kinds.items() if found == {"exec_depend"}}
+        along = _there(package) if only else set()
+        for found in package.cmake.found_packages:
+            name = found.name
+            if name not in only or name in along or not found.required or found.command.blocks:
+                continue
+            if name not in ROS_PACKAGES and package.workspace.get(name) is None:
+                continue
+            only.remove(name)
+            element = next(one for one in manifest.dependencies if one.name == name).element
+            message = (
+                f"<exec_depend> {name!r} is not there when the package is built, but "
+                f"CMakeLists.txt, line {found.location.line} finds it; add <build_depend>"
+            )
+            fix = Fix(f"add a <build_depend> of {name}", (manifest.insert("build_depend", name),))
+            yield self.report(element, message, fix)
+
+
+def _there(package: Package) -> set[str]:
+    """Return what the dependencies for the build and the tests bring along."""
+    manifest = package.manifest
+    found: set[str] = set()
+    pending = [
+        *manifest.build_names,
+        *manifest.test_names,
+        *(one.name for one in manifest.dependencies if one.kind.startswith("buildtool")),
+    ]
+    while pending:
+        name = pending.pop()
+        if name not in found:
+            found.add(name)
+            neighbour = package.workspace.get(name)
+            try:
+                pending += neighbour.manifest.run_names if neighbour is not None else ()
+            except ViewError:
+                continue
+    return found | provided_by(found)
