@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.cmake_parser import Command
 
 _LISTS = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
 
@@ -25,6 +26,13 @@ class AbsoluteDestination(Rule):
     examples = (
         Example("relative", {"CMakeLists.txt": _LISTS.format("share/${PROJECT_NAME}")}),
         Example(
+            "only if somebody asks for it",
+            {
+                "CMakeLists.txt": "project(talker)\nif(INSTALL_UDEV_RULES)\n"
+                "  install(FILES talker.rules DESTINATION /etc/udev/rules.d)\nendif()\n"
+            },
+        ),
+        Example(
             "absolute",
             {"CMakeLists.txt": _LISTS.format("/opt/talker/share")},
             at=("CMakeLists.txt:2",),
@@ -36,6 +44,14 @@ class AbsoluteDestination(Rule):
             argument = install.destination_argument
             if argument is None or not (install.destination or "").startswith("/"):
                 continue
-            if package.build_type == "ament_cmake":
+            if package.build_type == "ament_cmake" and not _is_asked_for(install.command):
                 message = f"installs to {install.destination}, outside of the workspace"
                 yield self.report(argument, message)
+
+
+def _is_asked_for(command: Command) -> bool:
+    """Tell whether a condition says who wants it, such as whoever makes a Debian package."""
+    at = command.parent
+    while at is not None and at.name != "if":
+        at = at.parent
+    return at is not None

@@ -43,31 +43,34 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
-            "started by an installed script",
+            "started by an installed script or an entry point; left out; data of an agent",
             {
-                "CMakeLists.txt": _LISTS.format(""),
-                "talker/node.py": "#!/usr/bin/env python3\n"
-                "from talker.other import main\n\nmain()\n",
-                "talker/other.py": _NODE,
+                "CMakeLists.txt": _LISTS.format("    # talker/old.py\n").replace(
+                    "ament_p",
+                    "ament_python_install_package(talker SETUP_CFG talker/setup.cfg)\n"
+                    "install(DIRECTORY skills DESTINATION share/talker)\nament_p",
+                ),
+                "talker/setup.cfg": "console_scripts =\n  a = talker.a:main\n",
+                "talker/node.py": "from talker.other import main\n\nmain()\n",
+                **dict.fromkeys(("talker/a.py", "talker/old.py", "talker/other.py"), _NODE),
+                "skills/arm/scripts/move.py": _NODE,
             },
         ),
         Example(
             "a CMakeLists.txt that colcon does not read",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n  <export>\n'
-                "    <build_type>ament_python</build_type>\n  </export>\n</package>\n",
-                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+                "package.xml": "<package><export><build_type>ament_python</build_type>"
+                "</export></package>\n",
+                "setup.py": "",
                 "CMakeLists.txt": _LISTS.format(""),
-                "talker/node.py": _NODE,
-                "talker/other.py": _NODE,
+                **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
         ),
         Example(
             "one is missing",
             {
                 "CMakeLists.txt": _LISTS.format(""),
-                "talker/node.py": _NODE,
-                "talker/other.py": _NODE,
+                **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
             at=("CMakeLists.txt:3",),
         ),

@@ -34,6 +34,15 @@ class SharePatternEmpty(Rule):
             {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yaml"'), **_FILES},
         ),
         Example(
+            "another ending, in ROS 1",
+            {
+                "CMakeLists.txt": "if($ENV{ROS_VERSION} EQUAL 1)\n"
+                + _LISTS.format(' FILES_MATCHING PATTERN "*.launch"')
+                + "endif()\n",
+                **_FILES,
+            },
+        ),
+        Example(
             "another ending",
             {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
             at=("CMakeLists.txt:2",),

@@ -9,6 +9,7 @@ from scaffold.model.python_module import Import
 from scaffold.model.setup_py import FindPackages
 from scaffold.model.values import UNKNOWN
 
+_TESTS = frozenset({"test", "tests"})
 _FILES = {
     "setup.py": "from setuptools import find_packages, setup\n\nsetup(packages=find_packages())\n",
     "talker/__init__.py": "",
@@ -32,6 +33,16 @@ class SubpackageWithoutInit(Rule):
     name = "subpackage-without-init"
     examples = (
         Example("with", {**_FILES, "talker/text/__init__.py": ""}),
+        Example(
+            "among tests, which run where they are",
+            {
+                **_FILES,
+                "talker/text/__init__.py": "",
+                "test/__init__.py": "",
+                "test/node/tools.py": "",
+                "test/node/test_node.py": "from test.node.tools import start\n",
+            },
+        ),
         Example(
             "without",
             _FILES,
@@ -73,7 +84,7 @@ def _directories(package: Package, path: str, one: Import) -> Iterator[str]:
         parts = [*base, *(one.module.split(".") if one.module else ())]
     else:
         parts = one.module.split(".")
-    if not parts or not package.has(f"{parts[0]}/__init__.py"):
+    if not parts or parts[0] in _TESTS or not package.has(f"{parts[0]}/__init__.py"):
         return
     for depth in range(2, len(parts) + 1):
         directory = "/".join(parts[:depth])

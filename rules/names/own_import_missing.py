@@ -44,6 +44,14 @@ class OwnImportMissing(Rule):
     examples = (
         Example("full name", {**_FILES, "talker/node.py": "from talker.text import make\n"}),
         Example(
+            "a test wants it to be missing",
+            {
+                **_FILES,
+                "test/test_text.py": "import pytest\n\n\ndef test_nothing():\n"
+                "    with pytest.raises(ImportError):\n        import talker.nothing\n",
+            },
+        ),
+        Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
             at=("talker/node.py:1",),

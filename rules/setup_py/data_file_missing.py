@@ -40,6 +40,18 @@ class DataFileMissing(Rule):
             },
         ),
         Example(
+            "all files lie in directories below, which have lines of their own",
+            {
+                "setup.py": _SETUP.format(
+                    "        ('share/talker', ['package.xml']),\n"
+                    "        ('share/talker/config', glob('config/*.yaml')),\n"
+                    "        ('share/talker/config/arm', glob('config/arm/*.yaml')),\n"
+                ),
+                "package.xml": "<package/>\n",
+                "config/arm/arm.yaml": "",
+            },
+        ),
+        Example(
             "no such file, and files with another ending",
             {
                 "setup.py": _SETUP.format(
@@ -84,4 +96,8 @@ class DataFileMissing(Rule):
         ending = name.replace("*", "")
         if not any(ending[-3:] == path[-3:] for path in beside):
             return None
+        sources = [one for data in package.setup_py.data_files for one in data.sources]
+        globs = [one for one in sources if isinstance(one, Glob)]
+        if {path for one in globs for path in matches(one, package.files)}.issuperset(beside):
+            return None  # other lines install them
         return f"the pattern {pattern.pattern} matches no file; {beside[0]} is there"

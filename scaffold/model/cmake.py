@@ -237,6 +237,17 @@ class CMakeLists:
             at = at.parent
         return False
 
+    def is_for_ros1(self, command: Command) -> bool:
+        """Tell whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
+        at = command if command.depth <= _DEEPEST else None
+        while at is not None and at.parent is not None and at.branch is not None:
+            if at.parent.name == "if":
+                asked = at.parent if at.branch.name == "else" else at.branch
+                if _asks_for_ros(asked) == ("2" if asked is not at.branch else "1"):
+                    return True
+            at = at.parent
+        return False
+
     @cached_property
     def _leaves_without_testing(self) -> list[Command]:
         """The first ``return()`` in an ``if(NOT BUILD_TESTING)`` at the top."""
@@ -270,7 +281,7 @@ class CMakeLists:
 
     def _found_packages(self) -> Iterator[FoundPackage]:
         for command in self.find("find_package"):
-            if not command.arguments:
+            if not command.arguments or self.is_for_ros1(command):
                 continue
             argument = command.arguments[0]
             required = command.has("REQUIRED")
@@ -290,6 +301,8 @@ class CMakeLists:
         found: list[Install] = []
         items = 0
         for command in self.find("install", *LAST_CALLS[1:]):
+            if self.is_for_ros1(command):
+                continue
             # A loop over something unknown still tells what is written down.
             for bindings in self._variables.combinations(command) or ({},):
                 if items > _MOST_ITEMS:
@@ -415,3 +428,14 @@ def _asks_for_testing(condition: Command) -> bool | None:
         if value in {"BUILD_TESTING", "${BUILD_TESTING}"}:
             return values[number - 1] != "NOT" if number else True
     return None
+
+
+def _asks_for_ros(condition: Command) -> str | None:
+    """Return the version of ROS that a condition asks for, if it asks for nothing else."""
+    match condition.values:
+        case [variable, "EQUAL" | "STREQUAL", version] if "ROS_VERSION" in variable:
+            return version
+        case ["catkin_FOUND"]:
+            return "1"
+        case _:
+            return None

@@ -147,14 +147,30 @@ def runs_if_exists(command: Command) -> bool:
 
 
 def is_used_by_build(package: Package, path: str) -> bool:
-    """Tell whether a file is installed, alone or in a directory of programs, or handed on."""
+    """Tell whether a file is installed, alone or in a directory of programs, or handed on.
+
+    Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
+    says that it is left out.
+    """
     directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
     for install in package.cmake.installs:
         is_for_programs = (install.destination or "").startswith("lib")
         for item in install.items:
             is_around = install.kind == "DIRECTORY" and item.path in directories
-            if item.path == path or (is_around and is_for_programs):
+            is_data = is_around and path.count("/") > 1 and item.path == path.partition("/")[0]
+            if item.path == path or (is_around and is_for_programs) or is_data:
                 return True
     name = path.rpartition("/")[2].removesuffix(".py")
+    if any(f"{name}.py" in package.cmake.text(token) for token in package.cmake.comments):
+        return True
+    if _is_entry_point(package, path):
+        return True
     others = [command for command in package.cmake.commands if command.name != "install"]
     return any(name in one.value for command in others for one in command.arguments)
+
+
+def _is_entry_point(package: Package, path: str) -> bool:
+    """Tell whether the setup.cfg of a package of CMake starts a function of a file."""
+    entry = path.removesuffix(".py").replace("/", ".") + ":"
+    files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
+    return any(entry in package.source(one).text for one in files)

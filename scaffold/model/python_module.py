@@ -17,6 +17,8 @@ MAX_DEPTH = 300
 """Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
 
 _IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
+_EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
+"""What an exception is expected with: ``with pytest.raises(ImportError):``."""
 _PLATFORM_NAMES = ("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform.")
 _LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _MODULE_ATTRIBUTES = frozenset(
@@ -248,7 +250,8 @@ class PythonModule:
         return (
             not {"test", "tests"}.isdisjoint(directories)
             or name == "conftest.py"
-            or (name.endswith(".py") and (name.startswith("test_") or name.endswith("_test.py")))
+            or (name.endswith(".py") and name.startswith("test_"))
+            or name.endswith(("_test.py", ".test.py"))
         )
 
     @cached_property
@@ -465,7 +468,7 @@ def _catches_import_errors(node: ast.Try) -> bool:
 
 def _suppresses_import_errors(item: ast.withitem) -> bool:
     match item.context_expr:
-        case ast.Call(func=func, args=args) if "suppress" in last_names(func):
+        case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
             return any(not _IMPORT_ERRORS.isdisjoint(last_names(arg)) for arg in args)
         case _:
             return False
