@@ -136,11 +136,17 @@ def _gives_nothing(fixture: Fixture) -> bool:
     return not any(isinstance(node, gives) and node.value for node in ast.walk(fixture.node))
 
 
+def _yields(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Yield)
+
+
 def _scope_problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
     if not fixture.scope:
         return ""
     if fixture.scope not in _SCOPES:
         return f"there is no scope {fixture.scope!r}, but {', '.join(_SCOPES)}"
+    if sum(map(_yields, fixture.node.body)) > 1:
+        return f"the fixture {fixture.name} yields twice: pytest takes one value"
     for name in arguments(fixture.node):
         inner = known.get(name)
         if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:

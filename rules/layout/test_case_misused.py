@@ -76,7 +76,8 @@ class TestCaseMisused(Rule):
                         if is_case
                         else _plain(method)
                     )
-                    if problem and not module.index.attributes(method.name):
+                    is_called = method.name != "__init__" and module.index.attributes(method.name)
+                    if problem and not is_called:
                         yield self.report(module.name_location(method), problem)
                 if is_case:
                     yield from self._check_calls(module, class_.node)
@@ -89,6 +90,21 @@ class TestCaseMisused(Rule):
                     if name in _GONE and name not in own:
                         message = f"{name} is gone in Python 3.12; {_GONE[name]} is meant"
                         yield self.report(module.location(node.func), message)
+                    elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
+                        message = f"{name} takes one value, the second is a message; compare them"
+                        yield self.report(module.location(node.func), message)
+
+
+def _compares(given: list[ast.expr]) -> bool:
+    """Tell whether a second argument is surely a value to compare with, not a message."""
+    if len(given) != 2:  # noqa: PLR2004  a value and a message
+        return False
+    first, second = given
+    if isinstance(second, ast.Constant) and not isinstance(second.value, str):
+        return second.value is not None
+    return isinstance(second, ast.List | ast.Dict | ast.Tuple) or (
+        isinstance(first, ast.Constant) and isinstance(first.value, str)
+    )
 
 
 def _has_no_base(class_: ast.ClassDef) -> bool:
@@ -113,7 +129,7 @@ def _case_problem(module: PythonModule, method: FunctionNode, *, launched: bool)
         problem = f"unittest calls {name} on the class: @classmethod is missing"
     elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
         problem = f"unittest calls {name} with self alone, and it takes {len(given)} arguments"
-    elif name == "__init__" and len(given) == 1 and not method.args.vararg:
+    elif name == "__init__" and len(method.args.args) == 1 and not method.args.vararg:
         problem = "unittest gives __init__ the name of a test: use setUp instead"
     elif name.startswith("test") and not launched and not static:
         if any(mark == "parametrize" for mark, _ in marks(module, method)):

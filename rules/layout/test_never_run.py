@@ -73,34 +73,62 @@ class TestNeverRun(Rule):
         if any(word in text for text in texts for word in _PLUGINS):
             return
         for module in test_modules(package):
-            if module.has_main_guard or not list(test_functions(module)):
+            if module.has_main_guard:
                 continue
             for test in test_functions(module):
                 is_plain = test.class_ is None or not test.class_.bases
                 problem = _kind_problem(module, test.node) if is_plain else ""
                 if problem and not _is_used(package, test.node.name):
                     yield self.report(module.name_location(test.node), problem)
-            yield from self._check_names(package, module)
+            yield from self._check_functions(package, module)
+            yield from self._check_classes(package, module)
 
-    def _check_names(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+    def _check_functions(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         known = fixtures(package, module)
+        has_tests = any(True for _ in test_functions(module))
         for function in module.functions.values():
             decorators = function.node.decorator_list
             if function.name.startswith("test") and fixture_decorator(module, function.node):
                 message = f"{function.name} is a fixture, so pytest does not run it as a test"
-            elif not decorators and _asserts(function.node, set(known)):
+            elif has_tests and not decorators and _asserts(function.node, set(known)):
                 message = f"pytest does not run {function.name}: its name does not begin with test"
             else:
                 continue
             if not _is_used(package, function.name):
                 yield self.report(function, message)
+
+    def _check_classes(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         for class_ in module.classes.values():
-            tests = [one.name for one in methods(class_.node) if one.name.startswith("test_")]
-            collected = class_.name.startswith("Test") or is_test_case(module, class_.node)
-            other = collected or class_.node.bases or class_.node.decorator_list
-            if tests and not other and not _is_used(package, class_.name):
+            if _is_used(package, class_.name) or class_.node.decorator_list:
+                continue
+            own = methods(class_.node)
+            tests = [one for one in own if one.name.startswith("test")]
+            is_case = is_test_case(module, class_.node)
+            if not (class_.name.startswith("Test") or class_.node.bases) and tests:
                 message = f"pytest does not run {class_.name}: its name does not begin with Test"
                 yield self.report(class_, message)
+            if not is_case and (class_.node.bases or not class_.name.startswith("Test")):
+                continue
+            for one in own:
+                if _states(one) and not one.decorator_list and not _is_used(package, one.name):
+                    message = f"pytest does not run {one.name}: its name does not begin with test"
+                    yield self.report(module.name_location(one), message)
+
+
+def _states(method: FunctionNode) -> bool:
+    """Tell whether a method could be a test: it asserts and takes nothing but ``self``."""
+    if method.name.startswith(("test", "_", "set", "tear", "run")) or len(method.args.args) != 1:
+        return False
+    return any(
+        isinstance(node, ast.Assert)
+        or (
+            isinstance(node, ast.Expr)
+            and isinstance(node.value, ast.Call)
+            and isinstance(node.value.func, ast.Attribute)
+            and node.value.func.attr.startswith("assert")
+        )
+        for node in method.body
+    )
 
 
 def _asserts(function: FunctionNode, known: set[str]) -> bool:

@@ -84,10 +84,14 @@ def _refused(module: PythonModule) -> list[ast.ClassDef]:
         class_.node
         for class_ in module.classes.values()
         if class_.name.startswith("Test")
-        and not class_.node.bases
+        and not any(_may_be_collected(module, base) for base in class_.node.bases)
         and "__init__" in _methods(class_.node)
         and any(name.startswith("test") for name in _methods(class_.node))
     ]
+
+
+def _may_be_collected(module: PythonModule, base: ast.expr) -> bool:
+    return module.qualified_name(base) not in {"object", "rclpy.node.Node"}
 
 
 def _has_tests(module: PythonModule) -> bool:
