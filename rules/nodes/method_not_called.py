@@ -1,0 +1,80 @@
+"""ND093: methods of nodes and other objects of rclpy, and rclpy.ok, are called."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import NODE, class_of, is_method
+
+_FUNCTION_HAS = ("func", "self")
+"""Attributes of what wraps a method."""
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.client = self.create_client(Trigger, 'reset')\n"
+    "        self.start = self.get_clock{}.now()\n"
+    "        while rclpy.ok{} and not self.client.service_is_ready{}:\n"
+    "            self.get_logger().info('waiting')\n"
+    "        self.destroy_node{}\n"
+)
+
+
+class MethodNotCalled(Rule):
+    """A method of an object of rclpy is named where only its call makes sense.
+
+    **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition a method
+    is always true, and as a statement it does nothing.
+
+    **Fix.** Write the parentheses of the call.
+
+    **Source.** The classes of rclpy 7.1 (ROS 2 Jazzy).
+    """
+
+    code = "ND093"
+    name = "method-not-called"
+    examples = (
+        Example("called", {"talker.py": _NODE.format("()", "()", "()", "()")}),
+        Example(
+            "not called: for what it gives, as conditions, as a statement",
+            {"talker.py": _NODE.format("", "", "", "")},
+            at=("talker.py:10", "talker.py:11", "talker.py:11", "talker.py:13"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files() if package.name != "rclpy" else ():
+            for node in facts.module.walk(ast.Attribute):
+                if not isinstance(node.ctx, ast.Load) or not _wants_value(facts, node):
+                    continue
+                if facts.module.qualified_name(node) == "rclpy.ok":
+                    message = "rclpy.ok is a function, which is always true: call it, rclpy.ok()"
+                    yield self.report(facts.module.location(node), message)
+                elif _is_method_of_rclpy(facts, node):
+                    message = f"{node.attr} is a method: call it, {node.attr}()"
+                    yield self.report(facts.module.location(node), message)
+
+
+def _wants_value(facts: NodeFacts, node: ast.Attribute) -> bool:
+    """Tell whether an expression stands where a method that is not called makes no sense."""
+    match facts.module.parent(node):
+        case ast.Attribute(attr=attr):
+            return not attr.startswith("__") and attr not in _FUNCTION_HAS
+        case ast.If(test=test) | ast.While(test=test):
+            return test is node
+        case ast.UnaryOp(op=ast.Not()) | ast.BoolOp() | ast.Expr():
+            return True
+        case _:
+            return False
+
+
+def _is_method_of_rclpy(facts: NodeFacts, node: ast.Attribute) -> bool:
+    owner = facts.owner_of(node.value)
+    if owner is None:
+        return is_method(class_of(facts, node.value) or "", node.attr)
+    is_own = hasattr(owner, "method") and owner.method(node.attr) is not None
+    return is_method(NODE, node.attr) and not is_own and not facts.evaluator.stores(node.attr)

@@ -1,0 +1,91 @@
+"""ND094: times and durations are computed with durations, not with numbers."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import class_of
+
+_DURATION = "rclpy.duration.Duration"
+_TIME = "rclpy.time.Time"
+_ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
+_NODE = (
+    "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.start = self.get_clock().now() - {}\n\n"
+    "    def is_late(self):\n"
+    "        return self.get_clock().now() - self.get_clock().now() > {}\n"
+)
+
+
+class NumberForDuration(Rule):
+    """A number stands where a time of rclpy wants a duration.
+
+    **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'float'``, or ``'>' not
+    supported between instances of 'Duration' and 'float'``; ``Duration(1.0)`` takes keywords only.
+
+    **Fix.** ``Duration(seconds=1.0)``.
+
+    **Source.** ``rclpy/duration.py``, ``rclpy/time.py``.
+    """
+
+    code = "ND094"
+    name = "number-for-duration"
+    examples = (
+        Example(
+            "durations",
+            {"talker.py": _NODE.format("Duration(seconds=1.0)", "Duration(seconds=5.0)")},
+        ),
+        Example(
+            "numbers",
+            {"talker.py": _NODE.format("1.0", "5.0")},
+            at=("talker.py:8", "talker.py:11"),
+        ),
+        Example(
+            "a duration by position",
+            {"talker.py": _NODE.format("Duration(1.0)", "Duration(seconds=5.0)")},
+            at=("talker.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for node, problem in _problems(facts):
+                yield self.report(facts.module.location(node), problem)
+
+
+def _problems(facts: NodeFacts) -> Iterator[tuple[ast.AST, str]]:
+    """Yield what holds a number that should be a duration, and what is wrong with it."""
+    for call in facts.module.walk(ast.Call):
+        name = facts.module.qualified_name(call.func)
+        if name in {_DURATION, _TIME} and call.args:
+            kind = name.rpartition(".")[2]
+            yield call, f"{kind}() takes keywords only: seconds=..., nanoseconds=..."
+    for comparison in facts.module.walk(ast.Compare):
+        left, operator, right = comparison.left, comparison.ops[0], comparison.comparators[0]
+        if isinstance(operator, _ORDERS) and _is_number(facts, right) and _kind(facts, left):
+            problem = "cannot be compared: write Duration(seconds=...)"
+            yield comparison, f"a {_kind(facts, left)} and a number {problem}"
+    for sum_ in facts.module.walk(ast.BinOp):
+        is_sum = isinstance(sum_.op, ast.Add | ast.Sub) and _is_number(facts, sum_.right)
+        if is_sum and class_of(facts, sum_.left) == _TIME:
+            yield sum_, "a Time and a number: TypeError; use Duration(seconds=...)"
+
+
+def _is_number(facts: NodeFacts, node: ast.expr) -> bool:
+    return type(facts.evaluator.evaluate(node)) in {int, float}
+
+
+def _kind(facts: NodeFacts, node: ast.expr) -> str:
+    """Return ``Time`` or ``Duration`` for an expression that surely is one."""
+    value = facts.evaluator.single_value(node)
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub):
+        both = {class_of(facts, value.left), class_of(facts, value.right)}
+        return "Duration" if both == {_TIME} else ""
+    name = class_of(facts, value) or ""
+    return name.rpartition(".")[2] if name in {_DURATION, _TIME} else ""
