@@ -15,9 +15,9 @@ from scaffold.smoke.expectation import Offer
 from scaffold.smoke.result import Observation, Topic
 
 PROBE = Path(__file__).with_name("probe.py")
-START_TIMEOUT = 30.0
+START_TIMEOUT = 120.0
 """Seconds for the start of an interpreter and the import of rclpy, on a machine that is busy."""
-ANSWER_TIMEOUT = 15.0
+ANSWER_TIMEOUT = 30.0
 END_TIMEOUT = 5.0
 LONGEST_LINE = 2**24
 """Bytes of one event: the report holds several messages of every topic."""
