@@ -6,12 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.node_entities import ParameterRead
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy_names import PARAMETER, class_of
 from scaffold.model.values import UNKNOWN
 
-_PARAMETER = "rclpy.parameter.Parameter"
 _KINDS = {
     "BOOL": bool,
     "BOOL_ARRAY": list,
@@ -39,7 +37,7 @@ class ParameterMadeWrongly(Rule):
     """A parameter is made, declared, read or set in a form that rclpy does not take.
 
     **Why.** ``ValueError: Type '2' and value ... do not agree``, ``TypeError: 'float' object is not
-    callable``, ``ParameterAlreadyDeclaredException`` for ``use_sim_time``, which every node has.
+    callable``.
 
     **Fix.** ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)``, a list of pairs for
     ``declare_parameters``, a list for ``set_parameters``; ``.value`` is no method.
@@ -57,46 +55,35 @@ class ParameterMadeWrongly(Rule):
             at=("talker.py:8", "talker.py:9", "talker.py:10"),
         ),
         Example(
-            "a value in place of the type, another type, one that is there",
+            "a value in place of the type, another type",
             {
                 "talker.py": _NODE.format(
-                    "('rate', 1.0), ('use_sim_time', True)",
+                    "('rate', 1.0)",
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
                     "",
                 )
             },
-            at=("talker.py:8", "talker.py:9", "talker.py:9"),
+            at=("talker.py:9", "talker.py:9"),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            for one in facts.parameters:
-                if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
-                    message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
-                    yield self.report(one.name_location, message)
             for call in facts.module.walk(ast.Call):
                 for node, problem in _problems(facts, call):
                     yield self.report(facts.module.location(node), problem)
-            for read in facts.parameter_reads:
-                used = _used_as_number(facts, read)
-                if used is not None:
-                    message = (
-                        "get_parameter_value() is a message: read a field such as double_value"
-                    )
-                    yield self.report(facts.module.location(used), message)
 
 
 def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     name = facts.module.qualified_name(call.func) or ""
-    if name in {_PARAMETER, "rclpy.Parameter"}:
+    if name in {PARAMETER, "rclpy.Parameter"}:
         yield from _made(facts, call)
     match call.func:
-        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == _PARAMETER:
+        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
             yield call, "value is no method of a parameter: leave the parentheses out"
         case ast.Attribute(attr="set_parameters" | "set_parameters_atomically", value=owner):
             given = call.args[0] if call.args else None
-            is_one = given is not None and class_of(facts, given) == _PARAMETER
+            is_one = given is not None and class_of(facts, given) == PARAMETER
             if given is not None and is_one and facts.owner_of(owner) is not None:
                 yield given, "parameters are set as a list: [Parameter(...)]"
         case ast.Attribute(attr="declare_parameters", value=owner):
@@ -128,18 +115,3 @@ def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
             value,
             f"the type is {facts.module.text(type_)}, but the value is a {word}: ValueError",
         )
-
-
-def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
-    """Return where the message of a parameter's value is computed with or is a period."""
-    attribute = facts.module.parent(read.call)
-    call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
-    if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
-        return None
-    if not isinstance(call, ast.Call):
-        return None
-    for timer in facts.timers:
-        period = timer.argument("timer_period_sec")
-        if period is not None and facts.evaluator.single_value(period.node) is call:
-            return period.node
-    return call if isinstance(facts.module.parent(call), ast.BinOp) else None

@@ -17,13 +17,13 @@ _NODE = (
 
 
 class ParameterRepeated(Rule):
-    """A node declares a parameter twice.
+    """A node declares a parameter twice, or ``use_sim_time``, which every node has.
 
     **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
 
-    **Fix.** Keep one.
+    **Fix.** Keep one; of ``use_sim_time`` none.
 
-    **Source.** ``rclpy/node.py``, ``declare_parameters``.
+    **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rclpy/time_source.py``.
     """
 
     code = "ND016"
@@ -31,10 +31,19 @@ class ParameterRepeated(Rule):
     examples = (
         Example("two parameters", {"talker.py": _NODE.format("period")}),
         Example("one parameter twice", {"talker.py": _NODE.format("rate")}, at=("talker.py:8",)),
+        Example(
+            "one of every node",
+            {"talker.py": _NODE.format("use_sim_time")},
+            at=("talker.py:8",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
+            for one in facts.parameters:
+                if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
+                    message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
+                    yield self.report(one.name_location, message)
             for node in facts.nodes:
                 first: dict[str, int] = {}
                 for parameter in node.parameters:

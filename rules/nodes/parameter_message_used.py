@@ -1,0 +1,70 @@
+"""ND095: of the message of a parameter, a field is read."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import ParameterRead
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        period = 1.0 / self.get_parameter('rate').get_parameter_value(){}\n"
+    "        self.create_timer(period, self.tick)\n\n"
+    "    def tick(self):\n        pass\n"
+)
+
+
+class ParameterMessageUsed(Rule):
+    """The message of a parameter is used as if it were its value.
+
+    **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'ParameterValue'``.
+
+    **Fix.** Read the field of the type, such as ``.double_value``, or write
+    ``self.get_parameter('rate').value``.
+
+    **Source.** ``rclpy/parameter.py``; ``rcl_interfaces/msg/ParameterValue.msg``.
+    """
+
+    code = "ND095"
+    name = "parameter-message-used"
+    examples = (
+        Example("a field", {"talker.py": _NODE.format(".double_value")}),
+        Example("computed with", {"talker.py": _NODE.format("")}, at=("talker.py:8",)),
+        Example(
+            "as a period",
+            {"talker.py": _NODE.format("").replace("1.0 / ", "")},
+            at=("talker.py:9",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for read in facts.parameter_reads:
+                used = _used_as_number(facts, read)
+                if used is not None:
+                    message = (
+                        "get_parameter_value() is a message: read a field such as double_value"
+                    )
+                    yield self.report(facts.module.location(used), message)
+
+
+def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
+    """Return where the message of a parameter's value is computed with or is a period."""
+    attribute = facts.module.parent(read.call)
+    call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
+    if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
+        return None
+    if not isinstance(call, ast.Call):
+        return None
+    for timer in facts.timers:
+        period = timer.argument("timer_period_sec")
+        if period is not None and facts.evaluator.single_value(period.node) is call:
+            return period.node
+    return call if isinstance(facts.module.parent(call), ast.BinOp) else None
