@@ -17,6 +17,12 @@ _CMAKE = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()
 _GENERATED = _CMAKE.format("rosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n")
 _BEATS = {"CMakeLists.txt": _GENERATED, "msg/Beat.msg": "int32 a\n", "msg/Old.msg": "int32 a\n"}
 _FORGOTTEN = {"CMakeLists.txt": _CMAKE.format(""), "config/talker.yaml": ""}
+_PYTHON = "  <export><build_type>ament_python</build_type></export>\n"
+_UNLISTED = {
+    "package.xml": _NAMED.format("talker", _PYTHON),
+    "setup.py": "from setuptools import setup\n\nsetup(name='talker', data_files=[])\n",
+    "config/talker.yaml": "",
+}
 
 
 @pytest.mark.parametrize(
@@ -32,6 +38,8 @@ _FORGOTTEN = {"CMakeLists.txt": _CMAKE.format(""), "config/talker.yaml": ""}
         ("CM060", _BEATS, WARNING),
         ("CM018", {**_FORGOTTEN, "launch.py": "path = 'talker.yaml'\n"}, ERROR),
         ("CM018", _FORGOTTEN, WARNING),
+        ("SP010", {**_UNLISTED, "launch.py": "path = 'talker.yaml'\n"}, ERROR),
+        ("SP010", _UNLISTED, WARNING),
     ],
 )
 def test_an_error_is_what_breaks(code: str, files: dict[str, str], severity: Severity) -> None:

@@ -34,6 +34,15 @@ class ProgramWithoutShebang(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
         ),
         Example(
+            "a generator that CMake gives to Python",
+            {
+                "CMakeLists.txt": _LISTS,
+                "cmake/talker-extras.cmake": "execute_process(\n"
+                "  COMMAND ${Python3_EXECUTABLE} ${talker_DIR}/node.py)\n",
+                "talker/node.py": "import rclpy\n",
+            },
+        ),
+        Example(
             "without",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
             at=("talker/node.py:1",),
@@ -57,7 +66,7 @@ class ProgramWithoutShebang(Rule):
         for path in sorted({program.path for program in programs(package)}):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
-            if is_only_imported(package, path):
+            if is_only_imported(package, path) or _is_given_to_python(package, path):
                 continue
             source = package.editable(path)
             line = source.lines[0]
@@ -81,6 +90,17 @@ class ProgramWithoutShebang(Rule):
             fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
             is_crlf = what.startswith("CRLF")
             yield self.report(package.start_of(path), what, None if is_crlf else fix)
+
+
+def _is_given_to_python(package: Package, path: str) -> bool:
+    """Tell whether a file of CMake runs a script with the Python that CMake has found."""
+    name = path.rpartition("/")[2]
+    return any(
+        name in line and "python" in line.partition(name)[0].lower()
+        for file in package.files
+        if file.endswith((".cmake", ".cmake.in"))
+        for line in package.source(file).text.splitlines()
+    )
 
 
 def _starts_python(line: str) -> bool:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.cmake_facts import installs_directory
-from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, launch_files
+from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, is_named, launch_files
 
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 _LAUNCH = "def generate_launch_description():\n    pass\n"
@@ -65,21 +65,5 @@ class ShareDirectoryNotInstalled(Rule):
                 continue
             message = f"{directory}/ is not installed, so {path} is not found at run time"
             found = self.report(calls[-1].name_location, message)
-            wanted = directory == "launch" or _is_named(package, directory)
+            wanted = directory == "launch" or is_named(package, directory)
             yield found if wanted else found._replace(severity=Severity.WARNING)
-
-
-def _is_named(package: Package, directory: str) -> bool:
-    """Tell whether code or a launch file of the workspace names a file of a directory."""
-    names = {path.rpartition("/")[2] for path in data_files(package, directory)}
-    for other in package.workspace:
-        for path in other.files:
-            if not path.endswith((".py", ".xml", ".yaml", ".cpp", ".hpp")):
-                continue
-            try:
-                text = other.source(path).text
-            except ViewError:
-                continue
-            if any(name in text for name in names):
-                return True
-    return False

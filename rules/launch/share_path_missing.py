@@ -54,6 +54,17 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "given to a function of which nothing is known",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    read = getattr(load('lib.py'), 'read')\n"
+                    "    read(os.path.join(share, 'config', 'of_user.yaml'))\n    return",
+                ),
+            },
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,

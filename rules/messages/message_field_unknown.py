@@ -40,6 +40,18 @@ class MessageFieldUnknown(Rule):
     examples = (
         Example("the field of the definition", {"listener.py": _NODE.format("data")}),
         Example(
+            "of a type that others may have set",
+            {
+                "listener.py": _NODE.replace("n(String", "n(self.kind")
+                .replace(
+                    "        self.create",
+                    "        if not hasattr(self, 'kind'):\n            self.kind = String\n"
+                    "        self.create",
+                )
+                .format("text")
+            },
+        ),
+        Example(
             "read in a callback", {"listener.py": _NODE.format("text")}, at=("listener.py:11",)
         ),
         Example(

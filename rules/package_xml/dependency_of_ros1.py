@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.model.cmake_facts import uses_ament
 from scaffold.model.known import ROS1_PACKAGES
 
 _CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
@@ -32,6 +33,16 @@ class DependencyOfRos1(Rule):
             },
         ),
         Example(
+            "for ROS 1 only, as CMake says",
+            {
+                "package.xml": "<package>\n"
+                "  <buildtool_depend>catkin</buildtool_depend>\n"
+                "  <depend>rospy</depend>\n"
+                "</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(catkin REQUIRED rospy)\n",
+            },
+        ),
+        Example(
             "left over",
             {
                 "package.xml": "<package>\n"
@@ -45,7 +56,7 @@ class DependencyOfRos1(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        if manifest.build_type == "catkin":
+        if manifest.build_type == "catkin" or _is_for_ros1(package):
             return
         for dependency in manifest.dependencies:
             name = dependency.name
@@ -54,3 +65,12 @@ class DependencyOfRos1(Rule):
                 which = "Gazebo classic, which Jazzy lacks" if name in _CLASSIC else "ROS 1"
                 message = f"{name!r} is of {which}; ROS 2 has {heir} instead"
                 yield self.report(dependency, message)
+
+
+def _is_for_ros1(package: Package) -> bool:
+    """Tell whether CMake builds a package with catkin alone, or a bridge to ROS 1."""
+    try:
+        is_bridge = bool(package.cmake.find("find_ros1_package"))
+        return is_bridge or (package.cmake.finds("catkin") and not uses_ament(package))
+    except ViewError:
+        return False

@@ -24,6 +24,7 @@ _LAUNCH = (
     "    return LaunchDescription([\n"
     "        Node(package='eyes', executable='eye', name='camera', parameters=[params]),\n    ])\n"
 )
+_CONTROL = "controller_manager"
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'
 
 
@@ -53,6 +54,14 @@ class NodeUnknown(Rule):
             "the name of the executable",
             {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
             at=("config/a.yaml:1",),
+        ),
+        Example(
+            "a controller",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH.replace("eyes", _CONTROL),
+                "config/demo.yaml": _FILE.format("arm_controller"),
+            },
         ),
         Example(
             "not the name that the launch file gives",
@@ -85,9 +94,11 @@ class NodeUnknown(Rule):
         given = {section.name for section in file.sections}
         useless = not any(s.is_pattern or s.name in names for s in file.sections)
         everywhere = node_names(package)
+        in_one_process = any(node.package == _CONTROL for node in use.nodes)
         for section in file.sections:
             name = section.name
-            if section.is_pattern:
+            # The controller manager makes more nodes, and names them after its controllers.
+            if section.is_pattern or (in_one_process and name != _CONTROL):
                 continue
             if name in names:
                 yield from self._in_other_namespace(section, use.nodes)

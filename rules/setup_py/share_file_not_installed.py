@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, launch_files
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.setup_files import installed_data
 
 _MANIFEST = (
@@ -24,6 +24,7 @@ class ShareFileNotInstalled(Rule):
 
     **Why.** ``ros2 launch`` answers ``file 'talk.launch.py' was not found in the share
     directory``; a missing parameter file is a warning among others, and nodes run with defaults.
+    A warning where nothing in the workspace names a file of the directory.
 
     **Fix.** Add a line such as ``('share/' + package_name + '/launch', glob('launch/*'))``.
 
@@ -81,7 +82,9 @@ class ShareFileNotInstalled(Rule):
             files = data_files(package, directory)
             if files and not installed.intersection(files):
                 message = f"data_files installs nothing of {directory}/, for instance {files[0]}"
-                yield self.report(at, message)
+                found = self.report(at, message)
+                wanted = is_named(package, directory)
+                yield found if wanted else found._replace(severity=Severity.WARNING)
 
 
 def _is_copy(path: str, stems: tuple[str, ...]) -> bool:

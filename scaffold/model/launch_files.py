@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 DIRECTORIES = ("launch/", "launches/")
+_USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
 DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds", "meshes")
 """Directories whose files are read at run time from ``share/<package>``."""
 
@@ -27,6 +28,29 @@ def data_files(package: Package, directory: str) -> list[str]:
         for path in package.files
         if path.startswith(f"{directory}/") and not path.endswith((".py", ".md", ".in", ".txt"))
     ]
+
+
+def is_named(package: Package, directory: str) -> bool:
+    """Tell whether code or a launch file of the workspace names a file of a data directory."""
+    names = _names(data_files(package, directory))
+    for other in package.workspace:
+        wanted = names
+        if other.name != package.name:  # which may mean its own of the same name
+            wanted = names.difference(*(_names(data_files(other, one)) for one in DATA_DIRECTORIES))
+        for path in other.files if wanted else ():
+            if not path.endswith(_USERS):
+                continue
+            try:
+                text = other.source(path).text
+            except ViewError:
+                continue
+            if any(name in text for name in wanted):
+                return True
+    return False
+
+
+def _names(paths: list[str]) -> set[str]:
+    return {path.rpartition("/")[2] for path in paths}
 
 
 def _is_launch_file(package: Package, path: str) -> bool:

@@ -31,12 +31,24 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
     """Yield the paths below share directories that launch files of a package name."""
     for launch in LaunchFile.of_package(package):
         for found in launch.share_paths:
-            if not launch.is_optional(found.node) and not _is_written(launch, found.node):
+            if launch.is_optional(found.node) or _is_given_to_unknown(launch, found.node):
+                continue
+            if not _is_written(launch, found.node):
                 yield NamedPath(found.package, found.path, found.location)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
                 yield NamedPath(path.package, path.path, path.location)
+
+
+def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a function that Python looks up gets a path: it may ask whether it is there."""
+    call = launch.module.parent(node)
+    if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
+        return False
+    found = launch.module.index.lookup(call.func.id, call.func)
+    made = [one.value.func for one in found[1] if isinstance(one.value, ast.Call)] if found else []
+    return any(isinstance(one, ast.Name) and one.id == "getattr" for one in made)
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:

@@ -95,7 +95,7 @@ class SelfEvaluator(Evaluator):
         for store in stores:
             if store.class_ is not None and store.class_ not in family:
                 continue
-            if store.class_ is None or store.value is None:
+            if store.class_ is None or store.value is None or self._is_only_default(store.node):
                 return None
             values.append(store.value)
         for member in family:
@@ -106,6 +106,18 @@ class SelfEvaluator(Evaluator):
                     return None
                 values.append(binding.value)
         return values
+
+    def _is_only_default(self, target: ast.Attribute) -> bool:
+        """Tell whether others may set an attribute: ``if not hasattr(self, 'rate'):``."""
+        for parent in self.module.parents(target):
+            if isinstance(parent, ast.If):
+                for call in ast.walk(parent.test):
+                    match call:
+                        case ast.Call(
+                            func=ast.Name("hasattr"), args=[_, ast.Constant(value=name)]
+                        ) if name == target.attr:
+                            return True
+        return False
 
     def named_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class of the file that an expression names."""
