@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import FIELDS, parameter_read
+from scaffold.model.parameter_objects import FIELDS, is_listed_parameter, name_asked, parameter_read
+from scaffold.model.values import UNKNOWN
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -79,6 +80,10 @@ def _read(package: Package, facts: NodeFacts, field: ast.Attribute) -> tuple[str
     match facts.evaluator.single_value(field.value):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
             owner, name = parameter_read(facts, parameter)
+            if isinstance(parameter, ast.Name) and is_listed_parameter(facts, parameter):
+                class_ = facts.module.enclosing_class(field)
+                owner = facts.node_class(class_) if class_ is not None else None
+                name = name_asked(facts, field, parameter.id) or UNKNOWN
             if owner is not None and isinstance(name, str):
                 declared = declared_by(owner, package)
                 return name, declared.types.get(name) or _of_empty_list(declared, name)

@@ -1,4 +1,4 @@
-"""ND049: callbacks for parameters return a SetParametersResult."""
+"""ND049: callbacks for parameters return what rclpy needs."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import CALLBACKS
+from scaffold.model.parameter_results import wrong_list, wrong_result
 from scaffold.model.returns import is_generator, may_end, returned
 from scaffold.model.scopes import FunctionNode
 
-_RESULT = "rcl_interfaces.msg.SetParametersResult"
+_ON, _POST, _PRE = CALLBACKS
 _NODE = (
     "from rcl_interfaces.msg import SetParametersResult\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -21,13 +24,19 @@ _NODE = (
     "{}"
 )
 _RIGHT = "        return SetParametersResult(successful=True)\n"
+_VARIABLE = "        result = SetParametersResult()\n{}        return result\n"
+_MIXED = (
+    "        if not parameters:\n            return True\n"
+    "        if parameters[0].name:\n            return SetParametersResult()\n"
+)
 
 
 class ParameterResultMissing(Rule):
     """A callback for set parameters does not return a ``SetParametersResult`` that says yes or no.
 
-    **Why.** ``AttributeError: 'NoneType' object has no attribute 'successful'`` as soon as a
-    parameter is set or declared; a plain ``SetParametersResult()`` refuses every change.
+    **Why.** ``Callback returned an invalid type``: every change is refused, and a parameter that is
+    declared later ends the node; a plain ``SetParametersResult()`` refuses every change too. A
+    callback that is called before must return the list of parameters.
 
     **Fix.** ``return SetParametersResult(successful=True)``, on every path.
 
@@ -40,65 +49,73 @@ class ParameterResultMissing(Rule):
     examples = (
         Example("a result", {"talker.py": _NODE.format("parameters", _RIGHT)}),
         Example(
-            "nothing, a bool, a refusal",
+            "filled afterwards",
             {
                 "talker.py": _NODE.format(
                     "parameters",
-                    "        if not parameters:\n            return True\n"
-                    "        if parameters[0].name:\n"
-                    "            return SetParametersResult()\n",
+                    _VARIABLE.format("        result.successful = True\n"),
                 )
             },
+        ),
+        Example(
+            "nothing, a bool, a refusal",
+            {"talker.py": _NODE.format("parameters", _MIXED)},
             at=("talker.py:10", "talker.py:12", "talker.py:14"),
         ),
-        Example("no parameters", {"talker.py": _NODE.format("", _RIGHT)}, at=("talker.py:10",)),
+        Example(
+            "left as it is made",
+            {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
+            at=("talker.py:12",),
+        ),
+        Example(
+            "no parameters",
+            {"talker.py": _NODE.format("", _RIGHT)},
+            at=("talker.py:10",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
-            for attribute in facts.module.index.attributes("add_on_set_parameters_callback"):
-                call = facts.module.parent(attribute)
-                if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
-                    continue
-                callback = facts.callback(call.args[0])
-                function = callback.function
-                if callback.is_called or callback.is_partial or function is None:
-                    continue
-                if not isinstance(function, ast.Lambda) and not function.decorator_list:
-                    yield from self._check(facts, function, is_bound=callback.is_bound)
+            for method in CALLBACKS:
+                for attribute in facts.module.index.attributes(method):
+                    call = facts.module.parent(attribute)
+                    if isinstance(call, ast.Call) and call.func is attribute and call.args:
+                        yield from self._check(facts, facts.callback(call.args[0]), method)
 
-    def _check(
-        self, facts: NodeFacts, function: FunctionNode, *, is_bound: bool
+    def _check(self, facts: NodeFacts, callback: Callback, method: str) -> Iterator[Diagnostic]:
+        function = callback.function
+        if function is None or callback.is_partial or callback.is_called:
+            return
+        wrong = wrong_list if method == _PRE else wrong_result
+        if isinstance(function, ast.Lambda):
+            problem = wrong(facts, function.body) if method != _POST else ""
+            if problem:
+                yield self.report(facts.module.location(function.body), f"returns {problem}")
+        elif not function.decorator_list:
+            yield from self._check_function(facts, function, method, is_bound=callback.is_bound)
+
+    def _check_function(
+        self, facts: NodeFacts, function: FunctionNode, method: str, *, is_bound: bool
     ) -> Iterator[Diagnostic]:
         module, arguments = facts.module, function.args
+        wanted = "the list of parameters" if method == _PRE else "a SetParametersResult"
         count = len([*arguments.posonlyargs, *arguments.args]) - int(is_bound)
         if arguments.vararg is None and not count - len(arguments.defaults) <= 1 <= count:
             message = f"{function.name} takes {count} arguments; it is given the parameters"
             yield self.report(module.name_location(function), message)
-        if is_generator(function):
+        if method == _POST:
+            return
+        if is_generator(function) or isinstance(function, ast.AsyncFunctionDef):
+            word = "a generator" if is_generator(function) else "a coroutine"
+            message = f"{function.name} is {word}, and does not return {wanted}"
+            yield self.report(module.name_location(function), message)
             return
         if may_end(function):
             path = " on every path" if returned(function) else ""
-            message = f"{function.name} does not return a SetParametersResult{path}: AttributeError"
+            message = f"{function.name} does not return {wanted}{path}"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
-            wrong = _wrong(facts, statement.value)
-            if wrong:
-                yield self.report(module.location(statement), f"returns {wrong}")
-
-
-def _wrong(facts: NodeFacts, value: ast.expr | None) -> str:
-    """Return what is wrong about a returned value, else nothing."""
-    if value is None:
-        return "nothing, not a SetParametersResult: AttributeError"
-    if isinstance(value, ast.Constant):
-        return f"{value.value!r}, not a SetParametersResult: AttributeError"
-    if isinstance(value, ast.List | ast.Tuple | ast.Dict):
-        return f"a {type(value).__name__.lower()}, not one SetParametersResult: AttributeError"
-    if facts.module.qualified_name(value) == _RESULT:
-        return "the class SetParametersResult: make one with successful=True"
-    if isinstance(value, ast.Call) and facts.module.qualified_name(value.func) == _RESULT:
-        names = [word.arg for word in value.keywords]
-        if "successful" not in names and None not in names and not value.args:
-            return "a SetParametersResult without successful=True: every change is refused"
-    return ""
+            check = wrong_list if method == _PRE else wrong_result
+            problem = check(facts, statement.value)
+            if problem:
+                yield self.report(module.location(statement), f"returns {problem}")

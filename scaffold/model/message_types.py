@@ -153,6 +153,11 @@ class MessageTypes:
             return self._class_of_type(found)
         return found
 
+    def field_type_of(self, node: ast.expr) -> FieldType | None:
+        """Return the type of the field that an expression surely reads."""
+        found = self._type(node)
+        return found if isinstance(found, FieldType) else None
+
     def _type(self, node: ast.expr) -> FieldType | MessageClass | None:
         """Return the message an expression is, or the type of the field it reads."""
         if node not in self._known:

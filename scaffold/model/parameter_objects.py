@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold.model.node_entities import parameter_type
 from scaffold.model.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.node_entities import Entity
@@ -13,6 +16,7 @@ if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
     from scaffold.model.scopes import FunctionNode
 
+_PARAMETER = "rclpy.parameter.Parameter"
 FIELDS = frozenset(
     {"bool_value", "integer_value", "double_value", "string_value", "byte_array_value"}
     | {"bool_array_value", "integer_array_value", "double_array_value", "string_array_value"}
@@ -118,3 +122,72 @@ def callback_arguments(facts: NodeFacts) -> dict[ast.arg, FunctionNode | ast.Lam
             if names:
                 found[names[0]] = callback.function
     return found
+
+
+def name_asked(facts: NodeFacts, node: ast.AST, variable: str) -> str | None:
+    """Return the name that a parameter has where a node runs: ``if parameter.name == 'rate':``."""
+    child = node
+    for parent in facts.module.parents(node):
+        tests: list[ast.expr] = []
+        if isinstance(parent, ast.BoolOp) and isinstance(parent.op, ast.And):
+            tests = [one for one in parent.values if one is not child]
+        elif isinstance(parent, ast.If) and facts.module.index.place(child)[0] == "body":
+            tests = [parent.test]
+            if isinstance(parent.test, ast.BoolOp) and isinstance(parent.test.op, ast.And):
+                tests = parent.test.values
+        for test in tests:
+            match test:
+                case ast.Compare(
+                    left=ast.Attribute(attr="name", value=ast.Name(id=name)),
+                    ops=[ast.Eq()],
+                    comparators=[ast.Constant(value=str() as text)],
+                ) if name == variable:
+                    return text
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.For):
+            return None
+        child = parent
+    return None
+
+
+class ParameterMade(NamedTuple):
+    """A ``Parameter(...)`` that is given to a node to be set."""
+
+    node: ast.expr
+    name: str
+    type: str | None
+    """``double``, ``not_set`` ...; ``None`` when it is not known."""
+    value: object
+
+
+def parameters_set(facts: NodeFacts) -> Iterator[tuple[NodeOwner, ParameterMade]]:
+    """Yield the parameters that a file sets on nodes that are known, one by one."""
+    for method in ("set_parameters", "set_parameters_atomically"):
+        for attribute in facts.module.index.attributes(method):
+            call = facts.module.parent(attribute)
+            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
+                continue
+            owner = facts.owner_of(attribute.value)
+            for item in facts.evaluator.elements(call.args[0]).items if owner else ():
+                made = parameter_made(facts, item.node)
+                if made is not None and owner is not None:
+                    yield owner, made
+
+
+def parameter_made(facts: NodeFacts, node: ast.expr) -> ParameterMade | None:
+    """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
+    call = facts.evaluator.single_value(node)
+    if not isinstance(call, ast.Call):
+        return None
+    if facts.module.qualified_name(call.func) not in {"rclpy.Parameter", _PARAMETER}:
+        return None
+    given = dict(zip(("name", "type_", "value"), call.args, strict=False))
+    given.update({word.arg: word.value for word in call.keywords if word.arg is not None})
+    name = facts.evaluator.text(given.get("name"))
+    if not isinstance(name, str) or any(word.arg is None for word in call.keywords):
+        return None
+    value = facts.evaluator.evaluate(given["value"]) if "value" in given else None
+    kind = "not_set" if value is None else parameter_type(value)
+    if "type_" in given:
+        full = facts.module.qualified_name(given["type_"]) or ""
+        kind = full.rpartition(".Type.")[2].lower() if ".Type." in full else None
+    return ParameterMade(node, name, kind, value)

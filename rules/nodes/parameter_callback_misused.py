@@ -1,0 +1,113 @@
+"""ND084: callbacks for parameters are functions that take a list."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_entities import Callback
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import CALLBACKS, callback_arguments
+from scaffold.model.parameter_results import RESULT
+from scaffold.model.returns import returned
+
+_OF_ONE = frozenset({"name", "value", "type_", "get_parameter_value"})
+_OF_MAPPINGS = frozenset({"get", "items", "keys", "values"})
+_NODE = (
+    "from rcl_interfaces.msg import SetParametersResult\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 1.0)\n"
+    "        self.add_on_set_parameters_callback({})\n\n"
+    "    def on_set(self, parameters):\n"
+    "        self.rate = parameters{}.value\n"
+    "        return SetParametersResult(successful=True)\n"
+)
+
+
+class ParameterCallbackMisused(Rule):
+    """A callback for parameters is called where it is passed, or takes its list for a parameter.
+
+    **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
+    'list' object has no attribute 'value'`` as soon as a parameter is set.
+
+    **Fix.** Pass the function, and go through the list: ``for parameter in parameters:``.
+
+    **Source.** ``rclpy/node.py``, ``add_on_set_parameters_callback``; ROS 2 documentation,
+    "Monitoring for parameter changes".
+    """
+
+    code = "ND084"
+    name = "parameter-callback-misused"
+    examples = (
+        Example("an item of the list", {"talker.py": _NODE.format("self.on_set", "[0]")}),
+        Example(
+            "called",
+            {"talker.py": _NODE.format("self.on_set([])", "[0]")},
+            at=("talker.py:9",),
+        ),
+        Example(
+            "a text",
+            {"talker.py": _NODE.format("'on_set'", "[0]")},
+            at=("talker.py:9",),
+        ),
+        Example(
+            "the list itself; a dictionary",
+            {
+                "one.py": _NODE.format("self.on_set", ""),
+                "two.py": _NODE.format("self.on_set", "['rate']"),
+            },
+            at=("one.py:12", "two.py:12"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for method in CALLBACKS:
+                for attribute in facts.module.index.attributes(method):
+                    call = facts.module.parent(attribute)
+                    if isinstance(call, ast.Call) and call.func is attribute and call.args:
+                        problem = _problem(facts, call.args[0])
+                        if problem:
+                            yield self.report(facts.module.location(call.args[0]), problem)
+            for argument in callback_arguments(facts):
+                for name in facts.module.index.names(argument.arg):
+                    problem = _list_problem(facts, name)
+                    if problem and facts.parameter_of(name) is argument:
+                        yield self.report(facts.module.location(name), problem)
+
+
+def _problem(facts: NodeFacts, given: ast.expr) -> str:
+    """Return what is wrong about an expression in place of a callback."""
+    callback = facts.callback(given)
+    if isinstance(given, ast.Call) and not callback.is_partial:
+        inner = facts.callback(given.func)
+        if callback.is_called or _gives_results(facts, inner):
+            return f"{facts.module.text(given)} is called here: pass it without (): TypeError"
+    if isinstance(facts.evaluator.evaluate(given), str):
+        return "a callback is a function, and this is a text: TypeError"
+    return ""
+
+
+def _gives_results(facts: NodeFacts, callback: Callback) -> bool:
+    """Tell whether a function gives what a callback gives, and no callback."""
+    function = callback.function
+    if not isinstance(function, ast.FunctionDef):
+        return False
+    made = [facts.evaluator.single_value(one.value) for one in returned(function) if one.value]
+    return bool(made) and all(
+        isinstance(one, ast.Call) and facts.module.qualified_name(one.func) == RESULT
+        for one in made
+    )
+
+
+def _list_problem(facts: NodeFacts, name: ast.Name) -> str:
+    """Return what is wrong about a use of the list of parameters."""
+    match facts.module.parent(name):
+        case ast.Attribute(attr=attr) if attr in _OF_ONE:
+            return f"{name.id} is a list of parameters, and has no {attr}: AttributeError"
+        case ast.Attribute(attr=attr) if attr in _OF_MAPPINGS:
+            return f"{name.id} is a list of parameters, no dictionary: AttributeError"
+        case ast.Subscript(value=value, slice=ast.Constant(value=str() as text)) if value is name:
+            return f"{name.id} is a list of parameters, no dictionary: {text!r} is no place in it"
+    return ""

@@ -1,0 +1,123 @@
+"""ND085: callbacks for parameters ask for names and types that there are."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import declared_alone, declared_by, has_always
+from scaffold.model.near import nearest
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import is_listed_parameter, name_asked
+
+_TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
+_NODE = (
+    "from rcl_interfaces.msg import SetParametersResult\n"
+    "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 1.0)\n"
+    "        self.add_on_set_parameters_callback(self.on_set)\n\n"
+    "    def on_set(self, parameters):\n"
+    "        for one in parameters:\n"
+    "            if one.name == '{}' and one.type_ == Parameter.Type.{}:\n"
+    "                self.rate = one.value\n"
+    "        return SetParametersResult(successful=True)\n"
+)
+
+
+class ParameterNeverMatched(Rule):
+    """A callback for parameters asks for a name or a type that the node does not declare.
+
+    **Why.** No error: the condition is never true, so that setting the parameter changes nothing.
+
+    **Fix.** Write the name and the type that are declared.
+
+    **Source.** ``rclpy/node.py``, ``_set_parameters_atomically_common``: a callback is told of
+    declared parameters alone, of the types that they have.
+    """
+
+    code = "ND085"
+    name = "parameter-never-matched"
+    examples = (
+        Example("declared", {"talker.py": _NODE.format("rate", "DOUBLE")}),
+        Example(
+            "another name", {"talker.py": _NODE.format("rates", "DOUBLE")}, at=("talker.py:14",)
+        ),
+        Example(
+            "another type", {"talker.py": _NODE.format("rate", "INTEGER")}, at=("talker.py:14",)
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        alone = {node: {str(one.name) for one in found} for node, found in declared_alone(package)}
+        for facts in package.rclpy_files():
+            for attribute in facts.module.index.attributes("name"):
+                node = _owner(facts, attribute)
+                if node is not None and node in alone:
+                    yield from self._named(package, facts, attribute, alone[node])
+            for attribute in facts.module.index.attributes("type_"):
+                node = _owner(facts, attribute)
+                if node is not None:
+                    yield from self._typed(package, facts, attribute, node)
+
+    def _named(
+        self, package: Package, facts: NodeFacts, attribute: ast.Attribute, known: set[str]
+    ) -> Iterator[Diagnostic]:
+        compared = facts.module.parent(attribute)
+        if not isinstance(compared, ast.Compare) or compared.left is not attribute:
+            return
+        if len(compared.ops) != 1 or not is_listed_parameter(facts, attribute.value):
+            return
+        other = compared.comparators[0]
+        items = other.elts if isinstance(other, ast.List | ast.Tuple | ast.Set) else [other]
+        for item in items if isinstance(compared.ops[0], ast.Eq | ast.In) else ():
+            name = item.value if isinstance(item, ast.Constant) else None
+            if isinstance(name, str) and name not in known and not has_always(name):
+                near = nearest(package, name, known, 0.7)
+                hint = f"; {near!r} is meant" if near else ""
+                message = f"the node declares no parameter {name!r}{hint}: this is never true"
+                yield self.report(facts.module.location(item), message)
+
+    def _typed(
+        self, package: Package, facts: NodeFacts, attribute: ast.Attribute, node: NodeClass
+    ) -> Iterator[Diagnostic]:
+        match facts.module.parent(attribute), attribute.value:
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[other]), (
+                ast.Name(id=variable)
+            ):
+                full = facts.module.qualified_name(other) or ""
+                if left is not attribute or not full.startswith(_TYPES):
+                    return
+                if not is_listed_parameter(facts, attribute.value):
+                    return
+                name = name_asked(facts, attribute, variable) or ""
+                declared = declared_by(node, package).types.get(name)
+                asked = full.rpartition(".")[2]
+                if declared in _types_asked(facts, attribute, name):
+                    return  # the code is ready for several types
+                if declared and declared != asked.lower():
+                    message = f"{name} is declared as {declared}, so it is never {asked}"
+                    yield self.report(facts.module.location(other), message)
+
+
+def _types_asked(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set[str]:
+    """Return the types that a function compares the type of one parameter with."""
+    function = facts.module.enclosing_function(attribute)
+    found: set[str] = set()
+    for other in facts.module.index.attributes("type_"):
+        if not isinstance(other.value, ast.Name):
+            continue
+        compared = facts.module.parent(other)
+        is_same = facts.module.enclosing_function(other) is function
+        is_same = is_same and name_asked(facts, other, other.value.id) == name
+        if is_same and isinstance(compared, ast.Compare):
+            full = facts.module.qualified_name(compared.comparators[0]) or ""
+            found.add(full.rpartition(".")[2].lower())
+    return found
+
+
+def _owner(facts: NodeFacts, node: ast.AST) -> NodeClass | None:
+    class_ = facts.module.enclosing_class(node)
+    return facts.node_class(class_) if class_ is not None else None

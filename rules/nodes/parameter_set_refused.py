@@ -1,0 +1,90 @@
+"""ND086: nodes set their own parameters to what these can hold."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import Declared, declared_by
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import ParameterMade, parameters_set
+
+_NODE = (
+    "from rcl_interfaces.msg import ParameterDescriptor\n"
+    "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 1.0{})\n\n"
+    "    def on_timer(self):\n"
+    "        self.set_parameters([Parameter('rate', {})])\n"
+)
+_FIXED = ", ParameterDescriptor(read_only=True)"
+
+
+class ParameterSetRefused(Rule):
+    """A node sets one of its parameters to something that the parameter does not hold.
+
+    **Why.** No error: ``set_parameters`` returns ``successful=False`` and the reason, ``Wrong
+    parameter type``, ``Trying to set a read-only parameter`` or ``out of range``, and the parameter
+    stays as it is. To undeclare a read-only parameter is a ``ParameterImmutableException``.
+
+    **Fix.** Give a value of the declared type and range; leave read_only out of the descriptor.
+
+    **Source.** ``rclpy/node.py``, ``_apply_descriptor``.
+    """
+
+    code = "ND086"
+    name = "parameter-set-refused"
+    examples = (
+        Example("held", {"talker.py": _NODE.format("", "Parameter.Type.DOUBLE, 2.0")}),
+        Example("another type", {"talker.py": _NODE.format("", "value=2")}, at=("talker.py:12",)),
+        Example(
+            "read-only",
+            {"talker.py": _NODE.format(_FIXED, "value=2.0")},
+            at=("talker.py:12",),
+        ),
+        Example("nothing", {"talker.py": _NODE.format("", "")}, at=("talker.py:12",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for owner, made in parameters_set(facts):
+                problem = _problem(declared_by(owner, package), made)
+                if problem:
+                    yield self.report(facts.module.location(made.node), problem)
+            for attribute in facts.module.index.attributes("undeclare_parameter"):
+                problem = _undeclared(package, facts, attribute)
+                if problem:
+                    yield self.report(facts.module.location(attribute), problem)
+
+
+def _problem(declared: Declared, made: ParameterMade) -> str:
+    place = declared.places.get(made.name)
+    kind = declared.types.get(made.name)
+    if place is None or kind is None:
+        return ""
+    at = f"{made.name} ({place.location.path}:{place.location.line})"
+    descriptor = place.descriptor
+    if descriptor is not None and descriptor.is_read_only:
+        return f"{at} is read-only, so it stays as it is"
+    if made.type is not None and made.type != kind:
+        given = "nothing" if made.type == "not_set" else made.type
+        return f"{at} is declared as {kind}, and this is {given}: it stays as it is"
+    value = made.value
+    if descriptor is not None and isinstance(value, int | float) and made.type == kind:
+        for limits in descriptor.ranges:
+            if limits.type == kind and not limits.allows(value):
+                return f"{at} is in the range {limits.text}, and {value} is not: it stays as it is"
+    return ""
+
+
+def _undeclared(package: Package, facts: NodeFacts, attribute: ast.Attribute) -> str:
+    """Return what is wrong about undeclaring a parameter."""
+    call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
+    if owner is None or not isinstance(call, ast.Call) or call.func is not attribute:
+        return ""
+    name = facts.evaluator.text(call.args[0]) if call.args else None
+    place = declared_by(owner, package).places.get(name) if isinstance(name, str) else None
+    if place is None or place.descriptor is None or not place.descriptor.is_read_only:
+        return ""
+    return f"{name} is read-only: ParameterImmutableException"

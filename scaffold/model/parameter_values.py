@@ -1,0 +1,123 @@
+"""Where the object of a parameter stands in place of its value."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy_names import PARAMETER, class_of
+
+if TYPE_CHECKING:
+    from scaffold.model.node_entities import Entity
+    from scaffold.model.nodes import NodeFacts
+    from scaffold.model.scopes import FunctionNode
+
+_BUILTINS = frozenset(
+    {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
+    | {"range", "round", "set", "sorted", "str", "sum", "tuple"}
+)
+_FUNCTIONS = ("math.", "os.path.", "time.sleep")
+_POSITIONS = {
+    "create_client": (1,),
+    "create_publisher": (1, 2),
+    "create_rate": (0,),
+    "create_service": (1,),
+    "create_subscription": (1, 3),
+    "create_timer": (0,),
+}
+"""Which arguments of a node's methods are names and numbers."""
+
+
+def objects_used(facts: NodeFacts) -> Iterator[tuple[Entity, ast.AST]]:
+    """Yield the calls that give a Parameter whose value is meant, and the first such place."""
+    for one in _objects(facts):
+        use = _use(facts, one.call, one.variable, one.attribute)
+        if use is not None:
+            yield one, use
+
+
+def _use(
+    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+) -> ast.AST | None:
+    """Return a place where the object is calculated with."""
+    if _is_used(facts, call):
+        return call
+    if variable is None and attribute is None:
+        return None
+    function = facts.module.enclosing_function(call)
+    scope: ast.AST = function or facts.module.tree
+    if attribute is not None:
+        scope = facts.module.enclosing_class(call) or scope
+    uses = [node for node in ast.walk(scope) if _is_load(node, variable, attribute)]
+    if any(_asks(facts, use) for use in uses) or _is_rebound(scope, variable, attribute):
+        return None
+    return next((use for use in uses if _is_used(facts, use)), None)
+
+
+def _objects(facts: NodeFacts) -> Iterator[Entity]:
+    """Yield the calls that give a Parameter."""
+    for read in facts.parameter_reads:
+        if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
+            yield read
+    for one in facts.parameters:
+        if one.owner is not None and "name" in one.arguments:
+            yield one
+
+
+def _is_used(facts: NodeFacts, node: ast.AST) -> bool:
+    """Tell whether a node stands where only the value makes sense."""
+    parent = facts.module.parent(node)
+    used = False
+    match parent:
+        case ast.BinOp(op=op, right=right):
+            used = not (isinstance(op, ast.Mod) and right is node)
+        case ast.Compare(left=left, ops=ops, comparators=others):
+            is_first = left is node and not isinstance(ops[0], ast.Is | ast.IsNot)
+            other = others[0] if left is node else left
+            is_same = class_of(facts, other) == PARAMETER
+            used = (is_first or node in others[:1]) and not is_same and not _is_none(other)
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
+            used = test is node
+        case ast.Subscript(value=value):
+            used = value is node
+        case ast.For(iter=iterated) | ast.comprehension(iter=iterated):
+            used = iterated is node
+        case ast.UnaryOp() | ast.BoolOp() | ast.FormattedValue():
+            used = True
+        case ast.Call(func=func) if node in parent.args:
+            name = facts.module.qualified_name(func) or ""
+            positions = _POSITIONS.get(func.attr, ()) if isinstance(func, ast.Attribute) else ()
+            is_builtin = isinstance(func, ast.Name) and func.id in _BUILTINS
+            used = is_builtin or name.startswith(_FUNCTIONS)
+            used = used or parent.args.index(node) in positions
+    return used
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _is_load(node: ast.AST, variable: str | None, attribute: str | None) -> bool:
+    match node:
+        case ast.Name(ctx=ast.Load()):
+            return node.id == variable
+        case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Load()):
+            return node.attr == attribute
+        case _:
+            return False
+
+
+def _asks(facts: NodeFacts, use: ast.AST) -> bool:
+    return isinstance(facts.module.parent(use), ast.Attribute)
+
+
+def _is_rebound(scope: ast.AST | FunctionNode, variable: str | None, attribute: str | None) -> bool:
+    stores = 0
+    for node in ast.walk(scope):
+        match node:
+            case ast.Name(ctx=ast.Store()):
+                stores += node.id == variable
+            case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Store()):
+                stores += node.attr == attribute
+    return stores > 1
