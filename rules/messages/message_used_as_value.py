@@ -1,0 +1,114 @@
+"""MS023: a message is no list and no dict, and a number or a text has no fields."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_for_ros1, is_harmless
+from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.model.message_types import MessageTypes
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import Float32MultiArray, String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.create_subscription(String, 'chatter', self.on_chatter, 10)\n"
+    "        self.create_subscription(Float32MultiArray, 'row', self.on_row, 10)\n\n"
+    "    def on_chatter(self, msg):\n"
+    "        self.get_logger().info({})\n\n"
+    "    def on_row(self, msg):\n"
+    "        return {}\n"
+)
+
+
+class MessageUsedAsValue(Rule):
+    """A message is indexed, called or counted, or a field of a plain type is asked for fields.
+
+    **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
+    has no attribute 'data'``: in a callback the first message ends the node.
+
+    **Fix.** Read the field: ``msg.data``, ``msg.data[0]``, ``len(msg.data)``.
+
+    **Source.** ``rosidl_generator_py``: messages are objects with one property for each field;
+    fields of plain types are ``bool``, ``int``, ``float`` and ``str``.
+    """
+
+    code = "MS023"
+    name = "message-used-as-value"
+    examples = (
+        Example(
+            "fields",
+            {"listener.py": _NODE.format("msg.data.upper()", "len(msg.data), msg.data[0]")},
+        ),
+        Example(
+            "as a dict, as a list",
+            {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
+            at=("listener.py:12", "listener.py:15", "listener.py:15", "listener.py:15"),
+        ),
+        Example(
+            "a field of a text, a field called, a message gone through",
+            {
+                "listener.py": _NODE.format(
+                    "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
+                )
+            },
+            at=("listener.py:12", "listener.py:15", "listener.py:15"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for types in MessageTypes.of_package(package):
+            for node, problem in _problems(types):
+                if is_for_ros1(types.module, node) or types.is_tolerated(node):
+                    continue
+                if not is_harmless(types.module, node, "TypeError"):
+                    yield self.report(types.module.location(node), problem)
+
+
+def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    module = types.module
+    for node, value, problem in _uses_as_list(types):
+        owner = types.type_of(value)
+        if owner is not None:
+            yield node, f"a {owner.name} {problem}: TypeError; a field of it is meant"
+    for call in module.walk(ast.Call):
+        if isinstance(call.func, ast.Attribute) and (
+            types.type_of(call.func) or _kind(types.field_type_of(call.func))
+        ):
+            yield call, f"{module.text(call.func)} is a field, no method: leave () out"
+    for node in module.walk(ast.Attribute):
+        kind = _kind(types.field_type_of(node.value))
+        if kind and not hasattr(_KINDS[kind], node.attr):
+            said = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
+            yield node, f"{said}: AttributeError"
+
+
+def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
+    """Yield what only lists and the like can be used for: the whole, the list, what is done."""
+    for index in types.module.walk(ast.Subscript):
+        yield index, index.value, "cannot be indexed"
+    for call in types.module.walk(ast.Call):
+        match call:
+            case ast.Call(func=ast.Name(id="len"), args=[counted]):
+                yield call, counted, "has no length"
+    for loop in types.module.walk(ast.For):
+        yield loop.iter, loop.iter, "is no list"
+    for part in types.module.walk(ast.comprehension):
+        yield part.iter, part.iter, "is no list"
+
+
+_KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
+
+
+def _kind(type_: FieldType | None) -> str:
+    """Return the Python type that a field of a plain type holds; empty for others."""
+    if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
+        return ""
+    if type_.name in FLOATS:
+        return "float"
+    if type_.name in TEXTS:
+        return "str"
+    return "int" if type_.name in INTEGER_RANGES else "bool"
