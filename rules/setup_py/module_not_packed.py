@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fnmatch import fnmatchcase
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.setup_py import FindPackages, SetupPy
@@ -93,9 +92,7 @@ class ModuleNotPacked(Rule):
         self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
     ) -> Iterator[Diagnostic]:
         keyword = setup.keyword("packages")
-        if keyword is None or packages.namespace:
-            return
-        if isinstance(packages.where, Unknown):
+        if keyword is None or packages.namespace or isinstance(packages.where, Unknown):
             return
         where = packages.where.strip("./")
         if where and not package.has_directory(where):
@@ -103,10 +100,10 @@ class ModuleNotPacked(Rule):
             yield self.report(keyword, message)
             return
         for root in sorted(roots) if not where else ():
-            if isinstance(packages.include, Unknown) or isinstance(packages.exclude, Unknown):
+            is_left_out = packages.leaves_out(root)
+            if isinstance(is_left_out, Unknown):
                 return
-            is_taken = any(fnmatchcase(root, one) for one in packages.include)
-            if any(fnmatchcase(root, one) for one in packages.exclude) or not is_taken:
+            if is_left_out:
                 message = f"find_packages leaves out {root!r}, which the entry points start"
                 yield self.report(keyword, message)
             elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):

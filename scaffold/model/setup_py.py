@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from fnmatch import fnmatchcase
 from functools import cached_property
 
 from scaffold.model.constants import Element, Evaluator
@@ -81,6 +82,13 @@ class FindPackages(NamedTuple):
     namespace: bool
     """Directories without ``__init__.py`` count too."""
     location: Location
+
+    def leaves_out(self, name: str) -> bool | Unknown:
+        """Tell whether the patterns pass over a package, if there is one of this name."""
+        if isinstance(self.include, Unknown) or isinstance(self.exclude, Unknown):
+            return UNKNOWN
+        is_taken = any(fnmatchcase(name, pattern) for pattern in self.include)
+        return not is_taken or any(fnmatchcase(name, pattern) for pattern in self.exclude)
 
 
 class SetupPy:
