@@ -60,6 +60,37 @@ class FieldValueUnfit(Rule):
             at=("talker.py:13", "talker.py:15", "talker.py:17", "talker.py:19", "talker.py:19"),
         ),
         Example(
+            "fields of others, times, texts in bytes",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Float64, Header, Int32, String\n\n\n"
+                "class Talker(Node):\n"
+                "    def talk(self):\n"
+                "        count = Int32()\n"
+                "        one = Float64(data=count.data)\n"
+                "        two = Float64(data=float(count.data))\n"
+                "        text = String(data='a'.upper().encode())\n"
+                "        header = Header()\n"
+                "        header.stamp.sec = self.get_clock().now().nanoseconds\n"
+                "        header.stamp = self.get_clock().now().nanoseconds\n"
+                "        return one, two, text\n",
+            },
+            at=("talker.py:8", "talker.py:10", "talker.py:12", "talker.py:13"),
+        ),
+        Example(
+            "a table for a row",
+            {
+                "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"
+                "imu = Imu()\n"
+                "imu.orientation_covariance = np.eye(3).flatten()\n"
+                "imu.orientation_covariance = np.eye(3)\n"
+                "imu.orientation_covariance = np.array([[0.1, 0.0, 0.0]] * 3)\n"
+                "imu.orientation_covariance = np.zeros((3, 3))\n"
+                "imu.orientation_covariance = np.zeros(9)\n"
+            },
+            at=("talker.py:6", "talker.py:7", "talker.py:8"),
+        ),
+        Example(
             "an int for a float, another message, a single number for an array, out of range",
             {
                 "talker.py": "from geometry_msgs.msg import Pose, Twist, Vector3\n"

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.message_types import Assigned, MessageTypes
+from scaffold.model.rclpy_names import class_of
 from scaffold.model.values import UNKNOWN
 
 RCLPY_TIMES: Mapping[str | None, str] = {
@@ -25,6 +26,7 @@ _RETURNS: Mapping[str, str] = {
     "ord": "int",
     "repr": "str",
     "str": "str",
+    "math.atan2": "float",
     "math.cos": "float",
     "math.radians": "float",
     "math.degrees": "float",
@@ -33,7 +35,14 @@ _RETURNS: Mapping[str, str] = {
     "math.floor": "int",
     "math.ceil": "int",
     "time.time": "float",
+    "math.hypot": "float",
+    "math.tan": "float",
+    "random.gauss": "float",
+    "random.randint": "int",
+    "random.random": "float",
+    "random.uniform": "float",
     "time.monotonic": "float",
+    "time.perf_counter": "float",
     "time.time_ns": "int",
 }
 _NAMES = {
@@ -46,10 +55,20 @@ _NAMES = {
     "none": "None",
     "str": "a str",
 }
+_OF_TEXT = {
+    **dict.fromkeys(("lower", "upper", "strip", "rstrip", "lstrip", "title", "replace"), "str"),
+    **dict.fromkeys(("format", "join", "capitalize", "removeprefix", "removesuffix"), "str"),
+    "encode": "bytes",
+    "split": "list",
+    "splitlines": "list",
+}
+"""What methods of a text return."""
 _NUMBERS = frozenset({"int", "float"})
 _DEPTH = 8
 _SMALL = frozenset({"int8", "uint8", "byte", "char", "int16", "uint16"})
 _SHOWN = 30
+_NOW = 1.7e18
+"""Nanoseconds since 1970, these years."""
 
 
 def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
@@ -105,8 +124,13 @@ class Kinds:
         kind = _literal_kind(node)
         if kind is None:
             match node:
-                case ast.Call(func=func):
-                    kind = _RETURNS.get(self._module.qualified_name(func) or "")
+                case ast.Call():
+                    kind = self._of_call(node)
+                case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
+                    inner = self.of(operand)
+                    kind = inner if inner in _NUMBERS else None
+                case ast.IfExp():
+                    kind = self._agreed([node.body, node.orelse])
                 case ast.BinOp():
                     kind = self._of_operation(node)
                 case ast.Attribute():
@@ -114,6 +138,18 @@ class Kinds:
                 case ast.Name():
                     kind = self._of_name(node)
         return kind
+
+    def _of_call(self, node: ast.Call) -> str | None:
+        name = self._module.qualified_name(node.func) or ""
+        if name in {"abs", "min", "max"} and len(node.args) > (name != "abs") and not node.keywords:
+            kind = self._agreed(node.args)
+            return kind if kind in _NUMBERS else None
+        if name == "round" and len(node.args) == 1:
+            return "int" if self.of(node.args[0]) in _NUMBERS else None
+        match node.func:
+            case ast.Attribute(attr=method, value=text) if method in _OF_TEXT:
+                return _OF_TEXT[method] if self.of(text) == "str" else None
+        return _RETURNS.get(name)
 
     def _of_operation(self, node: ast.BinOp) -> str | None:
         left, right = self.of(node.left), self.of(node.right)
@@ -135,7 +171,13 @@ class Kinds:
         return self._agreed([b.value for b in bindings if b.value is not None])
 
     def _of_attribute(self, node: ast.Attribute) -> str | None:
-        """Return the kind of an attribute of ``self`` that is assigned and counted up."""
+        """Return the kind of a field, or of an attribute of ``self`` that is counted up."""
+        type_ = self._types.field_type_of(node)
+        if type_ is not None:
+            return _kind_of_field(type_)
+        if node.attr == "nanoseconds":
+            is_time = class_of(self._types.facts, node.value) in RCLPY_TIMES
+            return "int" if is_time else None
         class_ = self._evaluator.self_class(node.value)
         if class_ is None:
             return None
@@ -156,6 +198,17 @@ class Kinds:
     def _agreed(self, values: Sequence[ast.expr]) -> str | None:
         kinds = {self.of(value) for value in values}
         return kinds.pop() if len(kinds) == 1 else None
+
+
+def _kind_of_field(type_: FieldType) -> str | None:
+    """Return the kind of what is read from a field; ``None`` for what has several."""
+    if type_.is_array or not type_.is_primitive or type_.name == "byte":
+        return None
+    if type_.name in FLOATS:
+        return "float"
+    if type_.name in TEXTS:
+        return "str"
+    return "int" if type_.name in INTEGER_RANGES else "bool"
 
 
 def _literal_kind(node: ast.expr) -> str | None:
@@ -208,8 +261,25 @@ class Misfits:
         if kind == "str" and type_.name not in {"byte", "char", "uint8"}:
             return f"{self._shown(node)} is a str, not a list"
         if kind != "list":
-            return None
+            return self._table(node)
         return self._length(type_, node) or self._elements(type_.element, node)
+
+    def _table(self, node: ast.expr) -> str | None:
+        """Say that an array of numpy has two dimensions: rosidl reads beyond the first row."""
+        value = self._types.facts.evaluator.single_value(node)
+        if not isinstance(value, ast.Call) or not value.args:
+            return None
+        name = self._types.module.qualified_name(value.func) or ""
+        first = self._types.facts.evaluator.evaluate(value.args[0])
+        is_table = False
+        if name in {"numpy.eye", "numpy.identity"}:
+            is_table = True
+        elif name in {"numpy.zeros", "numpy.ones", "numpy.empty", "numpy.full"}:
+            is_table = isinstance(first, tuple | list) and len(first) > 1
+        elif name == "numpy.array" and isinstance(first, tuple | list):
+            is_table = any(isinstance(one, tuple | list) for one in first)
+        shown = f"{self._shown(node)} has rows and columns"
+        return f"{shown}, which are not read as one row; append .flatten()" if is_table else None
 
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
         value = self._types.facts.evaluator.evaluate(node)
@@ -265,12 +335,21 @@ class Misfits:
         held = f"{type_.name} holds {lowest} to {highest}"
         if isinstance(value, int):
             return None if lowest <= value <= highest else f"{value} is out of range: {held}"
+        if self._is_epoch(node) and highest < _NOW:
+            return f"{self._shown(node)} is about {_NOW:.0e}: {held}"
         counter = self._endless_counter(node) if type_.name in _SMALL else None
         if counter is not None:
             at = self._types.module.location(counter)
             name = self._types.module.text(counter)
             return f"{name} grows without end in line {at.line}: {held}"
         return None
+
+    def _is_epoch(self, node: ast.expr) -> bool:
+        """Tell whether a number is that of the nanoseconds since 1970."""
+        match self._types.facts.evaluator.single_value(node):
+            case ast.Attribute(attr="nanoseconds", value=ast.Call(func=ast.Attribute(attr="now"))):
+                return True
+        return False
 
     def _endless_counter(self, node: ast.expr) -> ast.expr | None:
         """Return the attribute in a sum that is counted up for ever, and never compared."""
