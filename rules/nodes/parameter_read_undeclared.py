@@ -9,6 +9,7 @@ from scaffold.model.declared_parameters import declared_alone, has_always
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
 from scaffold.model.node_entities import Parameter, ParameterRead
+from scaffold.model.parameter_objects import names_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -20,10 +21,14 @@ _NODE = (
     "{}"
 )
 _DECLARED = "        self.declare_parameter('rate', 1.0)\n"
+_OTHERS = (
+    "        names = self.get_parameters(['rate', 'rats'])\n"
+    "        self.undeclare_parameter('rates')\n"
+)
 
 
 class ParameterReadUndeclared(Rule):
-    """A node reads a parameter that it does not declare, or not yet.
+    """A node reads or sets a parameter that it does not declare, or not yet.
 
     **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is reached.
 
@@ -54,6 +59,11 @@ class ParameterReadUndeclared(Rule):
             at=("talker.py:8",),
         ),
         Example(
+            "read in a list, set",
+            {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
+            at=("talker.py:9", "talker.py:10"),
+        ),
+        Example(
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
             at=("talker.py:7",),
@@ -71,6 +81,14 @@ class ParameterReadUndeclared(Rule):
                     node.facts.module, read.call, "ParameterNotDeclaredException"
                 ):
                     yield self.report(read, message)
+            for used in names_used(node.facts):
+                if used.owner is not node or used.name in by_name or has_always(used.name):
+                    continue
+                module = node.facts.module
+                if not is_harmless(module, used.call, "ParameterNotDeclaredException"):
+                    yield self.report(
+                        module.location(used.node), _undeclared(package, used.name, by_name)
+                    )
 
 
 def _message(package: Package, read: ParameterRead, declared: dict[str, list[Parameter]]) -> str:
@@ -80,9 +98,7 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
         return ""
     same = declared.get(read.name, [])
     if not same:
-        near = nearest(package, read.name, declared, 0.7)
-        hint = f"; {near!r} is" if near else ""
-        return f"parameter {read.name!r} is not declared{hint}: ParameterNotDeclaredException"
+        return _undeclared(package, read.name, declared)
     late = [
         one.location.line
         for one in same
@@ -91,3 +107,9 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
     if len(late) == len(same) and not read.is_conditional:
         return f"parameter {read.name!r} is declared in line {late[0]} only: after it is read"
     return ""
+
+
+def _undeclared(package: Package, name: str, declared: dict[str, list[Parameter]]) -> str:
+    near = nearest(package, name, declared, 0.7)
+    hint = f"; {near!r} is" if near else ""
+    return f"parameter {name!r} is not declared{hint}: ParameterNotDeclaredException"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
-from scaffold.model.declared_parameters import Declared, declared_by
-from scaffold.model.launch_nodes import started_nodes
+from scaffold.model.declared_parameters import ALWAYS, Declared, declared_by
+from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_values import value_given
 from scaffold.model.node_entities import Parameter
 from scaffold.model.parameter_files import Entry, parameter_file, parameter_paths, value_type
@@ -52,6 +52,11 @@ class ParameterTypeDiffers(Rule):
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
             at=("a.yaml:3",),
         ),
+        Example(
+            "a text for what every node has",
+            {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
+            at=("a.yaml:3",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -61,6 +66,8 @@ class ParameterTypeDiffers(Rule):
                 known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
                 for entry in section.entries:
                     kind, where = _declared(known, entry.name)
+                    if entry.name in ALWAYS:
+                        kind, where = "bool", f"{entry.name}, which every node has,"
                     given = value_type(entry.value)
                     if not kind or not given or given == kind:
                         continue
@@ -78,11 +85,13 @@ class ParameterTypeDiffers(Rule):
         yield from self._in_launch_files(package)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
-        for node in started_nodes(package):
+        for node in consumers(package):
             owner = node.owner
             declared = declared_by(owner, package) if owner is not None else None
-            for name, _, value in node.parameter_dicts if declared else ():
+            for name, _, value in node.parameter_dicts:
                 kind, where = _declared([declared] if declared else [], name)
+                if name in ALWAYS:
+                    kind, where = "bool", f"{name}, which every node has,"
                 given = value_given(node.launch, value)
                 if kind and given and given.type != kind:
                     message = (

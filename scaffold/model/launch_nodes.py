@@ -121,12 +121,19 @@ class StartedNode:
                 found = self.launch.module.index.lookup(node.id, node)
                 values = [binding.value for binding in found[1]] if found else []
                 literal = values[0] if len(values) == 1 else None
-            if not isinstance(literal, ast.Dict):
+            if isinstance(literal, ast.Dict):
+                yield from self._given_in(literal, "")
+
+    def _given_in(self, literal: ast.Dict, prefix: str) -> Iterator[tuple[str, ast.expr, ast.expr]]:
+        """Yield what a dictionary gives; launch joins the names of those inside with points."""
+        for key, value in zip(literal.keys, literal.values, strict=True):
+            name = self.launch.evaluator.text(key)
+            if key is None or not isinstance(name, str):
                 continue
-            for key, value in zip(literal.keys, literal.values, strict=True):
-                name = self.launch.evaluator.text(key)
-                if key is not None and isinstance(name, str):
-                    yield name, key, value
+            if isinstance(value, ast.Dict):
+                yield from self._given_in(value, f"{prefix}{name}.")
+            else:
+                yield f"{prefix}{name}", key, value
 
 
 def started_nodes(package: Package) -> list[StartedNode]:

@@ -28,6 +28,8 @@ CALLBACKS = (
     "add_pre_set_parameters_callback",
 )
 """The methods of a node that take a function to call with a list of parameters."""
+_NAMED = ("describe_parameter", "get_parameter_type", "set_descriptor", "undeclare_parameter")
+_LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
@@ -152,6 +154,8 @@ def name_asked(facts: NodeFacts, node: ast.AST, variable: str) -> str | None:
 class ParameterMade(NamedTuple):
     """A ``Parameter(...)`` that is given to a node to be set."""
 
+    call: ast.Call
+    """Which sets it."""
     node: ast.expr
     name: str
     type: str | None
@@ -168,12 +172,12 @@ def parameters_set(facts: NodeFacts) -> Iterator[tuple[NodeOwner, ParameterMade]
                 continue
             owner = facts.owner_of(attribute.value)
             for item in facts.evaluator.elements(call.args[0]).items if owner else ():
-                made = parameter_made(facts, item.node)
+                made = _parameter_made(facts, call, item.node)
                 if made is not None and owner is not None:
                     yield owner, made
 
 
-def parameter_made(facts: NodeFacts, node: ast.expr) -> ParameterMade | None:
+def _parameter_made(facts: NodeFacts, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
     """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
     call = facts.evaluator.single_value(node)
     if not isinstance(call, ast.Call):
@@ -190,4 +194,51 @@ def parameter_made(facts: NodeFacts, node: ast.expr) -> ParameterMade | None:
     if "type_" in given:
         full = facts.module.qualified_name(given["type_"]) or ""
         kind = full.rpartition(".Type.")[2].lower() if ".Type." in full else None
-    return ParameterMade(node, name, kind, value)
+    return ParameterMade(setting, node, name, kind, value)
+
+
+class NameUsed(NamedTuple):
+    """The name of a parameter that a node must have."""
+
+    owner: NodeOwner
+    call: ast.Call
+    node: ast.expr
+    name: str
+
+
+def names_used(facts: NodeFacts) -> Iterator[NameUsed]:
+    """Yield the parameters that a file describes, undeclares, sets, or gets as one of a list."""
+    for method in (*_NAMED, *_LISTED):
+        for attribute in facts.module.index.attributes(method):
+            call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
+            if owner is not None and isinstance(call, ast.Call) and call.func is attribute:
+                given = call.args[:1]
+                if method in _LISTED and given:
+                    given = [item.node for item in facts.evaluator.elements(given[0]).items]
+                yield from _texts(facts, owner, call, given)
+    for owner, made in parameters_set(facts):
+        yield NameUsed(owner, made.call, made.node, made.name)
+    for read in facts.parameter_reads:
+        name = read.argument("name")
+        if read.owner is not None and read.method == "get_parameter" and name is not None:
+            yield from _texts(facts, read.owner, read.call, _looped(facts, name.node))
+
+
+def _texts(
+    facts: NodeFacts, owner: NodeOwner, call: ast.Call, nodes: list[ast.expr]
+) -> Iterator[NameUsed]:
+    for node in nodes:
+        name = facts.evaluator.text(node)
+        if isinstance(name, str):
+            yield NameUsed(owner, call, node, name)
+
+
+def _looped(facts: NodeFacts, node: ast.expr) -> list[ast.expr]:
+    """Return what a name stands for in a loop over a list that is written there."""
+    found = facts.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+    loops = [facts.module.parent(one.node) for one in found[1]] if found else []
+    if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
+        return []
+    loop = loops[0]
+    is_plain = isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.List | ast.Tuple)
+    return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []

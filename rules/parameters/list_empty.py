@@ -1,0 +1,87 @@
+"""PF032: lists in parameter files are not empty."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import declared_by
+from scaffold.model.handlers import is_harmless
+from scaffold.model.node_entities import ParameterRead
+from scaffold.model.node_owners import NodeClass, NodeOwner
+from scaffold.model.parameter_files import parameter_file, parameter_paths
+from scaffold.model.parameter_use import nodes_for
+from scaffold.model.yaml_tree import Sequence
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('names', ['a'])\n"
+    "        self.names = self.{}.value\n"
+)
+_FILE = "talker:\n  ros__parameters:\n    names: {}\n"
+
+
+class ListEmpty(Rule):
+    """A parameter that the node reads is an empty list in a parameter file.
+
+    **Why.** rcl takes it for no value at all, and the default does not count either:
+    ``ParameterUninitializedException: The parameter 'names' is not initialized``.
+
+    **Fix.** Leave the line out, or write ``['']`` and let the node pass over empty names.
+
+    **Source.** ``rcl_yaml_param_parser/src/parse.c``; ``rclpy/node.py``, ``get_parameter``.
+    """
+
+    code = "PF032"
+    name = "list-empty"
+    examples = (
+        Example(
+            "items",
+            {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[b]")},
+        ),
+        Example(
+            "none, and a node that does not mind",
+            {
+                "talker.py": _NODE.format("get_parameter_or('names')"),
+                "a.yaml": _FILE.format("[]"),
+            },
+        ),
+        Example(
+            "none",
+            {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[]")},
+            at=("a.yaml:3",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                for entry in section.entries:
+                    if not isinstance(entry.value, Sequence) or entry.value.items:
+                        continue
+                    for owner in nodes_for(package, path, section):
+                        read = _read(owner, entry.name)
+                        if read is None or not declared_by(owner, package).types.get(entry.name):
+                            continue
+                        at = read.location
+                        message = (
+                            f"an empty list is no value: {at.path}:{at.line} reads {entry.name}, "
+                            "ParameterUninitializedException"
+                        )
+                        yield self.report(entry.value, message)
+                        break
+
+
+def _read(owner: NodeOwner, name: str) -> ParameterRead | None:
+    """Return a place where the node fails when a parameter has no value."""
+    current: NodeOwner | None = owner
+    while current is not None:
+        for one in current.parameter_reads:
+            if one.name == name and one.method == "get_parameter":
+                module = current.facts.module
+                if not is_harmless(module, one.call, "ParameterUninitializedException"):
+                    return one
+        current = current.base if isinstance(current, NodeClass) else None
+    return None
