@@ -102,4 +102,5 @@ def _there(package: Package) -> set[str]:
                 pending += neighbour.manifest.run_names if neighbour is not None else ()
             except ViewError:
                 continue
-    return found | provided_by(found)
+    # Whatever has messages brings along what is needed to use them.
+    return found | provided_by(found) | {"rosidl_default_runtime"}

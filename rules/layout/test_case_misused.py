@@ -53,6 +53,13 @@ class TestCaseMisused(Rule):
     examples = (
         Example("right", {"test/test_text.py": _TEST.format(_CASE, "setUp", "", "assertEqual")}),
         Example(
+            "made by the file itself",
+            {
+                "test/test_text.py": _TEST.format(_CASE, "__init__", "", "assertEqual")
+                + "\n\nTestText().test_text()\n"
+            },
+        ),
+        Example(
             "set_up, a fixture, a method that is gone",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path", "assertEquals")},
             at=("test/test_text.py:5", "test/test_text.py:8", "test/test_text.py:9"),
@@ -76,7 +83,11 @@ class TestCaseMisused(Rule):
                         if is_case
                         else _plain(method)
                     )
-                    is_called = method.name != "__init__" and module.index.attributes(method.name)
+                    is_called = (
+                        _is_made(module, class_.name)
+                        if method.name == "__init__"
+                        else module.index.attributes(method.name)
+                    )
                     if problem and not is_called:
                         yield self.report(module.name_location(method), problem)
                 if is_case:
@@ -93,6 +104,17 @@ class TestCaseMisused(Rule):
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
                         message = f"{name} takes one value, the second is a message; compare them"
                         yield self.report(module.location(node.func), message)
+
+
+def _is_made(module: PythonModule, name: str) -> bool:
+    """Tell whether the file itself makes an object of a class, or of one that inherits from it."""
+    heirs = {name}
+    for class_ in module.classes.values():
+        if any(isinstance(base, ast.Name) and base.id in heirs for base in class_.node.bases):
+            heirs.add(class_.name)
+    return any(
+        isinstance(call.func, ast.Name) and call.func.id in heirs for call in module.walk(ast.Call)
+    )
 
 
 def _compares(given: list[ast.expr]) -> bool:

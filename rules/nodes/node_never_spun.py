@@ -48,6 +48,14 @@ class NodeNeverSpun(Rule):
             {"talker.py": _NODE.format("    while rclpy.ok():\n        rclpy.spin_once(node)\n")},
         ),
         Example(
+            "once, until a message comes",
+            {
+                "talker.py": _NODE.replace(
+                    "timer(1.0, self.tick)", "subscription(Empty, 'go', self.go, 1)"
+                ).format("    rclpy.spin_once(node)\n")
+            },
+        ),
+        Example(
             "once", {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")}, at=("talker.py:17",)
         ),
     )
@@ -57,7 +65,8 @@ class NodeNeverSpun(Rule):
             waiting = {node.name: node for node in facts.classes if _waits(node)}
             if not facts.init_calls or not waiting:
                 continue
-            if len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
+            lasts = any(node.timers or node.services for node in waiting.values())
+            if lasts and len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
                 message = "spin_once() runs one callback at most, and no loop is around it"
                 yield self.report(facts.spin_calls[0], message)
             if facts.spin_calls or self._may_run(facts):
