@@ -11,7 +11,7 @@ _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 
 
 class FindMisspelt(Rule):
-    """``find_package`` looks for a well-known package, but for a letter.
+    """``find_package`` looks for a name that is a well-known package with a letter wrong.
 
     **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``.
 

@@ -24,7 +24,7 @@ _LISTS = "project(talker)\ninstall({} talker/node.py DESTINATION lib/${{PROJECT_
 
 
 class InstallKindUnknown(Rule):
-    """The first word of ``install`` is none that CMake knows.
+    """``install`` begins with a word that CMake does not know there.
 
     **Why.** CMake stops: ``install called with unknown mode PROGRAM``.
 

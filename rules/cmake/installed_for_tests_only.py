@@ -1,4 +1,4 @@
-"""CM097: what runs is installed, not only when tests are built; conditions exist."""
+"""CM097: nodes are installed whether tests are built or not."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ _HEADING = r"(?:forthcoming|v?\d+\.\d+\.\d+(?:\s*\(.*\))?)"
 
 
 class ChangelogMalformed(Rule):
-    """CHANGELOG.rst has a section that is no version.
+    """CHANGELOG.rst has a section whose heading is no version.
 
     **Why.** ``catkin_prepare_release`` and bloom read the sections by their headings,
     ``0.1.0 (2026-11-21)``; what does not fit is left out of the release.

@@ -12,7 +12,7 @@ _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.
 
 
 class InterfaceMalformed(Rule):
-    """A line of a .msg, .srv or .action file is nothing that rosidl can read.
+    """rosidl cannot read a line of a .msg, .srv or .action file.
 
     **Why.** The build stops in rosidl_adapter, with the line but not its number: a type that is
     none, a size that is no number, a default that does not fit its type, a missing ``---``.

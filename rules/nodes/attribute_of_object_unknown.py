@@ -12,7 +12,7 @@ from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of, has, known_names
 
 _NODE = (
-    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n"
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
     "    def __init__(self):\n"
     "        super().__init__('talker')\n"

@@ -22,7 +22,7 @@ _INIT = "        super().__init__('talker')\n"
 
 
 class NodeNotConstructed(Rule):
-    """The constructor of a node gives it no name, calls that of Node too late, or is none.
+    """The constructor of a node gives it no name, calls that of Node too late, or is misspelt.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
     or ``AttributeError: 'Talker' object has no attribute '_Node__...'`` when the node is used.

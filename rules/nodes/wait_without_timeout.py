@@ -1,4 +1,4 @@
-"""ND034: who waits for a server says so."""
+"""ND034: who waits for a server gives up some time."""
 
 from __future__ import annotations
 

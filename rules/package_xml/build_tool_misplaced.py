@@ -1,4 +1,4 @@
-"""PX026: build tools are build tools."""
+"""PX026: build tools are declared as such."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from scaffold.model.known import similar_package
 
 
 class DependencyMisspelt(Rule):
-    """A dependency has the name of a well-known package, but for a letter.
+    """A dependency has the name of a well-known package with a letter wrong.
 
     **Why.** rosdep finds no rule for it: ``rosdep install`` and the release stop.
 

@@ -1,4 +1,4 @@
-"""PX070: the version that a dependency asks for is one."""
+"""PX070: the versions that dependencies ask for are numbers."""
 
 from __future__ import annotations
 

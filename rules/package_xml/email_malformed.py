@@ -1,4 +1,4 @@
-"""PX073: e-mail addresses in package.xml look like some."""
+"""PX073: e-mail addresses in package.xml look like addresses."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.model.manifest_values import EMAIL, fits
 
 
 class EmailMalformed(Rule):
-    """An e-mail address of a maintainer or author is none.
+    """What stands as the e-mail address of a maintainer or author is no address.
 
     **Why.** colcon refuses the manifest: the package is not built, or only as something else.
 

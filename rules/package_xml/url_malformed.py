@@ -1,4 +1,4 @@
-"""PX075: a url in package.xml is one."""
+"""PX075: what package.xml gives as a URL is one."""
 
 from __future__ import annotations
 

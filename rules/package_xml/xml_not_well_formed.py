@@ -1,4 +1,4 @@
-"""PX050: every XML file of the package is one."""
+"""PX050: every XML file of the package can be read."""
 
 from __future__ import annotations
 
