@@ -44,6 +44,14 @@ class FileOfAuthor(Rule):
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
             at=("talker.py:5",),
         ),
+        Example(
+            "by its name alone; what is written may be anywhere",
+            {
+                "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
+                "config/words.txt": "",
+            },
+            at=("talker.py:5",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -60,9 +68,23 @@ class FileOfAuthor(Rule):
                 if re.fullmatch(_HOME, text):
                     message = f"{text} is on the author's machine only"
                     yield self.report(module.location(call.args[0]), message)
-                elif name == "open" and "/" in text and package.has(text.removeprefix("./")):
+                elif name == "open" and _reads(call) and _is_in(package, text):
                     message = (
                         f"{text} is looked for where `ros2 run` is called, not in the package; "
                         "use get_package_share_directory()"
                     )
                     yield self.report(module.location(call.args[0]), message)
+
+
+def _reads(call: ast.Call) -> bool:
+    """Tell whether ``open`` is to read: no mode is given, or a constant that says so."""
+    modes = [*call.args[1:2], *(word.value for word in call.keywords if word.arg == "mode")]
+    return all(isinstance(one, ast.Constant) and str(one.value)[:1] == "r" for one in modes)
+
+
+def _is_in(package: Package, text: str) -> bool:
+    """Tell whether a relative path is that of a file of the package, or of one in it."""
+    path = text.removeprefix("./")
+    if "/" in path:
+        return package.has(path)
+    return any(one == path or one.endswith(f"/{path}") for one in package.files)

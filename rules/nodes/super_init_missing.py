@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -38,11 +41,21 @@ class SuperInitMissing(Rule):
             },
         ),
         Example("forgotten", {"talker.py": _NODE.format("self.count = 0")}, at=("talker.py:5",)),
+        Example(
+            "the one above Node",
+            {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
+            at=("talker.py:6",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for node in facts.classes:
+                skipped = _skipping(facts, node)
+                if skipped is not None:
+                    message = "begins above Node, whose __init__ is left out; write super()"
+                    yield self.report(facts.module.location(skipped), message)
+                    continue
                 if node.calls_super_init or node.constructor is None or node.is_made_later:
                     continue
                 at = facts.module.name_location(node.constructor)
@@ -50,3 +63,13 @@ class SuperInitMissing(Rule):
                     f"{node.name}.__init__() does not call super().__init__(): no node is made"
                 )
                 yield self.report(at, message)
+
+
+def _skipping(facts: NodeFacts, node: NodeClass) -> ast.Call | None:
+    """Return ``super(Node, self)`` in a constructor: it looks behind Node, not at it."""
+    for call in facts.calls_in(node.constructor) if node.constructor else ():
+        match call:
+            case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
+                if facts.module.qualified_name(first) == "rclpy.node.Node":
+                    return call
+    return None

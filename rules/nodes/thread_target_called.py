@@ -9,6 +9,7 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
 
+_SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
     "import threading\n\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -59,6 +60,19 @@ class ThreadTargetCalled(Rule):
             {"talker.py": _NODE.format("()", "0.0", "")},
             at=("talker.py:9", "talker.py:10", "talker.py:19"),
         ),
+        Example(
+            "one argument in parentheses",
+            {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
+            at=("talker.py:9",),
+        ),
+        Example(
+            "spun at once",
+            {
+                "talker.py": "import rclpy\n"
+                + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
+            },
+            at=("talker.py:10",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -76,6 +90,13 @@ class ThreadTargetCalled(Rule):
                     yield self.report(argument, "a period of 0 takes all of the processor")
 
 
+def _is_single(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether the arguments of a thread are surely one object, not a tuple of them."""
+    if isinstance(node, ast.Constant):
+        return not isinstance(node.value, str) or len(node.value) != 1
+    return isinstance(node, ast.Name | ast.Attribute) and facts.owner_of(node) is not None
+
+
 def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     if facts.module.qualified_name(call.func) == "threading.Thread":
         for word in call.keywords:
@@ -83,6 +104,12 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
                 callback = facts.callback(word.value)
                 if callback.is_called and not callback.is_partial:
                     yield word.value, f"{callback.name}() is called here: pass the function itself"
+                elif facts.module.qualified_name(word.value.func) in _SPINS:
+                    message = "spins here, not in the thread: target=rclpy.spin, args=(node,)"
+                    yield word.value, message
+            elif word.arg == "args" and _is_single(facts, word.value):
+                text = facts.module.text(word.value)
+                yield word.value, f"({text}) is no tuple: TypeError in the thread; ({text},) is"
     if isinstance(facts.module.parent(call), ast.Expr):
         function = facts.callback(call.func).function
         if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
