@@ -890,6 +890,28 @@ def test_a_directory_without_a_package_is_refused(
     assert said == f"{tmp_path}/demo: no package: there is no package.xml in it"
 
 
+def test_a_package_of_ros_1_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = CMAKE["package.xml"]
+    text = text.replace("ament_cmake</buildtool_depend>", "catkin</buildtool_depend>")
+    text = text.replace("<build_type>ament_cmake</build_type>", "")
+    demo = write(tmp_path / "demo", {**CMAKE, "package.xml": text})
+    assert refused(demo, capsys, "publisher", "talker") == (
+        f"{demo}: a package of ROS 1, built by catkin; what add writes is for ROS 2; "
+        "nothing was changed"
+    )
+
+
+def test_a_node_of_ours_is_not_added_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    destination = ("--destination-directory", str(tmp_path))
+    assert main(["new", "talk", "--node-name", "talker", *PERSON, *destination]) == 0
+    before = read(tmp_path / "talk")
+    assert add(tmp_path / "talk", "publisher", "talker") == 0
+    assert read(tmp_path / "talk") == before
+    assert "nothing was changed" in capsys.readouterr().out
+
+
 # -- the linters of ament
 
 

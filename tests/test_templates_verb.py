@@ -51,6 +51,8 @@ def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
 def test_those_of_a_team(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "list", str(team)]) == 0
     assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
+    assert main(["templates", "--content", str(team)]) == 0
+    assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
 
 
 def test_good_ones(team: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -34,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="a directory with templates/ of your own: test those in it (default: all)",
     )
+    parser.add_argument("--content", metavar="DIR", help="another way to name the directory")
     parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
 
 
@@ -42,6 +43,8 @@ def run(options: argparse.Namespace) -> int:
     from scaffold import config, content
     from scaffold.generate import template
 
+    if options.directory is None:
+        options.directory = options.content
     own = _own(options.directory)
     roots = content.roots("templates", (*config.load().content, *own))
     templates = template.load(roots)

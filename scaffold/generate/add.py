@@ -95,6 +95,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     """
     package = target.package
     with _refusing(package):
+        _refuse_ros_1(package)
         old = own.provenance_of(package)
         wanted = wanted._replace(given={**own.remembered(old), **wanted.given})
         made = piece.make(target, old, wanted)
@@ -124,6 +125,16 @@ def _with(package: Package, files: Mapping[str, bytes], executable: frozenset[st
     overlay.changed.update(files)
     overlay.executable.update(executable)
     return Package(overlay, directory=package.directory, workspace=package.known_workspace)
+
+
+def _refuse_ros_1(package: Package) -> None:
+    tools = package.manifest.depends("buildtool_depend")
+    is_ours = any(name.startswith("ament_") for name in tools)
+    if "catkin" in tools and not (is_ours or package.manifest.build_type):
+        raise InputError(
+            f"{package.directory}: a package of ROS 1, built by catkin; "
+            "what add writes is for ROS 2; nothing was changed"
+        )
 
 
 @contextmanager

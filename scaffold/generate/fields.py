@@ -48,7 +48,10 @@ def fields(given: object, where: str = ".") -> Fields:
     _refuse_garbled(lines)
     definition = parse(Source("fields", "\n".join(lines)), _OWN, "msg", "Fields")
     for problem in definition.problems:
-        raise InputError(f"{lines[problem.location.line - 1]!r}: {problem.message}")
+        line = lines[problem.location.line - 1]
+        several = re.search(r"\w\s*[,;]\s*[\w/]+ +\w", line.partition("#")[0])
+        hint = "; write each field as a text of its own" if several else ""
+        raise InputError(f"{line!r}: {problem.message}{hint}")
     for section in definition.sections:
         for field in section.fields:
             if reserved(field.name):

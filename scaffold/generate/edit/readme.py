@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from scaffold.check.diagnostic import Edit
@@ -112,7 +112,7 @@ def _merge(source: Source, part: Source, new: Section) -> Source:
         at = source.offset(behind.start + 1) if behind else len(source.text)
         body = [f"{_HEADING}{new.title}", "", *new.lines, "", ""]
         return spliced(source, [Edit(source.path, at, at, source.newline.join(body))])
-    if _says(old, new):
+    if _says(old.lines, new):
         return source
     for block in _blocks(part.lines, new):
         if block.title or block.lines:
@@ -130,6 +130,8 @@ def _join(source: Source, title: str, new: Section) -> Source:
         home = blocks[0]
     if home is not None:
         return _extend(source, home, new)
+    if _says(source.lines, new):  # the README of a single node says it in several sections
+        return source
     lines = [f"{_BELOW}{new.title}", "", *new.lines]
     behind = [one for one in blocks[1:] if any(map(_is_row, one.lines))]
     if head is None and behind and behind[-1] is blocks[-1]:
@@ -142,7 +144,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
 
 def _extend(source: Source, old: Section, new: Section) -> Source:
     """Add to a block what it does not say yet, above its table."""
-    if _says(old, new):
+    if _says(old.lines, new):
         return source
     # What both begin with is said of all parts, and rows of tables are added one by one.
     shared = 0
@@ -178,10 +180,10 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
     return lines[:end]
 
 
-def _says(old: Section, new: Section) -> bool:
-    """Tell whether all commands of a section or a block are in another one."""
+def _says(old: Iterable[str], new: Section) -> bool:
+    """Tell whether all commands of a section or a block are in some lines."""
     commands = [line for line in new.lines if line.startswith("ros2 ")]
-    return bool(commands) and set(commands) <= set(old.lines)
+    return bool(commands) and set(commands) <= set(old)
 
 
 def _add_row(source: Source, header: tuple[str, ...], row: tuple[str, ...]) -> Source:
