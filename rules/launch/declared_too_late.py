@@ -1,0 +1,71 @@
+"""LF056: launch arguments are declared before they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_configurations import may_be_set_elsewhere
+from scaffold.model.launch_order import later_declarations, steps
+from scaffold.model.launch_py import LaunchFile
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    name = LaunchConfiguration('name')\n"
+    "    node = Node(package='talker', executable='node', name=name)\n"
+    "    return LaunchDescription([{}])\n"
+)
+_DECLARED = "DeclareLaunchArgument('name', default_value='a')"
+
+
+class DeclaredTooLate(Rule):
+    """A launch argument is declared behind an action that reads it.
+
+    **Why.** Actions are executed in their order, and the default is set by the declaration:
+    ``launch configuration 'name' does not exist``, unless somebody gives it on the command line.
+
+    **Fix.** Put the declarations first.
+
+    **Source.** ``launch/actions/declare_launch_argument.py``; ``launch/launch_service.py``.
+    """
+
+    code = "LF056"
+    name = "declared-too-late"
+    examples = (
+        Example("first", {"launch/a.launch.py": _LAUNCH.format(f"{_DECLARED}, node")}),
+        Example(
+            "behind",
+            {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
+            at=("launch/a.launch.py:8",),
+        ),
+        Example(
+            "added behind",
+            {
+                "launch/a.launch.py": _LAUNCH.format("node").replace("return", "launch =")
+                + f"    launch.add_action({_DECLARED})\n    return launch\n"
+            },
+            at=("launch/a.launch.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            known = steps(launch)
+            if known is None:
+                continue
+            declared = later_declarations(launch, known)
+            reported: set[str] = set()
+            for index, step in enumerate(known):
+                for call in step.reads:
+                    name = str(launch.text(call, "variable_name"))
+                    if declared.get(name, -1) <= index or name in reported:
+                        continue
+                    if may_be_set_elsewhere(package, launch, name):
+                        continue
+                    reported.add(name)
+                    line = step.action.location.line
+                    what = f"the {step.action.kind} of line {line} reads it"
+                    message = f"{name!r} is declared behind its use: {what} before it has a value"
+                    yield self.report(launch.location(call.call), message)

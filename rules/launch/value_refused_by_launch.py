@@ -1,0 +1,137 @@
+"""LF055: periods, choices, commands and parameters are what launch takes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_nodes import consumers
+from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
+from scaffold.model.values import is_known
+
+_LAUNCH = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument, ExecuteProcess, TimerAction\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    node = Node(package='a', executable='b', parameters=[{{'a': {}}}])\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('mode', default_value='{}', choices=['fast', 'slow']),\n"
+    "        ExecuteProcess(cmd={}),\n        TimerAction(period={}, actions=[node]),\n    ])\n"
+)
+
+
+class ValueRefusedByLaunch(Rule):
+    """A period, a choice, a command or a parameter is of a kind that launch refuses.
+
+    **Why.** ``ros2 launch`` stops: ``'TimerAction' expected 'period' to be one of ... float``,
+    ``Provided default_value "fst" is not in provided choices``, ``Unexpected type for parameter
+    value None``, ``Expected a non-empty sequence, with items of uniform type``; a command that is
+    one text is looked for as one program: ``No such file or directory: 'ls -l'``.
+
+    **Fix.** ``period=1.0``; a default out of the choices; ``cmd=['ls', '-l']``; values of one type.
+
+    **Source.** ``launch/actions/timer_action.py``, ``declare_launch_argument.py``,
+    ``execute_process.py``; ``launch_ros/utilities/normalize_parameters.py``.
+    """
+
+    code = "LF055"
+    name = "value-refused-by-launch"
+    examples = (
+        Example(
+            "taken",
+            {"launch/a.launch.py": _LAUNCH.format("[1, 2]", "fast", "['ls', '-l']", "1.0")},
+        ),
+        Example(
+            "refused",
+            {"launch/a.launch.py": _LAUNCH.format("None", "fst", "'ls -l'", "1")},
+            at=(*(f"launch/a.launch.py:{line}" for line in (7, 9, 10, 11)),),
+        ),
+        Example(
+            "a mixed list, two words in one",
+            {"launch/a.launch.py": _LAUNCH.format("[1, 'a']", "fast", "['ls -l']", "1.0")},
+            at=("launch/a.launch.py:7", "launch/a.launch.py:10"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.calls:
+                for name, node in call.given.items():
+                    problem = _problem(launch, call, name, node)
+                    if problem:
+                        yield self.report(launch.location(node), problem)
+        for started in consumers(package):
+            for name, _, node in started.parameter_dicts:
+                problem = _parameter_problem(node)
+                if problem:
+                    message = f"the parameter {name!r} {problem}"
+                    yield self.report(started.launch.location(node), message)
+
+
+def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:
+    match call.kind, name:
+        case "TimerAction", "period":
+            return _period_problem(node)
+        case "DeclareLaunchArgument", "choices":
+            return _choices_problem(launch, call, node)
+        case "ExecuteProcess", "cmd":
+            return _command_problem(call, node)
+        case kind, "respawn" if kind in {*NODES, "ExecuteProcess"}:
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                return "respawn is a truth value, not a text: write True or False"
+    return ""
+
+
+def _period_problem(node: ast.expr) -> str:
+    match node:
+        case ast.Constant(value=bool() | None):
+            return "a period is a number of seconds such as 1.0"
+        case ast.Constant(value=int(number)):
+            return f"launch takes no whole number as a period: write {number}.0"
+        case ast.Constant(value=str(text)):
+            try:
+                float(text)
+            except ValueError:
+                return f"a period is a number of seconds, and {text!r} is none"
+    return ""
+
+
+def _choices_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
+    choices = launch.evaluator.evaluate(node)
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return "choices are a list of texts; this is one, and every letter is a choice"
+    if not isinstance(choices, list | tuple) or not all(map(is_known, choices)):
+        return ""
+    if any(type(choice) in {bool, int, float} for choice in choices):
+        return "choices are texts: what is given on the command line never equals a number"
+    default = launch.text(call, "default_value")
+    if isinstance(default, str) and default not in choices:
+        return f"the default {default!r} is none of them"
+    return ""
+
+
+def _command_problem(call: LaunchCall, node: ast.expr) -> str:
+    if "shell" in call.given or call.is_open:
+        return ""
+    listed = node.elts if isinstance(node, ast.List) else [node]
+    first = listed[0] if listed else None
+    if isinstance(first, ast.Constant) and isinstance(first.value, str):
+        text = first.value.strip()
+        if " " in text and "\\ " not in text and not text.startswith(("/", "'", '"')):
+            return f"this is one word, so a program {text!r} is looked for: write a list of words"
+    return ""
+
+
+def _parameter_problem(node: ast.expr) -> str:
+    match node:
+        case ast.Constant(value=None):
+            return "is None, which is no value of a parameter"
+        case ast.List(elts=[]) | ast.Tuple(elts=[]):
+            return "is an empty list, whose type nobody knows"
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            kinds = {type(one.value) if isinstance(one, ast.Constant) else object for one in items}
+            if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
+                return "mixes types in a list"
+    return ""
