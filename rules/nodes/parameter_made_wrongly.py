@@ -1,4 +1,4 @@
-"""ND060: parameters are made, declared, read and set as rclpy has them."""
+"""ND060: parameters are made, declared and read as rclpy has them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import FIELDS
 from scaffold.model.rclpy_names import PARAMETER, class_of
 from scaffold.model.values import UNKNOWN
 
@@ -34,13 +35,13 @@ _RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]", ""
 
 
 class ParameterMadeWrongly(Rule):
-    """A parameter is made, declared, read or set in a form that rclpy does not take.
+    """A parameter is made, declared or read in a form that rclpy does not take.
 
     **Why.** ``ValueError: Type '2' and value ... do not agree``, ``TypeError: 'float' object is not
     callable``.
 
     **Fix.** ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)``, a list of pairs for
-    ``declare_parameters``, a list for ``set_parameters``; ``.value`` is no method.
+    ``declare_parameters``; ``.value`` is no method.
 
     **Source.** ``rclpy/parameter.py``; ``rclpy/node.py``.
     """
@@ -50,8 +51,12 @@ class ParameterMadeWrongly(Rule):
     examples = (
         Example("right", {"talker.py": _NODE.format(*_RIGHT)}),
         Example(
-            "no pairs, no list, a call",
-            {"talker.py": _NODE.format("'rate', 1.0", "Parameter('rate', value=2.0)", "()")},
+            "no pairs, a type alone, a call",
+            {
+                "talker.py": _NODE.format(
+                    "'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]", "()"
+                )
+            },
             at=("talker.py:8", "talker.py:9", "talker.py:10"),
         ),
         Example(
@@ -81,11 +86,8 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
     match call.func:
         case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
             yield call, "value is no method of a parameter: leave the parentheses out"
-        case ast.Attribute(attr="set_parameters" | "set_parameters_atomically", value=owner):
-            given = call.args[0] if call.args else None
-            is_one = given is not None and class_of(facts, given) == PARAMETER
-            if given is not None and is_one and facts.owner_of(owner) is not None:
-                yield given, "parameters are set as a list: [Parameter(...)]"
+        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(facts, owner):
+            yield call, f"{name} is a value, no method: leave the parentheses out"
         case ast.Attribute(attr="declare_parameters", value=owner):
             listed = call.args[1] if len(call.args) > 1 else None
             if isinstance(listed, ast.List) and facts.owner_of(owner) is not None:
@@ -93,6 +95,14 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
                     if isinstance(item, ast.Constant):
                         yield item, "each parameter is a pair ('name', default): TypeError"
                         break
+
+
+def _is_message(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is what get_parameter_value of a parameter gives."""
+    match facts.evaluator.single_value(node):
+        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
+            return class_of(facts, parameter) == PARAMETER
+    return False
 
 
 def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
@@ -106,6 +116,8 @@ def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
         yield type_, "the second argument is the type: write value=... for a value"
         return
     kind = _KINDS.get((facts.module.qualified_name(type_) or "").rpartition(".Type.")[2])
+    if kind is not None and value is None and not any(word.arg is None for word in call.keywords):
+        yield type_, "a type needs a value of it: ValueError"
     known = facts.evaluator.evaluate(value)
     if kind is None or value is None or known is UNKNOWN or known is None:
         return

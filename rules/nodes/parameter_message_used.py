@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import ParameterRead
 from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_values import stands_for_value
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -38,6 +39,11 @@ class ParameterMessageUsed(Rule):
         Example("a field", {"talker.py": _NODE.format(".double_value")}),
         Example("computed with", {"talker.py": _NODE.format("")}, at=("talker.py:8",)),
         Example(
+            "compared",
+            {"talker.py": _NODE.format(" > 1.0").replace("1.0 / ", "")},
+            at=("talker.py:8",),
+        ),
+        Example(
             "as a period",
             {"talker.py": _NODE.format("").replace("1.0 / ", "")},
             at=("talker.py:9",),
@@ -56,7 +62,7 @@ class ParameterMessageUsed(Rule):
 
 
 def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
-    """Return where the message of a parameter's value is computed with or is a period."""
+    """Return where the message of a parameter's value is used as a value or is a period."""
     attribute = facts.module.parent(read.call)
     call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
     if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
@@ -67,4 +73,4 @@ def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
         period = timer.argument("timer_period_sec")
         if period is not None and facts.evaluator.single_value(period.node) is call:
             return period.node
-    return call if isinstance(facts.module.parent(call), ast.BinOp) else None
+    return call if stands_for_value(facts, call) else None

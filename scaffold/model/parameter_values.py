@@ -41,7 +41,7 @@ def _use(
     facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
 ) -> ast.AST | None:
     """Return a place where the object is calculated with."""
-    if _is_used(facts, call):
+    if stands_for_value(facts, call):
         return call
     if variable is None and attribute is None:
         return None
@@ -52,7 +52,7 @@ def _use(
     uses = [node for node in ast.walk(scope) if _is_load(node, variable, attribute)]
     if any(_asks(facts, use) for use in uses) or _is_rebound(scope, variable, attribute):
         return None
-    return next((use for use in uses if _is_used(facts, use)), None)
+    return next((use for use in uses if stands_for_value(facts, use)), None)
 
 
 def _objects(facts: NodeFacts) -> Iterator[Entity]:
@@ -65,7 +65,7 @@ def _objects(facts: NodeFacts) -> Iterator[Entity]:
             yield one
 
 
-def _is_used(facts: NodeFacts, node: ast.AST) -> bool:
+def stands_for_value(facts: NodeFacts, node: ast.AST) -> bool:
     """Tell whether a node stands where only the value makes sense."""
     parent = facts.module.parent(node)
     used = False

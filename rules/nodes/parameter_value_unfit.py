@@ -1,0 +1,123 @@
+"""ND088: values of parameters are used as what they are declared."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import declared_by
+from scaffold.model.handlers import is_harmless
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import FIELDS, parameter_read
+from scaffold.model.rclpy_names import PARAMETER, class_of
+
+_NUMBERS = ("double", "integer")
+_ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', {})\n"
+    "        self.rate = self.get_parameter('rate').value{}\n\n"
+    "    def start(self):\n"
+    "        self.create_timer(1.0 / self.rate, self.tick)\n\n"
+    "    def tick(self):\n        pass\n"
+)
+
+
+class ParameterValueUnfit(Rule):
+    """The value of a parameter is computed with as if it were of another type than declared.
+
+    **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
+    cannot be interpreted as an integer``, or ``AttributeError: 'float' object has no attribute
+    'double_value'``: ``.value`` is the value already.
+
+    **Fix.** Declare the parameter with a default of the type that the code needs.
+
+    **Source.** ``rclpy/parameter.py``; the types of declared parameters stay.
+    """
+
+    code = "ND088"
+    name = "parameter-value-unfit"
+    examples = (
+        Example("a number", {"talker.py": _NODE.format("2.0", "")}),
+        Example(
+            "converted",
+            {
+                "talker.py": _NODE.format("'2.0'", "")
+                .replace("self.rate =", "self.rate = float(")
+                .replace(".value", ".value)")
+            },
+        ),
+        Example("a text", {"talker.py": _NODE.format("'2.0'", "")}, at=("talker.py:11",)),
+        Example(
+            "a field of the value",
+            {"talker.py": _NODE.format("2.0", ".double_value")},
+            at=("talker.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            if not facts.parameter_reads and not facts.parameters:
+                continue
+            for node, problem in _problems(package, facts):
+                if not is_harmless(facts.module, node, "TypeError"):
+                    yield self.report(facts.module.location(node), problem)
+
+
+def _problems(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]]:
+    for operation in facts.module.walk(ast.BinOp):
+        if isinstance(operation.op, _ARITHMETIC):
+            for one, other in (
+                (operation.left, operation.right),
+                (operation.right, operation.left),
+            ):
+                problem = _operand(package, facts, operation.op, one, other)
+                if problem:
+                    yield operation, problem
+    yield from _ranges(package, facts)
+    for field in FIELDS:
+        for attribute in facts.module.index.attributes(field):
+            match attribute.value:
+                case ast.Attribute(attr="value", value=parameter) if (
+                    class_of(facts, parameter) == PARAMETER
+                ):
+                    yield attribute, f"value is the value already, without {field}: AttributeError"
+
+
+def _ranges(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]]:
+    """Yield what ``range`` is given and cannot use."""
+    for call in facts.module.walk(ast.Call):
+        if isinstance(call.func, ast.Name) and call.func.id == "range":
+            for given in call.args:
+                name, kind = _declared(package, facts, given)
+                if kind in {"double", "string"}:
+                    yield given, f"{name} is declared as {kind}, and range() takes integers"
+
+
+def _operand(
+    package: Package, facts: NodeFacts, operator: ast.operator, one: ast.expr, other: ast.expr
+) -> str:
+    """Return what is wrong about computing with the value of a parameter."""
+    value = facts.evaluator.evaluate(other)
+    is_number = type(value) in {int, float}
+    if not is_number and not isinstance(value, str):
+        return ""
+    name, kind = _declared(package, facts, one)
+    if kind == "string" and is_number:
+        is_repeated = isinstance(operator, ast.Mult) and type(value) is int
+        return "" if is_repeated else f"{name} is declared as string, and {value} is a number"
+    if kind in _NUMBERS and isinstance(value, str) and isinstance(operator, ast.Add):
+        return f"{name} is declared as {kind}, and {value!r} is a text"
+    return ""
+
+
+def _declared(package: Package, facts: NodeFacts, node: ast.expr) -> tuple[str, str]:
+    """Return name and declared type of the parameter whose value an expression is."""
+    match facts.evaluator.single_value(node):
+        case ast.Attribute(attr="value", value=parameter):
+            owner, name = parameter_read(facts, parameter)
+            if owner is not None and isinstance(name, str):
+                return name, declared_by(owner, package).types.get(name) or ""
+    return "", ""

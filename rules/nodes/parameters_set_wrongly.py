@@ -1,0 +1,62 @@
+"""ND087: parameters are set as a list of parameters."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy_names import PARAMETER, class_of
+
+_METHODS = ("set_parameters", "set_parameters_atomically")
+_NODE = (
+    "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+    "class Talker(Node):\n"
+    "    def on_timer(self):\n"
+    "        self.set_parameters({})\n"
+)
+
+
+class ParametersSetWrongly(Rule):
+    """``set_parameters`` gets something else than a list of parameters.
+
+    **Why.** ``TypeError: 'Parameter' object is not iterable``, or ``TypeError: parameter must be
+    instance of type '<class 'rclpy.parameter.Parameter'>'``.
+
+    **Fix.** ``self.set_parameters([Parameter('rate', value=2.0)])``.
+
+    **Source.** ``rclpy/node.py``, ``set_parameters``.
+    """
+
+    code = "ND087"
+    name = "parameters-set-wrongly"
+    examples = (
+        Example("a list", {"talker.py": _NODE.format("[Parameter('rate', value=2.0)]")}),
+        Example(
+            "a parameter",
+            {"talker.py": _NODE.format("Parameter('rate', value=2.0)")},
+            at=("talker.py:7",),
+        ),
+        Example("a dictionary", {"talker.py": _NODE.format("{'rate': 2.0}")}, at=("talker.py:7",)),
+        Example("pairs", {"talker.py": _NODE.format("[('rate', 2.0)]")}, at=("talker.py:7",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for method in _METHODS:
+                for attribute in facts.module.index.attributes(method):
+                    call = facts.module.parent(attribute)
+                    if not isinstance(call, ast.Call) or call.func is not attribute:
+                        continue
+                    if call.args and facts.owner_of(attribute.value) is not None:
+                        for node, problem in _problems(facts, call.args[0]):
+                            yield self.report(facts.module.location(node), problem)
+
+
+def _problems(facts: NodeFacts, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
+    if class_of(facts, given) == PARAMETER or isinstance(given, ast.Dict):
+        yield given, "parameters are set as a list: [Parameter(...)]"
+    for item in given.elts if isinstance(given, ast.List | ast.Tuple) else ():
+        if isinstance(item, ast.Tuple | ast.Dict | ast.Constant):
+            yield item, "this is no Parameter: write Parameter('name', value=...): TypeError"
