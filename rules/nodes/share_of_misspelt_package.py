@@ -1,0 +1,68 @@
+"""ND072: nodes look for files of packages that exist."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.identity import other_name
+from scaffold.model.launch_uses import Use, meant_package
+
+_FUNCTIONS = frozenset(
+    f"ament_index_python{module}.{function}"
+    for module in ("", ".packages")
+    for function in ("get_package_share_directory", "get_package_prefix", "get_package_share_path")
+)
+_NODE = (
+    "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
+    "import rclpy\n\n\n"
+    "def words():\n"
+    "    return os.path.join(get_package_share_directory('{}'), 'words.txt')\n"
+)
+_MANIFEST = "<package format='3'><name>talker_py</name></package>\n"
+
+
+class ShareOfMisspeltPackage(Rule):
+    """A node looks for the files of a package whose name is misspelt.
+
+    **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is reached.
+
+    **Fix.** Write the name as its package.xml has it.
+
+    **Source.** ``ament_index_python/packages.py``, ``get_package_prefix``.
+    """
+
+    code = "ND072"
+    name = "share-of-misspelt-package"
+    examples = (
+        Example(
+            "its own", {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("talker_py")}
+        ),
+        Example(
+            "nobody knows it",
+            {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("robot_words")},
+        ),
+        Example(
+            "a letter is missing",
+            {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("taker_py")},
+            at=("talker_py/node.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
+                    continue
+                name = facts.evaluator.evaluate(call.args[0])
+                if not isinstance(name, str) or name == other_name(package):
+                    continue
+                at = facts.module.location(call.args[0])
+                meant = meant_package(package, Use(name, at, None, at))
+                if meant is not None and not is_harmless(
+                    facts.module, call, "PackageNotFoundError"
+                ):
+                    message = f"no package {name!r} is known; {meant.name!r} is: {meant.reason}"
+                    yield self.report(at, message)
