@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.node_callbacks import numbers_taken
 from scaffold.model.node_entities import (
     ActionServer,
     Callback,
@@ -73,7 +74,7 @@ class CallbackArity(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for given, callback in _given_callbacks(facts):
-                takes = _takes(callback)
+                takes = numbers_taken(callback)
                 if takes is None or any(n in takes for n in given[0]):
                     continue
                 least, most = takes.start, takes.stop - 1
@@ -107,20 +108,3 @@ def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
     if isinstance(entity, ActionServer):
         return (1,), "an action server gives it the goal handle"
     return None
-
-
-def _takes(callback: Callback) -> range | None:
-    """Return the numbers of positional arguments that a callback accepts."""
-    function = callback.function
-    if function is None or callback.is_called or callback.is_partial:
-        return None
-    if not isinstance(function, ast.Lambda) and function.decorator_list:
-        return None
-    arguments = function.args
-    if arguments.vararg is not None or any(
-        default is None for default in arguments.kw_defaults if arguments.kwonlyargs
-    ):
-        return None
-    names = [*arguments.posonlyargs, *arguments.args]
-    most = len(names) - int(callback.is_bound)
-    return range(most - len(arguments.defaults), most + 1)

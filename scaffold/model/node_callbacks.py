@@ -105,3 +105,20 @@ def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
     return any(
         isinstance(node, ast.Return) and node.value is not None for node in ast.walk(function)
     )
+
+
+def numbers_taken(callback: Callback) -> range | None:
+    """Return the numbers of positional arguments that a callback takes; ``None``: not known."""
+    function = callback.function
+    if function is None or callback.is_called or callback.is_partial:
+        return None
+    if not isinstance(function, ast.Lambda) and function.decorator_list:
+        return None
+    arguments = function.args
+    if arguments.vararg is not None or any(
+        default is None for default in arguments.kw_defaults if arguments.kwonlyargs
+    ):
+        return None
+    names = [*arguments.posonlyargs, *arguments.args]
+    most = len(names) - int(callback.is_bound)
+    return range(most - len(arguments.defaults), most + 1)
