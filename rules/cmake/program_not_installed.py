@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, is_used_by_build, programs
 from scaffold.model.near import nearest
+from scaffold.model.own_modules import paths_imported_by
 from scaffold.model.python_module import PythonModule
 
 _NODE = (
@@ -85,7 +86,7 @@ class ProgramNotInstalled(Rule):
             return
         known = {program.path for program in programs(package)}
         at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
-        used = _imported_by(package, known)
+        used = tuple(f"/{path}" for path in paths_imported_by(package, known))
         for module in package.modules():
             if module.path in known or not self._is_started(module):
                 continue
@@ -113,10 +114,3 @@ class ProgramNotInstalled(Rule):
         """Tell whether an installed file that does not exist must be this one."""
         missing = [one.path for one in programs(package) if not package.has(one.path)]
         return bool(nearest(package, path, missing, 0.8))
-
-
-def _imported_by(package: Package, paths: set[str]) -> tuple[str, ...]:
-    """Return the ends of the paths of all modules that some files import."""
-    modules = [package.module(path) for path in sorted(paths & set(package.python_files))]
-    names = {one.module for module in modules for one in module.imports}
-    return tuple(f"/{name.replace('.', '/')}.py" for name in sorted(names) if name)

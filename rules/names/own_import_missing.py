@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
-from scaffold.model.known import ROS_PACKAGES
 from scaffold.model.near import nearest
 from scaffold.model.own_modules import (
     absolute_name,
@@ -13,6 +12,7 @@ from scaffold.model.own_modules import (
     may_be_made,
     meant_module,
     modules_of,
+    own_roots,
 )
 from scaffold.model.python_module import Import, PythonModule
 
@@ -72,40 +72,34 @@ class OwnImportMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
-        roots = {root for root in roots if root.isidentifier()}
-        roots -= {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
-        made = package.has("CMakeLists.txt") and bool(
-            package.cmake.find("rosidl_generate_interfaces", "generate_parameter_module")
-        )
+        makers = ("rosidl_generate_interfaces", "generate_parameter_module")
+        if package.has("CMakeLists.txt") and package.cmake.find(*makers):
+            return  # modules of the package are generated
+        roots = own_roots(package)
         for module in package.modules():
-            if made or module.path == "setup.py":
-                continue
-            for one in module.imports:
-                if one.guarded or one.conditional or one.type_checking:
-                    continue
-                yield from self._check(package, module, one, roots)
+            for one in module.imports if module.path != "setup.py" else ():
+                if not (one.guarded or one.conditional or one.type_checking):
+                    yield from self._check(package, module, one, roots)
 
     def _check(
         self, package: Package, module: PythonModule, one: Import, roots: set[str]
     ) -> Iterator[Diagnostic]:
         name = absolute_name(module, one)
         root = name.partition(".")[0]
-        if root in roots and package.has(f"{root}/__init__.py"):
-            path = file_of(package, name)
-            if not path:
-                if not may_be_made(package, name):
-                    modules = [one for one in modules_of(package, root) if "__init__" not in one]
-                    near = nearest(package, name, modules, 0.6)
-                    hint = f"; {near!r} is meant" if near else ""
-                    yield self.report(one, f"the package has no module {name!r}{hint}")
-                return
+        path = file_of(package, name)
+        if root in roots and path:
             yield from self._check_names(package, one, name, path)
-            return
-        meant = "" if one.level else meant_module(package, module, name)
-        if meant:
-            message = f"no module {name!r} is installed: ModuleNotFoundError; {meant!r} is meant"
-            yield self.report(one, message)
+        elif root in roots:
+            if not may_be_made(package, name):
+                modules = [one for one in modules_of(package, root) if "__init__" not in one]
+                near = nearest(package, name, modules, 0.6)
+                hint = f"; {near!r} is meant" if near else ""
+                yield self.report(one, f"the package has no module {name!r}{hint}")
+        elif not one.level:
+            meant = meant_module(package, module, name)
+            if meant:
+                message = f"no module {name!r} is installed: ModuleNotFoundError"
+                yield self.report(one, f"{message}; {meant!r} is meant")
 
     def _check_names(
         self, package: Package, one: Import, name: str, path: str

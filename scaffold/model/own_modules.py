@@ -31,6 +31,20 @@ def names_imported(package: Package) -> set[str]:
     return found
 
 
+def paths_imported_by(package: Package, files: set[str]) -> list[str]:
+    """Return where modules lie that some files import, relative to a directory on Python's path."""
+    modules = [package.module(path) for path in sorted(files & set(package.python_files))]
+    names = {one.module for module in modules for one in module.imports}
+    return [f"{name.replace('.', '/')}.py" for name in sorted(names) if name]
+
+
+def own_roots(package: Package) -> set[str]:
+    """Return the names by which Python imports the packages in the root of a package."""
+    roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
+    others = {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
+    return {root for root in roots - others if root.isidentifier()}
+
+
 def file_of(package: Package, name: str) -> str:
     """Return the file of a module; empty if the package has none."""
     base = name.replace(".", "/")
