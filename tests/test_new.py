@@ -419,7 +419,7 @@ def setup_arguments(text: str) -> dict[str, Any]:
         ("größe", "such as gr_e$"),
         ("../evil", "such as evil$"),
         ("", "'' has 0 characters; it must have 2 to 48$"),
-        ("a", "'a' has 1 characters; it must have 2 to 48$"),
+        ("a", "'a' has 1 character; it must have 2 to 48$"),
         ("a" * 49, "has 49 characters; it must have 2 to 48$"),
         ("class", "'class' is a keyword of Python; choose another one$"),
         ("test", "'test' is the name of a CMake target; choose another one$"),

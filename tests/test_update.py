@@ -118,6 +118,23 @@ def test_a_conflict_is_marked_and_told(
         '"""Tell the next message and publish it."""',
         ">>>>>>> template now",
     ]
+    marked = node.read_text()
+    assert main(["update", "talker", "--content", str(team)]) == 2
+    assert "has a conflict that an earlier update has marked" in capsys.readouterr().err
+    assert node.read_text() == marked
+
+
+def test_a_template_of_a_team_that_is_not_named(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record = package / provenance.NAME
+    record.write_text(record.read_text().replace('"publisher"', '"beacon"'))
+    for command in (["update", "talker"], ["add", "timer", "x", "--package-directory", "talker"]):
+        assert main(command) == 2
+        assert capsys.readouterr().err == (
+            "ros2-scaffold: error: talker/.ros2-scaffold.json: made with the template 'beacon', "
+            "which is not known here; --content names the directory with the templates of a team\n"
+        )
 
 
 @pytest.mark.parametrize("flag", ["--dry-run", "--diff"])

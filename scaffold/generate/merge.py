@@ -11,6 +11,8 @@ from scaffold.errors import InputError
 
 LABELS = ("yours", "template before", "template now")
 """What stands behind the marks of a conflict."""
+MARKS = (f"<<<<<<< {LABELS[0]}", f">>>>>>> {LABELS[2]}")
+"""The lines around a conflict."""
 _FAILED = 128
 """The least exit code of ``git merge-file`` that is no number of conflicts."""
 

@@ -115,7 +115,7 @@ def _check_form(text: str, what: str, *, at_least: int = 1) -> None:
         return
     if not at_least <= len(text) <= MAX_LENGTH:
         raise InputError(
-            f"the {what} {_shortened(text)!r} has {len(text)} characters; "
+            f"the {what} {_shortened(text)!r} has {len(text)} character{'s' * (len(text) != 1)}; "
             f"it must have {at_least} to {MAX_LENGTH}"
         )
     better = _repaired(text)

@@ -9,7 +9,7 @@ from scaffold.errors import InputError
 from scaffold.generate import draft, questions
 from scaffold.generate.defaults import User
 from scaffold.generate.draft import Draft
-from scaffold.generate.merge import merge
+from scaffold.generate.merge import MARKS, merge
 from scaffold.generate.parts import ADD, KIND
 from scaffold.generate.provenance import NAME, Provenance, parse
 from scaffold.generate.questions import Given
@@ -55,6 +55,7 @@ def update(
     remarks: list[str] = []
     given = recorded(provenance, templates, where, remarks)
     made = draft.draft(roots, templates, given, user, provenance.date)
+    _refuse_undecided(tree, where, made)
     files, conflicts = _merged(tree, provenance, made, remarks)
     if provenance.rendered != made.rendered.files:
         files[NAME] = Provenance.of(made).text().encode()
@@ -91,20 +92,35 @@ def recorded(
             given[name] = Given(value, f"{origin}: {name}")
         else:
             remarks.append(f"the templates no longer ask for {name}")
-    parts = [_known_part(part, templates, remarks) for part in provenance.answers.get(ADD, ())]
+    parts = [
+        _known_part(part, templates, origin, remarks) for part in provenance.answers.get(ADD, ())
+    ]
     given[ADD] = Given(parts, f"{origin}: {ADD}")
     return given
 
 
 def _known_part(
-    part: Mapping[str, object], templates: Mapping[str, Template], remarks: list[str]
+    part: Mapping[str, object], templates: Mapping[str, Template], origin: str, remarks: list[str]
 ) -> dict[str, object]:
     template = templates.get(str(part.get(KIND)))
     if template is None:
-        return dict(part)
+        raise InputError(
+            f"{origin}: made with the template {part.get(KIND)!r}, which is not known here; "
+            "--content names the directory with the templates of a team"
+        )
     known = {KIND, *(question.name for question in template.questions)}
     remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in known]
     return {name: value for name, value in part.items() if name in known}
+
+
+def _refuse_undecided(tree: Tree, where: str, made: Draft) -> None:
+    """Raise if an earlier merge left something to decide: another one would garble it."""
+    for path in sorted(set(tree.files) & set(made.rendered.files)):
+        if all(mark.encode() in tree.read(path) for mark in MARKS):
+            raise InputError(
+                f"{where}/{path}: has a conflict that an earlier update has marked; "
+                "decide it first; nothing was changed"
+            )
 
 
 def _merged(
