@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
+from scaffold.model.cmake import Argument
 from scaffold.model.known import similar_package
 
 _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
@@ -13,7 +14,8 @@ _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 class FindMisspelt(Rule):
     """``find_package`` looks for a name that is a well-known package with a letter wrong.
 
-    **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``.
+    **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``; after
+    ``ament_export_dependencies``, in every package that finds this one.
 
     **Fix.** Write the name as the package spells it.
 
@@ -30,22 +32,43 @@ class FindMisspelt(Rule):
             at=("CMakeLists.txt:2",),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
         ),
+        Example(
+            "in what others find because of this package",
+            {
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "ament_export_dependencies(std_msgs std_msg)\n"
+            },
+            at=("CMakeLists.txt:3",),
+            fixed={
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "ament_export_dependencies(std_msgs std_msgs)\n"
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for found in package.cmake.found_packages:
-            meant = similar_package(found.name)
-            if meant is None or (meant == found.name.lower() and not _is_of_ros(meant)):
-                continue
-            if package.workspace.get(found.name) is not None:
-                continue
-            argument = found.command.arguments[0]
-            fix = None
-            if argument.value == found.name:
-                edit = Edit("CMakeLists.txt", argument.start, argument.end, meant)
-                fix = Fix(f"write {meant}", (edit,))
-            message = f"no package {found.name!r} is known; {meant!r} is meant"
-            yield self.report(found, message, fix)
+            yield from self._judge(package, found.name, found.command.arguments[0], found.location)
+        found_names = {found.name for found in package.cmake.found_packages}
+        for command in package.cmake.find("ament_export_dependencies"):
+            for argument in command.arguments:
+                name = argument.value
+                if name not in found_names and "$" not in name:
+                    yield from self._judge(package, name, argument, argument.location)
+
+    def _judge(
+        self, package: Package, name: str, argument: Argument, at: Location
+    ) -> Iterator[Diagnostic]:
+        meant = similar_package(name)
+        if meant is None or (meant == name.lower() and not _is_of_ros(meant)):
+            return
+        if package.workspace.get(name) is not None:
+            return
+        fix = None
+        if argument.value == name:
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, meant)
+            fix = Fix(f"write {meant}", (edit,))
+        yield self.report(at, f"no package {name!r} is known; {meant!r} is meant", fix)
 
 
 def _is_of_ros(name: str) -> bool:
