@@ -38,6 +38,14 @@ class DescriptionIncomplete(Rule):
     examples = (
         Example("complete", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
         Example(
+            "add_action of a class of one's own",
+            {
+                "launch/a.launch.py": _LAUNCH.format(*_RIGHT)
+                + "\n\nclass Launcher:\n    def node(self, made):\n"
+                "        return self.add_action(made)\n"
+            },
+        ),
+        Example(
             "an argument, no program, an action that is not added",
             {
                 "launch/a.launch.py": _LAUNCH.format(
@@ -72,6 +80,10 @@ class DescriptionIncomplete(Rule):
                 if problem:
                     yield self.report(call, problem)
             for statement in launch.module.walk(ast.Return):
+                if function is None or (
+                    launch.module.enclosing_function(statement) is not function.node
+                ):
+                    continue
                 match statement.value:
                     case ast.Call(func=ast.Attribute(attr="add_action" | "add_entity")):
                         message = "add_action() returns nothing: return the LaunchDescription"

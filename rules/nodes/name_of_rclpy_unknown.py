@@ -31,6 +31,13 @@ class NameOfRclpyUnknown(Rule):
     examples = (
         Example("known names", {"talker.py": _RIGHT}),
         Example(
+            "for readers alone",
+            {
+                "talker.py": "from __future__ import annotations\n\nimport rclpy\n\n\n"
+                "def name_of(node: rclpy.Node) -> str:\n    return node.get_name()\n"
+            },
+        ),
+        Example(
             "a module and an import",
             {"talker.py": "from rclpy.nodes import Node\nfrom rclpy.qos import Reliability\n"},
             at=("talker.py:1", "talker.py:2"),

@@ -46,6 +46,22 @@ class ImportUndeclared(Rule):
                 "talker/__init__.py": "",
                 "talker/a.py": "import rclpy\n",
                 "scripts/draw.py": "import matplotlib\n",
+                "test/examples/draw.py": "import matplotlib\n",
+                "tools/__init__.py": "",
+                "tools/draw.py": "import matplotlib\n",
+                "tools/requirements.txt": "matplotlib\n",
+            },
+        ),
+        Example(
+            "what CMake has for tests alone is a dependency of tests",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <test_depend>rclpy</test_depend>\n"
+                "</package>\n",
+                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+                "  add_subdirectory(src/system)\nendif()\n",
+                "src/system/talk.py": "import rclpy\n",
             },
         ),
         Example(

@@ -19,7 +19,7 @@ def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
     """
     child = node
     for parent in module.parents(node):
-        if child in module.passed_over:
+        if child in module.passed_over or _is_never_evaluated(module, child, parent):
             return True
         if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
             for handler in parent.handlers:
@@ -29,6 +29,21 @@ def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
             return False
         child = parent
     return False
+
+
+def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
+    """Tell whether a node is an annotation in a file where those stay text."""
+    match parent:
+        case ast.arg(annotation=written) | ast.AnnAssign(annotation=written):
+            is_annotation = written is node
+        case ast.FunctionDef(returns=written) | ast.AsyncFunctionDef(returns=written):
+            is_annotation = written is node
+        case _:
+            return False
+    return is_annotation and any(
+        one.module == "__future__" and any(name.name == "annotations" for name in one.names)
+        for one in module.imports
+    )
 
 
 def is_asked_about(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:

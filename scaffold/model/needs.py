@@ -54,8 +54,9 @@ def needs(package: Package) -> list[Need]:
             if not keys:
                 continue
             known = found.get(one.root)
-            if known is None or (known.for_tests and not module.in_tests):
-                found[one.root] = Need(keys, one.root, one.location, module.in_tests)
+            for_tests = module.in_tests or _is_named_for_tests(package, module.path)
+            if known is None or (known.for_tests and not for_tests):
+                found[one.root] = Need(keys, one.root, one.location, for_tests)
     return sorted(found.values(), key=lambda need: need.location)
 
 
@@ -95,9 +96,13 @@ def is_shipped(package: Package, module: PythonModule) -> bool:
     path = module.path
     if path.startswith(_NOT_SHIPPED) or path.endswith("/setup.py"):
         return False
-    if module.in_tests or path.endswith("launch.py") or not path.endswith(".py"):
+    if path.endswith("launch.py") or not path.endswith(".py"):
         return True
     directory, _, name = path.rpartition("/")
+    if module.in_tests and (_is_collected(name) or _is_imported_by_tests(package, name)):
+        return True
+    if directory and package.has(f"{directory}/requirements.txt"):
+        return False  # a tool for itself
     if directory and package.has(f"{directory}/__init__.py"):
         # "talker copy" is no package: nothing can import it.
         return directory.replace("/", "").replace("-", "").isidentifier()
@@ -107,6 +112,31 @@ def is_shipped(package: Package, module: PythonModule) -> bool:
         name in text or (directory and re.search(whole, text) is not None)
         for text in _builds(package)
     )
+
+
+def _is_collected(name: str) -> bool:
+    """Tell whether pytest, or launch_testing, runs a file of its own accord."""
+    return name.startswith("test_") or name.endswith(("_test.py", ".test.py")) or "conftest" in name
+
+
+def _is_imported_by_tests(package: Package, name: str) -> bool:
+    def find() -> set[str]:
+        imports = [one for module in package.modules() if module.in_tests for one in module.imports]
+        words = {part for one in imports for part in one.module.split(".")}
+        return words | {name.name for one in imports for name in one.names}
+
+    stem = name.removesuffix(".py")
+    return stem in package.remember("imported_by_tests", find)
+
+
+def _is_named_for_tests(package: Package, path: str) -> bool:
+    """Tell whether CMake has to do with a file, or its directory, for tests alone."""
+    if not package.has("CMakeLists.txt"):
+        return False
+    names = {path, path.rpartition("/")[2], path.rpartition("/")[0]} - {""}
+    cmake = package.cmake
+    using = [one for one in cmake.commands if not names.isdisjoint(one.values)]
+    return bool(using) and all(cmake.guarded_by_testing(one) for one in using)
 
 
 def _builds(package: Package) -> Iterator[str]:
