@@ -16,6 +16,11 @@ _TWICE = "  <{0}>std_msgs</{0}>\n  <{0}>std_msgs</{0}>\n"
 _CMAKE = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 _GENERATED = _CMAKE.format("rosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n")
 _BEATS = {"CMakeLists.txt": _GENERATED, "msg/Beat.msg": "int32 a\n", "msg/Old.msg": "int32 a\n"}
+_BUILD = (
+    "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n"
+    "  <member_of_group>rosidl_interface_packages</member_of_group>\n"
+)
+_STD = "  <depend>std_msgs</depend>\n"
 _FORGOTTEN = {"CMakeLists.txt": _CMAKE.format(""), "config/talker.yaml": ""}
 _PYTHON = "  <export><build_type>ament_python</build_type></export>\n"
 _UNLISTED = {
@@ -34,6 +39,8 @@ _UNLISTED = {
         ("PX067", {"package.xml": _NAMED.format("the-talker", "")}, WARNING),
         ("PX067", {"package.xml": _NAMED.format("the-msgs", ""), "msg/Beat.msg": ""}, ERROR),
         ("CM060", {**_BEATS, "talker.py": "from talker.msg import Old\n"}, ERROR),
+        ("PX040", {**_BEATS, "package.xml": _NAMED.format("talker", _BUILD)}, ERROR),
+        ("PX040", {**_BEATS, "package.xml": _NAMED.format("talker", _BUILD + _STD)}, WARNING),
         ("CM060", {**_BEATS, "talker.py": "from other.msg import Old\n"}, WARNING),
         ("CM060", _BEATS, WARNING),
         ("CM018", {**_FORGOTTEN, "launch.py": "path = 'talker.yaml'\n"}, ERROR),

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
 from scaffold.model.cmake_interfaces import generations, is_interface_package
 from scaffold.model.manifest import Manifest
 
 GROUP = "rosidl_interface_packages"
 _GENERATORS = ("rosidl_default_generators", "rosidl_core_generators")
+_KINDS = ("_msgs", "_srvs", "_interfaces")
+"""Ends of the names of packages with interfaces."""
 _RUNTIMES = ("rosidl_default_runtime", "rosidl_core_runtime")
 _CMAKE = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 _FILES = {"CMakeLists.txt": _CMAKE, "msg/Beat.msg": "int32 count\n"}
@@ -27,7 +29,8 @@ class InterfaceDeclarationsMissing(Rule):
 
     **Why.** Without the group CMake stops: ``Packages installing interfaces must include
     '<member_of_group>rosidl_interface_packages</member_of_group>'``. Without the dependencies it
-    builds on the machine of its author only.
+    builds on the machine of its author only. A warning where other packages of interfaces bring
+    what is needed for running.
 
     **Fix.** Declare ``rosidl_default_generators`` for the build, ``rosidl_default_runtime`` for
     running, and the group.
@@ -74,7 +77,9 @@ class InterfaceDeclarationsMissing(Rule):
             changes = [manifest.insert(tag, text)]
             changes += _format_3(manifest) if tag == "member_of_group" else []
             fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))
-            yield self.report(last.name_location, message, fix)
+            found = self.report(last.name_location, message, fix)
+            is_there = text in _RUNTIMES and any(n.endswith(_KINDS) for n in manifest.run_names)
+            yield found._replace(severity=Severity.WARNING) if is_there else found
 
 
 def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, str]]:
