@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
@@ -44,6 +45,15 @@ class ShutdownUnhandled(Rule):
         ),
         Example("none is caught", {"talker.py": _IMPORTS + _BARE}, at=("talker.py:8",)),
         Example(
+            "Ctrl-C has a handler of its own, and SIGTERM is caught",
+            {
+                "talker.py": f"import signal\n{_IMPORTS}"
+                + _HANDLED.format("ExternalShutdownException").replace(
+                    "    try", "    signal.signal(signal.SIGINT, lambda *_: 0)\n    try"
+                )
+            },
+        ),
+        Example(
             "SIGTERM is forgotten",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
             at=("talker.py:9",),
@@ -57,7 +67,7 @@ class ShutdownUnhandled(Rule):
             for call in facts.spin_calls:
                 if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
                     continue
-                missing = self._missing(call)
+                missing = self._missing(facts, call)
                 if missing:
                     yield self.report(call, f"nothing catches {missing}")
 
@@ -65,12 +75,21 @@ class ShutdownUnhandled(Rule):
         """Tell whether another function than that of ``rclpy.init`` spins: it may be a thread."""
         return all(init.function is not call.function for init in facts.init_calls)
 
-    def _missing(self, call: RclpyCall) -> str:
+    def _missing(self, facts: NodeFacts, call: RclpyCall) -> str:
         caught = call.handlers | call.outer_handlers
         problems: list[str] = []
-        if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}):
+        if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(facts):
             problems.append("KeyboardInterrupt (Ctrl-C)")
         names = {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
         if caught.isdisjoint(names) and not call.asks_ok:
             problems.append("ExternalShutdownException (SIGTERM)")
         return " and ".join(problems)
+
+
+def _handles_int(facts: NodeFacts) -> bool:
+    """Tell whether Ctrl-C calls a function of the file instead of raising an exception."""
+    name = facts.module.qualified_name
+    return any(
+        call.args and name(call.func) == "signal.signal" and name(call.args[0]) == "signal.SIGINT"
+        for call in facts.module.walk(ast.Call)
+    )
