@@ -1,4 +1,4 @@
-"""LY044: fixtures exist, give something, and are asked for as arguments."""
+"""LY044: fixtures that tests ask for exist, give something, and are not called."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from scaffold.model.test_files import (
     test_modules,
 )
 
-_SCOPES = ("function", "class", "module", "package", "session")
 _BUILT_IN = frozenset(
     {"cache", "capsys", "capsysbinary", "capfd", "capfdbinary", "caplog", "doctest_namespace"}
     | {"monkeypatch", "pytestconfig", "pytester", "record_property", "record_testsuite_property"}
@@ -31,10 +30,10 @@ _TEST = (
 
 
 class FixtureMisused(Rule):
-    """A fixture is called, gives nothing, has another name, or a scope that pytest refuses.
+    """A test calls a fixture, asks for one of another name, or uses one that gives nothing.
 
     **Why.** The test ends in an error: ``Fixture "text" called directly``, ``fixture 'txt' not
-    found``, ``'NoneType' object has no attribute ...``, ``ScopeMismatch``.
+    found``, ``'NoneType' object has no attribute ...``.
 
     **Fix.** Take the fixture as an argument of the test, under its name; ``return`` or ``yield``
     what the test needs.
@@ -61,28 +60,12 @@ class FixtureMisused(Rule):
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
             at=("test/test_text.py:10",),
         ),
-        Example(
-            "a scope that does not exist",
-            {
-                "test/test_text.py": _TEST.format("return 'a'", "text", "text").replace(
-                    "fixture\n", "fixture(scope='modul')\n"
-                )
-            },
-            at=("test/test_text.py:4",),
-        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for module in package.modules():
             if not module.in_tests or "pytest" not in module.imports_by_root:
                 continue
-            known = fixtures(package, module)
-            for fixture in own_fixtures(module):
-                for decorator in fixture.node.decorator_list:
-                    problem = _scope_problem(fixture, known)
-                    if problem:
-                        yield self.report(module.location(decorator), problem)
-                        break
             for call in module.walk(ast.Call):
                 name = _called(module, call)
                 if name:
@@ -134,23 +117,3 @@ def _called(module: PythonModule, call: ast.Call) -> str:
 def _gives_nothing(fixture: Fixture) -> bool:
     gives = (ast.Return, ast.Yield, ast.YieldFrom)
     return not any(isinstance(node, gives) and node.value for node in ast.walk(fixture.node))
-
-
-def _yields(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Yield)
-
-
-def _scope_problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
-    if not fixture.scope:
-        return ""
-    if fixture.scope not in _SCOPES:
-        return f"there is no scope {fixture.scope!r}, but {', '.join(_SCOPES)}"
-    if sum(map(_yields, fixture.node.body)) > 1:
-        return f"the fixture {fixture.name} yields twice: pytest takes one value"
-    for name in arguments(fixture.node):
-        inner = known.get(name)
-        if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:
-            continue
-        if _SCOPES.index(inner.scope) < _SCOPES.index(fixture.scope):
-            return f"the scope is {fixture.scope!r}, and it takes {name} of scope {inner.scope!r}"
-    return ""
