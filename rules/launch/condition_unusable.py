@@ -77,7 +77,8 @@ class ConditionUnusable(Rule):
                     yield self.report(launch.location(node), problem)
             for call in launch.calls:
                 listed = call.given.get("condition")
-                if isinstance(listed, ast.List | ast.Tuple):
+                is_value = call.kind == "IfElseSubstitution"
+                if isinstance(listed, ast.List | ast.Tuple) and not is_value:
                     message = "a condition is one object such as IfCondition(...), not a list"
                     yield self.report(launch.location(listed), message)
             for call in launch.find("PythonExpression"):

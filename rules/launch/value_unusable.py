@@ -20,6 +20,11 @@ _LAUNCH = (
     "    ])\n"
 )
 _RIGHT = _LAUNCH.format("'2.0'", "[('a', 'b')]", "['--rate', '3']")
+_CHOICE = (
+    "from launch.substitutions import IfElseSubstitution, LaunchConfiguration\n\n\n"
+    "def generate_launch_description():\n"
+    "    return IfElseSubstitution(LaunchConfiguration('a', default=''), 'b', 'c')\n"
+)
 
 
 class ValueUnusable(Rule):
@@ -38,7 +43,7 @@ class ValueUnusable(Rule):
     code = "LF040"
     name = "value-unusable"
     examples = (
-        Example("usable", {"launch/a.launch.py": _RIGHT}),
+        Example("usable", {"launch/a.launch.py": _RIGHT, "launch/b.launch.py": _CHOICE}),
         Example(
             "a number, a dictionary, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "{'a': 'b'}", "['--rate', 3]")},
@@ -62,7 +67,7 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
     if call.kind == "DeclareLaunchArgument" and name == "default_value":
         is_wrong = type(value) in {int, float, bool}
         problem = f"a default is text, and this is {kind}: write {str(value)!r}" if is_wrong else ""
-    elif name == "condition":
+    elif name == "condition" and call.kind != "IfElseSubstitution":
         problem = _condition_problem(launch, node, value)
     elif call.kind not in NODES:
         return ""
