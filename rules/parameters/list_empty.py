@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.declared_parameters import declared_by
+from scaffold.model.declared_parameters import declared_by, place_of
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import ParameterRead
 from scaffold.model.node_owners import NodeClass, NodeOwner
@@ -65,10 +65,9 @@ class ListEmpty(Rule):
                         read = _read(owner, entry.name)
                         if read is None or not declared_by(owner, package).types.get(entry.name):
                             continue
-                        at = read.location
                         message = (
-                            f"an empty list is no value: {at.path}:{at.line} reads {entry.name}, "
-                            "ParameterUninitializedException"
+                            f"an empty list is no value: {place_of(read, package)} reads "
+                            f"{entry.name}, ParameterUninitializedException"
                         )
                         yield self.report(entry.value, message)
                         break

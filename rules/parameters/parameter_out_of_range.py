@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.declared_parameters import Declared, declared_by
+from scaffold.model.declared_parameters import Declared, declared_by, place_of
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_values import value_given
 from scaffold.model.parameter_files import number_of, parameter_file, parameter_paths
@@ -56,7 +56,7 @@ class ParameterOutOfRange(Rule):
             for section in file.sections if file else ():
                 known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
                 for entry in section.entries:
-                    message = _message(known, entry.name, number_of(entry.value))
+                    message = _message(package, known, entry.name, number_of(entry.value))
                     if message:
                         yield self.report(entry.value, message)
         for node in started_nodes(package):
@@ -64,12 +64,12 @@ class ParameterOutOfRange(Rule):
             for name, _, given in node.parameter_dicts if owner is not None else ():
                 found = value_given(node.launch, given)
                 if owner is not None and found is not None and found.number is not None:
-                    message = _message([declared_by(owner, package)], name, found.number)
+                    message = _message(package, [declared_by(owner, package)], name, found.number)
                     if message:
                         yield self.report(node.launch.location(given), message)
 
 
-def _message(known: list[Declared], name: str, value: float | None) -> str:
+def _message(package: Package, known: list[Declared], name: str, value: float | None) -> str:
     """Return what is wrong about a value, by the descriptor of the nodes that get it."""
     kind = "integer" if isinstance(value, int) else "double"
     for one in known if value is not None else ():
@@ -79,7 +79,6 @@ def _message(known: list[Declared], name: str, value: float | None) -> str:
             continue
         for limits in descriptor.ranges:
             if value is not None and limits.type == kind and not limits.allows(value):
-                at = place.location
-                where = f"{name} ({at.path}:{at.line})"
+                where = f"{name} ({place_of(place, package)})"
                 return f"{where} is in the range {limits.text}, and {value} is not: the node dies"
     return ""

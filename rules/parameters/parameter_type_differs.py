@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
-from scaffold.model.declared_parameters import ALWAYS, Declared, declared_by
+from scaffold.model.declared_parameters import ALWAYS, Declared, declared_by, home_of, place_of
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_values import value_given
 from scaffold.model.node_entities import Parameter
@@ -20,6 +20,15 @@ _NODE = (
     "        self.declare_parameter('mode', 'slow')\n"
 )
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n    mode: {}\n"
+_MANIFEST = (
+    "<package><name>{}</name><export><build_type>ament_python</build_type></export></package>\n"
+)
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='demo', executable='talk', parameters=[\n"
+    "            {'rate': 2, 'mode': 'fast'}]),\n    ])\n"
+)
 
 
 class ParameterTypeDiffers(Rule):
@@ -53,6 +62,19 @@ class ParameterTypeDiffers(Rule):
             at=("a.yaml:3",),
         ),
         Example(
+            "for a node of another package of the workspace",
+            {"package.xml": _MANIFEST.format("demo_bringup"), "launch/demo.launch.py": _LAUNCH},
+            neighbours={
+                "demo": {
+                    "package.xml": _MANIFEST.format("demo"),
+                    "setup.py": "from setuptools import setup\n\nsetup(entry_points={\n"
+                    "    'console_scripts': ['talk = demo.talker:main']})\n",
+                    "demo/talker.py": _NODE,
+                }
+            },
+            at=("launch/demo.launch.py:8",),
+        ),
+        Example(
             "a text for what every node has",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
             at=("a.yaml:3",),
@@ -65,13 +87,13 @@ class ParameterTypeDiffers(Rule):
             for section in file.sections if file else ():
                 known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
                 for entry in section.entries:
-                    kind, where = _declared(known, entry.name)
+                    kind, where = _declared(package, known, entry.name)
                     if entry.name in ALWAYS:
                         kind, where = "bool", f"{entry.name}, which every node has,"
                     given = value_type(entry.value)
                     if not kind or not given or given == kind:
                         continue
-                    default = _narrow_default(known, entry.name, given)
+                    default = _narrow_default(package, known, entry.name, given)
                     if default is not None:
                         at = entry.value.location
                         message = (
@@ -89,7 +111,7 @@ class ParameterTypeDiffers(Rule):
             owner = node.owner
             declared = declared_by(owner, package) if owner is not None else None
             for name, _, value in node.parameter_dicts:
-                kind, where = _declared([declared] if declared else [], name)
+                kind, where = _declared(package, [declared] if declared else [], name)
                 if name in ALWAYS:
                     kind, where = "bool", f"{name}, which every node has,"
                 given = value_given(node.launch, value)
@@ -100,17 +122,18 @@ class ParameterTypeDiffers(Rule):
                     yield self.report(node.launch.location(value), message)
 
 
-def _declared(known: list[Declared], name: str) -> tuple[str | None, str]:
+def _declared(package: Package, known: list[Declared], name: str) -> tuple[str | None, str]:
     """Return the type that all nodes agree on, and the name with where it is declared."""
     nodes = [one for one in known if name in one.types]
     types = {one.types[name] for one in nodes}
     if len(types) != 1:
         return None, name
-    at = nodes[0].places[name].location
-    return types.pop(), f"{name} ({at.path}:{at.line})"
+    return types.pop(), f"{name} ({place_of(nodes[0].places[name], package)})"
 
 
-def _narrow_default(known: list[Declared], name: str, given: str) -> Parameter | None:
+def _narrow_default(
+    package: Package, known: list[Declared], name: str, given: str
+) -> Parameter | None:
     """Return the parameter whose default, not the file, has a type that nobody means.
 
     Such as ``1`` for a period, or a number in quotes.
@@ -118,6 +141,9 @@ def _narrow_default(known: list[Declared], name: str, given: str) -> Parameter |
     for one in known:
         parameter = one.places.get(name)
         default = parameter.default if parameter else None
+        owner = parameter.owner if parameter else None
+        if owner is None or home_of(owner, package) is not package:
+            continue  # of another package, which is judged by itself
         if given == "double" and (type(default) is int or _is_number(default)):
             return parameter
         if given == "integer" and _is_number(default):

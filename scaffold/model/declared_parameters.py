@@ -10,7 +10,7 @@ from scaffold.model.node_owners import NodeClass, NodeOwner
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.node_entities import Parameter
+    from scaffold.model.node_entities import Entity, Parameter
     from scaffold.model.nodes import NodeFacts
     from scaffold.model.package import Package
 
@@ -44,6 +44,7 @@ def has_always(name: str) -> bool:
 
 def declared_by(owner: NodeOwner, package: Package) -> Declared:
     """Return what a node declares: in its class, in base classes, and where it is made."""
+    package = home_of(owner, package)
     types: dict[str, str | None] = {}
     places: dict[str, Parameter] = {}
     complete = True
@@ -63,6 +64,21 @@ def declared_by(owner: NodeOwner, package: Package) -> Declared:
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
+
+
+def home_of(owner: NodeOwner, package: Package) -> Package:
+    """Return the package that the code of a node is in; it may be another one."""
+    from scaffold.model.package import Package as _Package  # which imports what this imports
+
+    modules = owner.facts.modules
+    return modules if isinstance(modules, _Package) else package
+
+
+def place_of(created: Entity, package: Package) -> str:
+    """Return where a parameter is declared or read, for people who look at a package."""
+    at, owner = created.location, created.owner
+    home = home_of(owner, package) if owner is not None else package
+    return f"{at.path}:{at.line}" + (f" of {home.name}" if home is not package else "")
 
 
 def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter]]]:

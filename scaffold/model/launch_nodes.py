@@ -33,18 +33,24 @@ class StartedNode:
 
     @property
     def owner(self) -> NodeOwner | None:
-        """The code of the node, when it is Python of the same package."""
-        if self.package != self._own.name or not isinstance(self.executable, str):
+        """The code of the node, when it is Python of this package or one of the workspace."""
+        if not isinstance(self.executable, str) or not isinstance(self.package, str):
             return None
-        found = nodes_of(self._own, self.executable)
+        own = self._own
+        home = own if self.package == own.name else own.workspace.get(self.package)
+        found = nodes_of(home, self.executable) if home is not None else []
         return found[0] if len(found) == 1 else None
+
+    @property
+    def _own_code(self) -> NodeOwner | None:
+        return self.owner if self.package == self._own.name else None
 
     @property
     def name(self) -> str | Unknown:
         """The name as given, or as the code of the node gives it."""
         if self._given_name is not None:
             return self._given_name
-        owner = self.owner
+        owner = self._own_code
         return owner.node_name if owner is not None else UNKNOWN
 
     @property
@@ -53,7 +59,7 @@ class StartedNode:
         if not isinstance(self.name, str) or self.namespace is UNKNOWN:
             return None
         namespace = (self.namespace or "").strip("/")
-        owner = self.owner
+        owner = self._own_code
         if self.namespace is None and owner is not None and owner.namespace is not None:
             return None
         return f"/{namespace}/{self.name}" if namespace else f"/{self.name}"

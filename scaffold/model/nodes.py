@@ -63,7 +63,8 @@ class NodeFacts:
 
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
         self.module = module
-        self._modules = modules
+        self.modules = modules
+        """Where other files come from: the package."""
         self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
@@ -159,12 +160,12 @@ class NodeFacts:
 
     def _facts_of(self, module: str) -> NodeFacts | None:
         """Return the facts of another module of the package."""
-        if self._modules is None or not module:
+        if self.modules is None or not module:
             return None
         for path in _module_paths(self.module.path, module):
-            if path != self.module.path and self._modules.has(path):
+            if path != self.module.path and self.modules.has(path):
                 try:
-                    return self._modules.node_facts(path)
+                    return self.modules.node_facts(path)
                 except ViewError:
                     return None
         return None
