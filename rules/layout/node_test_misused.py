@@ -1,4 +1,4 @@
-"""LY049: tests of nodes initialize rclpy, spin, and end."""
+"""LY049: tests of nodes initialize rclpy, and spin."""
 
 from __future__ import annotations
 
@@ -7,22 +7,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.python_module import PythonModule
-from scaffold.model.test_files import LAUNCH, TestFunction, arguments, test_functions, test_modules
+from scaffold.model.test_files import TestFunction, arguments, made_name, node_tests, test_functions
 
-_SPINS = frozenset({"rclpy.spin"})
-_WAYS_OUT = (
-    *(
-        "Thread(",
-        "threading",
-        "Timer",
-        "timer",
-        "multiprocessing",
-        "concurrent",
-        "signal",
-        "timeout",
-    ),
-    *("shutdown_callback", "on_shutdown", "sys.exit", "subprocess", "raise "),
-)
 _TEST = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "def test_node():\n    {}\n    node = Node('node')\n    got = []\n"
@@ -31,11 +17,10 @@ _TEST = (
 
 
 class NodeTestMisused(Rule):
-    """A test makes a node without rclpy.init(), waits for messages without spinning, or never ends.
+    """A test makes a node without rclpy.init(), or waits for messages without spinning.
 
     **Why.** ``NotInitializedException: rclpy.init() has not been called``; ``Context.init() must
-    only be called once`` in the second test; no callback is ever called; ``rclpy.spin`` in a test
-    returns only when somebody shuts down, so ``colcon test`` hangs.
+    only be called once`` in the second test; no callback is ever called.
 
     **Fix.** A fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; ``spin_once`` with
     ``timeout_sec`` until a deadline.
@@ -60,11 +45,6 @@ class NodeTestMisused(Rule):
             at=("test/test_node.py:8", "test/test_node.py:10"),
         ),
         Example(
-            "never ends",
-            {"test/test_node.py": _TEST.format("rclpy.init()", "rclpy.spin(node)")},
-            at=("test/test_node.py:11",),
-        ),
-        Example(
             "initialized again",
             {
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
@@ -75,13 +55,7 @@ class NodeTestMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        around = [one for one in package.modules() if one.path.endswith("conftest.py")]
-        for module in test_modules(package):
-            if "rclpy" not in module.imports_by_root or LAUNCH in module.functions:
-                continue
-            if module.has_main_guard or "launch_pytest" in module.imports_by_root:
-                continue
-            texts = "\n".join(one.source.text for one in [module, *around])
+        for module, texts in node_tests(package):
             seen: list[ast.Call] = []
             for test in test_functions(module):
                 for node in ast.walk(test.node):
@@ -109,20 +83,7 @@ def _problem(
         is_node = own and _is_made_here(module, call.func.value)
         if is_node and "spin" not in texts and _is_awaited(test, call):
             return "nothing spins in this test, so the callback is never called"
-    elif (name in _SPINS or _is_executor(module, call)) and not any(
-        word in texts for word in _WAYS_OUT
-    ):
-        is_last = "shutdown" not in _before(module, call)
-        if is_last and module.enclosing_function(call) is test.node:
-            return "nothing ends this: the test waits forever; use spin_once with timeout_sec"
     return ""
-
-
-def _before(module: PythonModule, call: ast.Call) -> str:
-    """Return the text of the file without the test that a call stands in."""
-    function = module.enclosing_function(call)
-    start, end = module.span(function) if function is not None else (0, 0)
-    return module.source.text[:start] + module.source.text[end:]
 
 
 def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
@@ -136,22 +97,4 @@ def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
 
 def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
     """Tell whether a name stands for a plain node that is made in the file."""
-    return _made(module, node) in {"rclpy.node.Node", "rclpy.create_node"}
-
-
-def _is_executor(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether this is ``spin()`` of an executor that is made in the file."""
-    match call.func:
-        case ast.Attribute(value=holder, attr="spin"):
-            return _made(module, holder).endswith("ThreadedExecutor")
-    return False
-
-
-def _made(module: PythonModule, node: ast.expr) -> str:
-    """Return the full name of what is called for the only value of a name."""
-    if not isinstance(node, ast.Name):
-        return ""
-    found = module.index.lookup(node.id, node)
-    values = [binding.value for binding in found[1]] if found else []
-    made = values[0] if len(values) == 1 else None
-    return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
+    return made_name(module, node) in {"rclpy.node.Node", "rclpy.create_node"}

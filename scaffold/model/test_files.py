@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 LAUNCH = "generate_test_description"
 """A file with this function is for launch_testing, which calls the tests in its own way."""
 
+_PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
+"""Words that stand for other ways to run tests."""
+
 
 class Fixture(NamedTuple):
     """A function that pytest calls for an argument of a test."""
@@ -130,3 +133,40 @@ def marks(
         name = module.qualified_name(node) or ""
         if name.startswith("pytest.mark."):
             yield name.removeprefix("pytest.mark."), decorator
+
+
+def has_other_ways(package: Package) -> bool:
+    """Tell whether plugins or settings of pytest may run what it does not run by itself."""
+    names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
+    texts = [package.source(name).text for name in names if package.has(name)]
+    texts += [module.source.text for module in package.modules() if module.in_tests]
+    return any(word in text for text in texts for word in _PLUGINS)
+
+
+def is_named_elsewhere(package: Package, name: str) -> bool:
+    """Tell whether a name stands anywhere else: in a call, an import, an argument, a text."""
+    count = sum(module.source.text.count(name) for module in package.modules())
+    return count > 1
+
+
+def made_name(module: PythonModule, node: ast.expr) -> str:
+    """Return the full name of what is called for the only value of a name."""
+    if not isinstance(node, ast.Name):
+        return ""
+    found = module.index.lookup(node.id, node)
+    values = [binding.value for binding in found[1]] if found else []
+    made = values[0] if len(values) == 1 else None
+    return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
+
+
+def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
+    """Yield the files with tests of nodes, and their text with that of the conftest.py files.
+
+    Tests with launch_testing, and files that run themselves, are left out.
+    """
+    around = [one for one in package.modules() if one.path.endswith("conftest.py")]
+    for module in test_modules(package):
+        if "rclpy" not in module.imports_by_root or LAUNCH in module.functions:
+            continue
+        if not module.has_main_guard and "launch_pytest" not in module.imports_by_root:
+            yield module, "\n".join(one.source.text for one in [module, *around])

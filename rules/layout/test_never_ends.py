@@ -1,0 +1,73 @@
+"""LY076: tests of nodes end."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.python_module import PythonModule
+from scaffold.model.test_files import made_name, node_tests, test_functions
+
+_WAYS_OUT = (
+    *("Thread(", "threading", "Timer", "timer", "multiprocessing", "concurrent", "signal"),
+    *("timeout", "shutdown_callback", "on_shutdown", "sys.exit", "subprocess", "raise "),
+)
+_TEST = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\ndef test_node():\n    rclpy.init()\n"
+    "    node = Node('node')\n    {}\n    assert node.get_name() == 'node'\n"
+)
+
+
+class TestNeverEnds(Rule):
+    """A test spins a node, and nothing ends that.
+
+    **Why.** ``rclpy.spin`` returns only when somebody shuts down, so ``colcon test`` hangs.
+
+    **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline.
+
+    **Source.** rclpy, ``__init__.py``, ``executors.py``.
+    """
+
+    code = "LY076"
+    name = "test-never-ends"
+    examples = (
+        Example(
+            "once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
+        ),
+        Example(
+            "for ever",
+            {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
+            at=("test/test_node.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            if any(word in texts for word in _WAYS_OUT):
+                continue
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    if not isinstance(node, ast.Call) or not _spins(module, node):
+                        continue
+                    is_own = module.enclosing_function(node) is test.node
+                    if is_own and "shutdown" not in _text_around(module, node):
+                        message = "nothing ends this: the test waits forever"
+                        at = module.location(node)
+                        yield self.report(at, f"{message}; use spin_once with timeout_sec")
+
+
+def _spins(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is ``rclpy.spin``, or ``spin`` of an executor made in the file."""
+    match call.func:
+        case ast.Attribute(value=holder, attr="spin"):
+            if made_name(module, holder).endswith("ThreadedExecutor"):
+                return True
+    return module.qualified_name(call.func) == "rclpy.spin"
+
+
+def _text_around(module: PythonModule, call: ast.Call) -> str:
+    """Return the text of the file without the test that a call stands in."""
+    function = module.enclosing_function(call)
+    start, end = module.span(function) if function is not None else (0, 0)
+    return module.source.text[:start] + module.source.text[end:]
