@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.interfaces import KINDS, Definitions, nearest_word
-from scaffold.model.message_types import MessageTypes
+from scaffold.model.message_types import MessageTypes, interfaces_named
 
 _MISSPELT = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
 _MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "actions": "action"}
@@ -76,26 +75,10 @@ class InterfaceUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for types in MessageTypes.of_package(package):
-            for at, owner, kind, name in _used(types):
+            for at, owner, kind, name in interfaces_named(types):
                 message = _flaw(types.definitions, owner, kind, name)
                 if message:
                     yield self.report(at, message)
-
-
-def _used(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
-    """Yield the interfaces that a file names: place, package, kind and name."""
-    module = types.module
-    for import_ in module.imports:
-        owner, _, kind = import_.module.partition(".")
-        if import_.level or import_.guarded or "." in kind:
-            continue
-        for imported in import_.names:
-            yield imported.location, owner, kind, imported.name
-    for node in module.walk(ast.Attribute):
-        parts = (module.qualified_name(node) or "").split(".")
-        match parts:
-            case [owner, kind, name] if kind in KINDS and not types.is_tolerated(node):
-                yield module.location(node), owner, kind, name
 
 
 def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:

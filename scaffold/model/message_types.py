@@ -17,6 +17,7 @@ from scaffold.model.package import Package
 from scaffold.model.rclpy_names import PARAMETER, class_of, future_given
 from scaffold.model.scopes import Binding
 from scaffold.model.self_values import Store
+from scaffold.model.source import Location
 from scaffold.record import NamedTuple
 
 PARTS = {
@@ -422,3 +423,19 @@ def _expects_error(node: ast.With | ast.Call) -> bool:
         isinstance(call, ast.Call) and not _RAISES.isdisjoint(_last_names(call.func))
         for call in calls
     )
+
+
+def interfaces_named(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
+    """Yield the interfaces that a file names: place, package, kind and name."""
+    module = types.module
+    for import_ in module.imports:
+        owner, _, kind = import_.module.partition(".")
+        if import_.level or import_.guarded or "." in kind:
+            continue
+        for imported in import_.names:
+            yield imported.location, owner, kind, imported.name
+    for node in module.walk(ast.Attribute):
+        parts = (module.qualified_name(node) or "").split(".")
+        match parts:
+            case [owner, kind, name] if kind in KINDS and not types.is_tolerated(node):
+                yield module.location(node), owner, kind, name
