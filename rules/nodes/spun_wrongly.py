@@ -52,6 +52,15 @@ class SpunWrongly(Rule):
             at=("talker.py:15",),
         ),
         Example(
+            "a class in an executor",
+            {
+                "talker.py": _NODE.format(
+                    _EXECUTOR.format("    executor.add_node(Talker)\n    executor.spin()\n")
+                )
+            },
+            at=("talker.py:16",),
+        ),
+        Example(
             "an executor without nodes",
             {"talker.py": _NODE.format(_EXECUTOR.format("    executor.spin()\n"))},
             at=("talker.py:16",),
@@ -79,6 +88,10 @@ class SpunWrongly(Rule):
 
     def _check_executors(self, facts: NodeFacts) -> Iterator[Diagnostic]:
         for call in facts.module.walk(ast.Call):
+            added = _added_class(facts, call)
+            if added:
+                message = f"this adds the class {added}: make a node of it, {added}()"
+                yield self.report(facts.module.location(call.args[0]), message)
             used = used_of_executor(facts, call)
             if used is None:
                 continue
@@ -90,6 +103,16 @@ class SpunWrongly(Rule):
             elif "add_node" in used and not is_spun and not facts.spin_calls:
                 message = "nothing spins this executor: the callbacks of its nodes never run"
                 yield self.report(facts.module.location(call), message)
+
+
+def _added_class(facts: NodeFacts, call: ast.Call) -> str:
+    """Return the class of nodes that is handed to ``add_node``, if it is no node."""
+    match call:
+        case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):
+            class_ = facts.evaluator.named_class(node)
+            if class_ is not None and facts.node_class(class_) is not None:
+                return class_.name
+    return ""
 
 
 def _problem(facts: NodeFacts, call: RclpyCall, shutdowns: Shutdowns) -> str:
