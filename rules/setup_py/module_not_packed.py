@@ -105,13 +105,10 @@ class ModuleNotPacked(Rule):
         """Yield directories in package_dir that are not there, and packages in py_modules."""
         directory = setup.keyword("package_dir")
         where = directory.value if directory is not None else None
-        for path in where.values() if isinstance(where, dict) else ():
-            path = path.removeprefix("./").rstrip("/") if isinstance(path, str) else ""
-            if (
-                path not in {"", "."}
-                and not path.startswith(("/", ".."))
-                and not (package.has_directory(path))
-            ):
+        for value in where.values() if isinstance(where, dict) else ():
+            path = value.removeprefix("./").rstrip("/") if isinstance(value, str) else ""
+            is_own = path not in {"", "."} and not path.startswith(("/", ".."))
+            if is_own and not package.has_directory(path):
                 message = f"package_dir names {path}/, which does not exist: nothing is installed"
                 yield self.report(directory or setup, message)
         single = setup.keyword("py_modules")
