@@ -131,10 +131,11 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 
 def _is_named_for_tests(package: Package, path: str) -> bool:
     """Tell whether CMake has to do with a file, or its directory, for tests alone."""
-    if not package.has("CMakeLists.txt"):
+    try:
+        cmake = package.cmake
+    except ViewError:
         return False
     names = {path, path.rpartition("/")[2], path.rpartition("/")[0]} - {""}
-    cmake = package.cmake
     using = [one for one in cmake.commands if not names.isdisjoint(one.values)]
     return bool(using) and all(cmake.guarded_by_testing(one) for one in using)
 
