@@ -77,7 +77,7 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
         case "DeclareLaunchArgument", "choices":
             return _choices_problem(launch, call, node)
         case "ExecuteProcess", "cmd":
-            return _command_problem(call, node)
+            return _command_problem(launch, call, node)
         case kind, "respawn" if kind in {*NODES, "ExecuteProcess"}:
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 return "respawn is a truth value, not a text: write True or False"
@@ -112,11 +112,13 @@ def _choices_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> st
     return ""
 
 
-def _command_problem(call: LaunchCall, node: ast.expr) -> str:
-    if "shell" in call.given or call.is_open:
+def _command_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
+    value = launch.evaluator.evaluate(node)
+    if isinstance(value, str) or isinstance(node, ast.JoinedStr):
+        return "launch goes through a text letter by letter: write a list of words"
+    if not isinstance(node, ast.List) or not node.elts or "shell" in call.given or call.is_open:
         return ""
-    listed = node.elts if isinstance(node, ast.List) else [node]
-    first = listed[0] if listed else None
+    first = node.elts[0]
     if isinstance(first, ast.Constant) and isinstance(first.value, str):
         text = first.value.strip()
         if " " in text and "\\ " not in text and not text.startswith(("/", "'", '"')):

@@ -29,8 +29,8 @@ _RIGHT = (
 class LaunchTestMisused(Rule):
     """A test with launch_testing never becomes ready, is not run with its launch, or has no tests.
 
-    **Why.** launch_testing stops: ``generate_test_description functions without a ready_fn argument
-    must return a LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs
+    **Why.** launch_testing stops: ``generate_test_description functions must return a
+    LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs
     the tests of an ament_python package, and starts none of the nodes. Classes that are no
     ``TestCase`` are not run at all.
 
