@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import pytest
 
+from scaffold import content
 from scaffold.check import registry, runner, selection, suppression
 from scaffold.check.diagnostic import Diagnostic, Edit
 from scaffold.check.fixer import splice
@@ -200,3 +201,16 @@ def test_unused_suppression_is_reported_where_it_stands() -> None:
 def test_splice() -> None:
     edits = [Edit("f", 4, 4, "X"), Edit("f", 0, 1, "")]
     assert splice("abcdef", edits) == "bcdXef"
+
+
+def test_a_rule_about_python_does_not_need_a_cmakelists_that_can_be_read() -> None:
+    (rule,) = (one for one in registry.load(content.roots("rules")) if one.code == "PX020")
+    package = Package.of(
+        {
+            "package.xml": "<package><name>talker</name></package>\n",
+            "CMakeLists.txt": "project(talker",
+            "talker/__init__.py": "import rclpy\n",
+        }
+    )
+    said = runner.check(package, [rule()])
+    assert [one.location.path for one in said if one.code == "PX020"] == ["package.xml"]

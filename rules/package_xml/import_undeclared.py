@@ -71,7 +71,6 @@ class ImportUndeclared(Rule):
                 "  <name>talker</name>\n"
                 "  <exec_depend>rclpy</exec_depend>\n"
                 "</package>\n",
-                "CMakeLists.txt": "project(talker",
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
                 "test/test_node.py": "import numpy\n",
