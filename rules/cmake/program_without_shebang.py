@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
-from scaffold.model.cmake_facts import is_only_imported, programs
+from scaffold.model.cmake_facts import is_only_imported, programs, runs_with_python
 
 SHEBANG = "#!/usr/bin/env python3"
 ENV_WORDS = 2
@@ -66,7 +66,7 @@ class ProgramWithoutShebang(Rule):
         for path in sorted({program.path for program in programs(package)}):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
-            if is_only_imported(package, path) or _is_given_to_python(package, path):
+            if is_only_imported(package, path) or runs_with_python(package, path):
                 continue
             source = package.editable(path)
             line = source.lines[0]
@@ -90,17 +90,6 @@ class ProgramWithoutShebang(Rule):
             fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
             is_crlf = what.startswith("CRLF")
             yield self.report(package.start_of(path), what, None if is_crlf else fix)
-
-
-def _is_given_to_python(package: Package, path: str) -> bool:
-    """Tell whether a file of CMake runs a script with the Python that CMake has found."""
-    name = path.rpartition("/")[2]
-    return any(
-        name in line and "python" in line.partition(name)[0].lower()
-        for file in package.files
-        if file.endswith((".cmake", ".cmake.in"))
-        for line in package.source(file).text.splitlines()
-    )
 
 
 def _starts_python(line: str) -> bool:

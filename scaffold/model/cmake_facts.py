@@ -173,4 +173,22 @@ def _is_entry_point(package: Package, path: str) -> bool:
     """Tell whether the setup.cfg of a package of CMake starts a function of a file."""
     entry = path.removesuffix(".py").replace("/", ".") + ":"
     files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
-    return any(entry in package.source(one).text for one in files)
+    return any(entry in _text(package, one) for one in files)
+
+
+def runs_with_python(package: Package, path: str) -> bool:
+    """Tell whether a file of CMake gives a script to the Python that CMake has found."""
+    name = path.rpartition("/")[2]
+    return any(
+        name in line and "python" in line.partition(name)[0].lower()
+        for file in package.files
+        if file.endswith((".cmake", ".cmake.in"))
+        for line in _text(package, file).splitlines()
+    )
+
+
+def _text(package: Package, path: str) -> str:
+    try:
+        return package.source(path).text
+    except ViewError:
+        return ""
