@@ -52,16 +52,6 @@ class ModuleNotPacked(Rule):
             at=("setup.py:5", "setup.py:5"),
         ),
         Example(
-            "in a directory that is not there, and as a module",
-            {
-                "setup.py": _SETUP.format(
-                    "    package_dir={'': 'src'},\n    py_modules=['talker'],\n"
-                ),
-                **_FILES,
-            },
-            at=("setup.py:5", "setup.py:6"),
-        ),
-        Example(
             "no __init__.py",
             {
                 "setup.py": _SETUP.format("    packages=find_packages(),\n"),
@@ -75,10 +65,7 @@ class ModuleNotPacked(Rule):
         setup = package.setup_py
         if package.build_type == "ament_cmake":
             return  # nothing runs setup.py there
-        if setup.call is None or setup.has_unknown_keywords:
-            return
-        yield from self._check_others(package, setup)
-        if _is_configured(package, setup):
+        if setup.call is None or setup.has_unknown_keywords or _is_configured(package, setup):
             return
         keyword = setup.keyword("packages")
         packages = setup.packages
@@ -100,23 +87,6 @@ class ModuleNotPacked(Rule):
             if package.has_directory(root):
                 message = f"packages leaves out {root!r}, which the entry points start"
                 yield self.report(at, message)
-
-    def _check_others(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:
-        """Yield directories in package_dir that are not there, and packages in py_modules."""
-        directory = setup.keyword("package_dir")
-        where = directory.value if directory is not None else None
-        for value in where.values() if isinstance(where, dict) else ():
-            path = value.removeprefix("./").rstrip("/") if isinstance(value, str) else ""
-            is_own = path not in {"", "."} and not path.startswith(("/", ".."))
-            if is_own and not package.has_directory(path):
-                message = f"package_dir names {path}/, which does not exist: nothing is installed"
-                yield self.report(directory or setup, message)
-        single = setup.keyword("py_modules")
-        names = single.value if single is not None else None
-        for name in names if isinstance(names, list | tuple) else ():
-            if isinstance(name, str) and package.has(f"{name}/__init__.py"):
-                message = f"{name}/ is a package: it belongs in packages, not in py_modules"
-                yield self.report(single or setup, message)
 
     def _check_found(
         self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
