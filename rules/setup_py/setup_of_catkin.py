@@ -1,0 +1,54 @@
+"""SP060: the setup.py of an ament_python package is one of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+
+_MANIFEST = (
+    "<package format='3'><name>talker</name><export><build_type>{}</build_type></export>"
+    "</package>\n"
+)
+_SETUP = (
+    "from setuptools import setup\nfrom catkin_pkg.python_setup import generate_distutils_setup\n\n"
+    "setup(**generate_distutils_setup(packages=['talker']))\n"
+)
+
+
+class SetupOfCatkin(Rule):
+    """A package of build type ament_python has the setup.py of catkin.
+
+    **Why.** colcon stops, ``TypeError: 'NoneType' object is not iterable``: what catkin makes of
+    package.xml has no ``data_files`` and no entry points.
+
+    **Fix.** Call ``setup()`` with ``name``, ``version``, ``packages``, ``data_files`` and
+    ``entry_points``; ``ros2-scaffold new`` writes one.
+
+    **Source.** ``catkin_pkg/python_setup.py``; ROS 2 documentation, "Migrating a Python package".
+    """
+
+    code = "SP060"
+    name = "setup-of-catkin"
+    examples = (
+        Example(
+            "for catkin",
+            {"package.xml": _MANIFEST.format("ament_cmake"), "setup.py": _SETUP},
+        ),
+        Example(
+            "for ament_python",
+            {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
+            at=("setup.py:2",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type != "ament_python":
+            return
+        for import_ in package.setup_py.module.imports:
+            if import_.module.startswith("catkin_pkg.python_setup") and not import_.guarded:
+                message = (
+                    "generate_distutils_setup() is of catkin: package.xml, build type "
+                    "ament_python, needs a setup() of its own with data_files and entry_points"
+                )
+                yield self.report(import_, message)
