@@ -901,6 +901,24 @@ def test_a_package_of_ros_1_is_refused(tmp_path: Path, capsys: pytest.CaptureFix
     )
 
 
+def test_what_cmake_finds_already_is_declared_for_the_build(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = "find_package(rclpy REQUIRED)\n        find_package(ament_index_python REQUIRED)\n"
+    files = {
+        **CMAKE,
+        "package.xml": CMAKE["package.xml"].replace("<exec_depend>rclpy</exec_depend>", ""),
+        "CMakeLists.txt": CMAKE["CMakeLists.txt"].replace("install(", f"{found}        install("),
+    }
+    demo = write(tmp_path / "demo", files)
+    assert add(demo, "publisher", "talker") == 0
+    text = (demo / "package.xml").read_text()
+    assert "<depend>rclpy</depend>" in text
+    assert "<build_depend>ament_index_python</build_depend>" in text
+    assert "<test_depend>ament_index_python</test_depend>" not in text
+    capsys.readouterr()
+
+
 def test_a_node_of_ours_is_not_added_again(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -60,6 +60,8 @@ def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Edito
         is_cmake and addition.program is not None and layout_of(package).installs_python
     )
     needs = _with_build(addition, is_cmake=is_cmake, installs_python=installs_python)
+    if is_cmake:
+        needs = _with_found(needs, package)
     yield MANIFEST, lambda source: manifest.add_to_manifest(source, needs)
     if is_cmake:
         yield (
@@ -79,6 +81,23 @@ def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) ->
     if addition.test is not None:
         pytest = cmake.PYTEST if is_cmake else setup_py.PYTEST
         depends.setdefault("test", []).append(pytest)
+    return addition._replace(depends=depends)
+
+
+def _with_found(addition: Addition, package: Package) -> Addition:
+    """Return an addition whose dependencies are there when the package is built as well.
+
+    CMakeLists.txt may look for a package that package.xml does not declare: when it is declared
+    for running or for tests alone, the build still fails.
+    """
+    known = package.manifest.names_for("build", "run")
+    found = {one.name for one in package.cmake.found_packages if not one.in_testing} - known
+    depends = {kind: list(names) for kind, names in addition.depends.items()}
+    for kind, wider in (("exec", "depend"), ("test", "build")):
+        moved = [name for name in depends.get(kind, ()) if name in found]
+        if moved:
+            depends[kind] = [name for name in depends[kind] if name not in found]
+            depends[wider] = [*depends.get(wider, ()), *moved]
     return addition._replace(depends=depends)
 
 
