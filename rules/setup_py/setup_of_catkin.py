@@ -36,6 +36,14 @@ class SetupOfCatkin(Rule):
             {"package.xml": _MANIFEST.format("ament_cmake"), "setup.py": _SETUP},
         ),
         Example(
+            "for both",
+            {
+                "package.xml": _MANIFEST.format("ament_python"),
+                "setup.py": "import os\n\nif os.environ['ROS_VERSION'] == '1':\n"
+                "    from catkin_pkg.python_setup import generate_distutils_setup\n",
+            },
+        ),
+        Example(
             "for ament_python",
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
             at=("setup.py:2",),
@@ -46,7 +54,7 @@ class SetupOfCatkin(Rule):
         if package.build_type != "ament_python":
             return
         for import_ in package.setup_py.module.imports:
-            if import_.module.startswith("catkin_pkg.python_setup") and not import_.guarded:
+            if import_.module == "catkin_pkg.python_setup" and import_.top_level:
                 message = (
                     "generate_distutils_setup() is of catkin: package.xml, build type "
                     "ament_python, needs a setup() of its own with data_files and entry_points"
