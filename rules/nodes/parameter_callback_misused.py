@@ -108,6 +108,8 @@ def _list_problem(facts: NodeFacts, name: ast.Name) -> str:
             return f"{name.id} is a list of parameters, and has no {attr}: AttributeError"
         case ast.Attribute(attr=attr) if attr in _OF_MAPPINGS:
             return f"{name.id} is a list of parameters, no dictionary: AttributeError"
+        case ast.For(iter=iterated, target=ast.Tuple()) if iterated is name:
+            return f"{name.id} is a list of parameters, not of pairs: TypeError"
         case ast.Subscript(value=value, slice=ast.Constant(value=str() as text)) if value is name:
             return f"{name.id} is a list of parameters, no dictionary: {text!r} is no place in it"
     return ""

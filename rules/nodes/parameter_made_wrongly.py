@@ -1,4 +1,4 @@
-"""ND060: parameters are made, declared and read as rclpy has them."""
+"""ND060: parameters are made and declared as rclpy has them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import FIELDS
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.rclpy_names import PARAMETER
 from scaffold.model.values import UNKNOWN
 
 _KINDS = {
@@ -29,19 +28,17 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.declare_parameters('', [{}])\n"
     "        self.set_parameters({})\n"
-    "        self.rate = self.get_parameter('rate').value{}\n"
 )
-_RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]", "")
+_RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]")
 
 
 class ParameterMadeWrongly(Rule):
-    """A parameter is made, declared or read in a form that rclpy does not take.
+    """A parameter is made or declared in a form that rclpy does not take.
 
-    **Why.** ``ValueError: Type '2' and value ... do not agree``, ``TypeError: 'float' object is not
-    callable``.
+    **Why.** ``ValueError: Type '2' and value ... do not agree``, or ``TypeError``.
 
     **Fix.** ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)``, a list of pairs for
-    ``declare_parameters``; ``.value`` is no method.
+    ``declare_parameters``.
 
     **Source.** ``rclpy/parameter.py``; ``rclpy/node.py``.
     """
@@ -51,13 +48,9 @@ class ParameterMadeWrongly(Rule):
     examples = (
         Example("right", {"talker.py": _NODE.format(*_RIGHT)}),
         Example(
-            "no pairs, a type alone, a call",
-            {
-                "talker.py": _NODE.format(
-                    "'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]", "()"
-                )
-            },
-            at=("talker.py:8", "talker.py:9", "talker.py:10"),
+            "no pairs, a type alone",
+            {"talker.py": _NODE.format("'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]")},
+            at=("talker.py:8", "talker.py:9"),
         ),
         Example(
             "a value in place of the type, another type",
@@ -65,7 +58,6 @@ class ParameterMadeWrongly(Rule):
                 "talker.py": _NODE.format(
                     "('rate', 1.0)",
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
-                    "",
                 )
             },
             at=("talker.py:9", "talker.py:9"),
@@ -84,10 +76,6 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
     if name in {PARAMETER, "rclpy.Parameter"}:
         yield from _made(facts, call)
     match call.func:
-        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
-            yield call, "value is no method of a parameter: leave the parentheses out"
-        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(facts, owner):
-            yield call, f"{name} is a value, no method: leave the parentheses out"
         case ast.Attribute(attr="declare_parameters", value=owner):
             listed = call.args[1] if len(call.args) > 1 else None
             if isinstance(listed, ast.List) and facts.owner_of(owner) is not None:
@@ -95,14 +83,6 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
                     if isinstance(item, ast.Constant):
                         yield item, "each parameter is a pair ('name', default): TypeError"
                         break
-
-
-def _is_message(facts: NodeFacts, node: ast.expr) -> bool:
-    """Tell whether an expression is what get_parameter_value of a parameter gives."""
-    match facts.evaluator.single_value(node):
-        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
-            return class_of(facts, parameter) == PARAMETER
-    return False
 
 
 def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:

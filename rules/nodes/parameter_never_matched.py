@@ -10,7 +10,12 @@ from scaffold.model.declared_parameters import declared_alone, declared_by, has_
 from scaffold.model.near import nearest
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import is_listed_parameter, name_asked
+from scaffold.model.parameter_objects import (
+    is_listed_parameter,
+    name_asked,
+    names_compared,
+    types_compared,
+)
 
 _TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
 _NODE = (
@@ -65,14 +70,9 @@ class ParameterNeverMatched(Rule):
     def _named(
         self, package: Package, facts: NodeFacts, attribute: ast.Attribute, known: set[str]
     ) -> Iterator[Diagnostic]:
-        compared = facts.module.parent(attribute)
-        if not isinstance(compared, ast.Compare) or compared.left is not attribute:
+        if not is_listed_parameter(facts, attribute.value):
             return
-        if len(compared.ops) != 1 or not is_listed_parameter(facts, attribute.value):
-            return
-        other = compared.comparators[0]
-        items = other.elts if isinstance(other, ast.List | ast.Tuple | ast.Set) else [other]
-        for item in items if isinstance(compared.ops[0], ast.Eq | ast.In) else ():
+        for item in names_compared(facts, attribute):
             name = item.value if isinstance(item, ast.Constant) else None
             if isinstance(name, str) and name not in known and not has_always(name):
                 near = nearest(package, name, known, 0.7)
@@ -95,27 +95,11 @@ class ParameterNeverMatched(Rule):
                 name = name_asked(facts, attribute, variable) or ""
                 declared = declared_by(node, package).types.get(name)
                 asked = full.rpartition(".")[2]
-                if declared in _types_asked(facts, attribute, name):
+                if declared in types_compared(facts, attribute, name):
                     return  # the code is ready for several types
                 if declared and declared != asked.lower():
                     message = f"{name} is declared as {declared}, so it is never {asked}"
                     yield self.report(facts.module.location(other), message)
-
-
-def _types_asked(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set[str]:
-    """Return the types that a function compares the type of one parameter with."""
-    function = facts.module.enclosing_function(attribute)
-    found: set[str] = set()
-    for other in facts.module.index.attributes("type_"):
-        if not isinstance(other.value, ast.Name):
-            continue
-        compared = facts.module.parent(other)
-        is_same = facts.module.enclosing_function(other) is function
-        is_same = is_same and name_asked(facts, other, other.value.id) == name
-        if is_same and isinstance(compared, ast.Compare):
-            full = facts.module.qualified_name(compared.comparators[0]) or ""
-            found.add(full.rpartition(".")[2].lower())
-    return found
 
 
 def _owner(facts: NodeFacts, node: ast.AST) -> NodeClass | None:

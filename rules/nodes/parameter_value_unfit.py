@@ -79,7 +79,7 @@ def _problems(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, st
     yield from _ranges(package, facts)
     for field in FIELDS:
         for attribute in facts.module.index.attributes(field):
-            match attribute.value:
+            match facts.evaluator.single_value(attribute.value):
                 case ast.Attribute(attr="value", value=parameter) if (
                     class_of(facts, parameter) == PARAMETER
                 ):

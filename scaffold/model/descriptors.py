@@ -96,10 +96,10 @@ def message_made(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.e
         The fields; ``None`` when it is no such message, or when more may be set.
     """
     if not isinstance(node, ast.Name):
-        return _keywords(facts, node, kind)
+        return _keywords(facts, _kept(facts, node), kind)
     first = _assigned_before(facts, node)
     if first is None or first.value is None:
-        return None
+        return _keywords(facts, _kept(facts, node), kind)
     fields = _keywords(facts, first.value, kind)
     if fields is None:
         return None
@@ -123,6 +123,19 @@ def _keywords(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr
     if node.args or any(word.arg is None for word in node.keywords):
         return None
     return {word.arg: word.value for word in node.keywords if word.arg is not None}
+
+
+def _kept(facts: NodeFacts, node: ast.expr) -> ast.expr:
+    """Return what a name or attribute is set to once, if nothing else is done with its parts."""
+    if isinstance(node, ast.Name):
+        uses: list[ast.AST] = [*facts.module.index.names(node.id)]
+    elif isinstance(node, ast.Attribute):
+        uses = [*facts.module.index.attributes(node.attr)]
+    else:
+        return node
+    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in uses):
+        return node
+    return facts.evaluator.single_value(node)
 
 
 def _assigned_before(facts: NodeFacts, node: ast.Name) -> Binding | None:
@@ -197,10 +210,10 @@ def _flag(facts: NodeFacts, node: ast.expr | None) -> bool | None:
 
 def _range(facts: NodeFacts, field: str, node: ast.expr) -> Range | None:
     type_, kind = _RANGES[field]
-    items = node.elts if isinstance(node, ast.List | ast.Tuple) else []
-    if len(items) != 1:
+    items, is_complete = facts.evaluator.elements(node)
+    if len(items) != 1 or not is_complete:
         return None
-    fields = message_made(facts, items[0], kind)
+    fields = message_made(facts, items[0].node, kind)
     if fields is None:
         return None
     numbers: list[float] = []

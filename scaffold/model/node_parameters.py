@@ -45,7 +45,9 @@ class Declarations:
         given = dict(zip(SIGNATURES[method], call.args, strict=False))
         given.update({word.arg: word.value for word in call.keywords if word.arg})
         if method == "declare_parameter":
-            yield Declaration("", given.get("name"), given.get("value"), given.get("descriptor"))
+            nodes = [given.get(word) for word in ("name", "value", "descriptor")]
+            for row in self._rows(nodes[0]):
+                yield Declaration("", *(_in_row(node, row) for node in nodes))
             return
         prefix = self._facts.evaluator.text(given["namespace"]) if "namespace" in given else ""
         listed = given.get("parameters")
@@ -56,6 +58,51 @@ class Declarations:
                 yield Declaration(prefix, parts[0], value, descriptor)
             else:
                 yield Declaration(UNKNOWN, None, None, None)
+
+    def _rows(self, node: ast.expr | None) -> Sequence[Mapping[str, ast.expr]]:
+        """Return what the variables of a loop stand for, turn by turn, if a name is one of them.
+
+        Such as ``name`` and ``default`` in ``for name, default in [('rate', 1.0), ...]:``.
+
+        Returns:
+            One turn without variables when it is no loop over what is written there.
+        """
+        index = self._facts.module.index
+        found = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        target = found[1][0].node if found and len(found[1]) == 1 else None
+        loop = index.parent(target) if target is not None else None
+        if isinstance(loop, ast.Tuple):
+            target, loop = loop, index.parent(loop)
+        if not isinstance(loop, ast.For | ast.comprehension) or loop.target is not target:
+            return [{}]
+        turns = self._turns(loop.iter)
+        if isinstance(target, ast.Name):
+            return [{target.id: turn} for turn in turns] or [{}]
+        rows: list[Mapping[str, ast.expr]] = []
+        for turn in turns:
+            names = target.elts if isinstance(target, ast.Tuple) else []
+            parts = turn.elts if isinstance(turn, ast.Tuple | ast.List) else []
+            if len(names) != len(parts):
+                return [{}]
+            pairs = zip(names, parts, strict=True)
+            rows.append({name.id: part for name, part in pairs if isinstance(name, ast.Name)})
+        return rows or [{}]
+
+    def _turns(self, node: ast.expr) -> Sequence[ast.expr]:
+        """Return the items of a list, or of the pairs of a dictionary; none if more is possible."""
+        match node:
+            case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):
+                found = [
+                    ast.copy_location(ast.Tuple(elts=[key, value], ctx=ast.Load()), key)
+                    for key, value in zip(pairs.keys, pairs.values, strict=True)
+                    if key is not None
+                ]
+                return found if len(found) == len(pairs.keys) else ()
+        items, is_complete = self._facts.evaluator.elements(node)
+        parent = self._facts.module.index.parent
+        is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
+        is_written = is_written and len({id(item.node) for item in items}) == len(items)
+        return [item.node for item in items] if is_complete and is_written else ()
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with the namespace in front."""
@@ -100,3 +147,8 @@ class Declarations:
                         found.setdefault(text, []).append((owner, one.value))
         self._is_indexing = False
         return found
+
+
+def _in_row(node: ast.expr | None, row: Mapping[str, ast.expr]) -> ast.expr | None:
+    """Return what an expression is in a turn of a loop."""
+    return row.get(node.id, node) if isinstance(node, ast.Name) else node

@@ -242,3 +242,36 @@ def _looped(facts: NodeFacts, node: ast.expr) -> list[ast.expr]:
     loop = loops[0]
     is_plain = isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.List | ast.Tuple)
     return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
+
+
+def types_compared(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set[str]:
+    """Return the types that a function compares the type of one parameter with."""
+    function = facts.module.enclosing_function(attribute)
+    found: set[str] = set()
+    for other in facts.module.index.attributes("type_"):
+        if not isinstance(other.value, ast.Name):
+            continue
+        compared = facts.module.parent(other)
+        is_same = facts.module.enclosing_function(other) is function
+        is_same = is_same and name_asked(facts, other, other.value.id) == name
+        if is_same and isinstance(compared, ast.Compare):
+            full = facts.module.qualified_name(compared.comparators[0]) or ""
+            found.add(full.rpartition(".")[2].lower())
+    return found
+
+
+def names_compared(facts: NodeFacts, attribute: ast.Attribute) -> list[ast.expr]:
+    """Return what a name is compared with, one after the other."""
+    match facts.module.parent(attribute):
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
+            return [other]
+        case ast.Compare(
+            left=left,
+            ops=[ast.In()],
+            comparators=[ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items)],
+        ) if left is attribute:
+            return items
+        case ast.Match(cases=cases):
+            patterns = [one.pattern for one in cases]
+            return [one.value for one in patterns if isinstance(one, ast.MatchValue)]
+    return []

@@ -25,7 +25,7 @@ def wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
     if fields is not None:
         is_refusal = "successful" not in fields
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
-    value = facts.evaluator.single_value(value)
+    value = _one_of_constants(facts, value) or facts.evaluator.single_value(value)
     full = facts.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
     what = ""
     if isinstance(value, ast.Constant):
@@ -39,6 +39,14 @@ def wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
     elif isinstance(value, ast.Call) and _gives_nothing(facts, value):
         what = f"what {facts.module.text(value.func)} gives, which is None"
     return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
+
+
+def _one_of_constants(facts: NodeFacts, value: ast.expr) -> ast.Constant | None:
+    """Return one of the constants that a variable is set to, if it is set to nothing else."""
+    found = facts.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
+    values = [binding.value for binding in found[1]] if found else []
+    constants = [one for one in values if isinstance(one, ast.Constant)]
+    return constants[0] if constants and len(constants) == len(values) else None
 
 
 def wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
