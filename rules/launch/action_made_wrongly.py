@@ -12,6 +12,7 @@ _ACTIONS = frozenset(
     {*NODES, "DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription"}
     | {"LogInfo", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
 )
+_SETTERS = ("PushRosNamespace", "PushROSNamespace", "SetParameter", "SetRemap")
 _PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import GroupAction\n"
@@ -78,6 +79,20 @@ class ActionMadeWrongly(Rule):
             found = launch.call_of(actions)
             if actions is not None and found is not None and found.kind in _ACTIONS:
                 yield self.report(launch.location(actions), f"one {found.kind}: write a list of it")
+            if call.kind == "GroupAction" and "scoped" not in call.given:
+                last = _setting_nothing(launch, actions)
+                if last is not None:
+                    message = f"nothing follows this {last.kind} in the group: it has no effect"
+                    yield self.report(last, message)
+
+
+def _setting_nothing(launch: LaunchFile, actions: ast.expr | None) -> LaunchCall | None:
+    """Return the last action of a group if it sets something for those that follow it."""
+    if not isinstance(actions, ast.List) or len(actions.elts) < 2:  # noqa: PLR2004  one before it
+        return None
+    first, last = launch.call_of(actions.elts[0]), launch.call_of(actions.elts[-1])
+    runs = first is not None and first.kind in {*NODES, "IncludeLaunchDescription"}
+    return last if runs and last is not None and last.kind in _SETTERS else None
 
 
 def _glued(launch: LaunchFile, node: ast.expr) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.launch_entities import entities, what_it_is
-from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch_py import NODES, LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
@@ -63,6 +64,13 @@ class NotAnAction(Rule):
                 if what and not (item.is_alone and what in _ALONE):
                     message = f"{what}, and {item.holder} takes actions{_hint(what)}"
                     yield self.report(launch.location(item.node), message)
+            for call in launch.calls:
+                listed = call.given.get("composable_node_descriptions")
+                for node in listed.elts if isinstance(listed, ast.List) else ():
+                    found = launch.call_of(node)
+                    if found is not None and found.kind in NODES:
+                        message = f"this is a {found.kind}, and a container takes ComposableNode"
+                        yield self.report(launch.location(node), message)
 
 
 def _hint(what: str) -> str:

@@ -40,6 +40,17 @@ class PathJoinedWrongly(Rule):
             at=("launch/a.launch.py:6",),
         ),
         Example(
+            "no slash in a list",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "from launch.launch_description_sources import PythonLaunchDescriptionSource\n"
+                    "PATH = PythonLaunchDescriptionSource([SHARE, 'launch/b.launch.py'])\n"
+                    "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
+                )
+            },
+            at=("launch/a.launch.py:7",),
+        ),
+        Example(
             "no slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
             at=("launch/a.launch.py:6",),
@@ -58,11 +69,30 @@ class PathJoinedWrongly(Rule):
                         message = f"{text!r} begins with a slash, which drops all in front of it"
                         yield self.report(launch.location(part), message)
             for sum_ in launch.module.walk(ast.BinOp):
-                left, right = _text(launch, sum_.left), _text(launch, sum_.right)
-                is_share = left.startswith(SHARE) and "/" not in left.removeprefix(SHARE)
-                if isinstance(sum_.op, ast.Add) and is_share and right[:1] not in {"", "/"}:
+                if isinstance(sum_.op, ast.Add) and _runs_on(launch, sum_.left, sum_.right):
+                    right = _text(launch, sum_.right)
                     message = f"a slash is missing between the share directory and {right!r}"
                     yield self.report(launch.location(sum_), message)
+            for node in _run_on_in_lists(launch):
+                message = "parts are joined as they are: a slash is missing in front of this"
+                yield self.report(launch.location(node), message)
+
+
+def _run_on_in_lists(launch: LaunchFile) -> Iterator[ast.expr]:
+    """Yield the parts of paths in lists that the directory in front of them runs into."""
+    for call in launch.calls:
+        listed = next(iter(call.given.values()), None)
+        if call.kind.endswith("Source") and isinstance(listed, ast.List):
+            for left, right in zip(listed.elts, listed.elts[1:], strict=False):
+                if _runs_on(launch, left, right):
+                    yield right
+
+
+def _runs_on(launch: LaunchFile, left: ast.expr, right: ast.expr) -> bool:
+    """Tell whether a share directory runs into what stands behind it."""
+    text = _text(launch, left)
+    is_share = text.startswith(SHARE) and "/" not in text.removeprefix(SHARE)
+    return is_share and _text(launch, right)[:1] not in {"", "/"}
 
 
 def _text(launch: LaunchFile, node: ast.expr) -> str:

@@ -20,11 +20,13 @@ _TEST = (
 
 
 class TestNeverEnds(Rule):
-    """A test spins a node, and nothing ends that.
+    """A test spins a node, or waits for an answer, and nothing ends that.
 
-    **Why.** ``rclpy.spin`` returns only when somebody shuts down, so ``colcon test`` hangs.
+    **Why.** ``rclpy.spin`` returns only when somebody shuts down, and ``client.call`` only when
+    another thread spins, so ``colcon test`` hangs.
 
-    **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline.
+    **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline; ``call_async`` and
+    ``spin_until_future_complete`` with ``timeout_sec``.
 
     **Source.** rclpy, ``__init__.py``, ``executors.py``.
     """
@@ -34,6 +36,15 @@ class TestNeverEnds(Rule):
     examples = (
         Example(
             "once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
+        ),
+        Example(
+            "an answer that nobody spins for",
+            {
+                "test/test_node.py": _TEST.format(
+                    "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
+                )
+            },
+            at=("test/test_node.py:9",),
         ),
         Example(
             "for ever",
@@ -48,7 +59,15 @@ class TestNeverEnds(Rule):
                 continue
             for test in test_functions(module):
                 for node in ast.walk(test.node):
-                    if not isinstance(node, ast.Call) or not _spins(module, node):
+                    if not isinstance(node, ast.Call):
+                        continue
+                    if _waits(module, node):
+                        message = "call() waits for an answer while nothing spins"
+                        at = module.location(node)
+                        yield self.report(
+                            at, f"{message}: use call_async, and spin until it is done"
+                        )
+                    if not _spins(module, node):
                         continue
                     is_own = module.enclosing_function(node) is test.node
                     if is_own and "shutdown" not in _text_around(module, node):
@@ -64,6 +83,19 @@ def _spins(module: PythonModule, call: ast.Call) -> bool:
             if made_name(module, holder).endswith("ThreadedExecutor"):
                 return True
     return module.qualified_name(call.func) == "rclpy.spin"
+
+
+def _waits(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is ``call`` of a client that is made in the file."""
+    match call.func:
+        case ast.Attribute(value=ast.Name(id=name), attr="call"):
+            found = module.index.lookup(name, call)
+            values = [binding.value for binding in found[1]] if found else []
+            made = values[0] if len(values) == 1 else None
+            match made:
+                case ast.Call(func=ast.Attribute(attr="create_client")):
+                    return True
+    return False
 
 
 def _text_around(module: PythonModule, call: ast.Call) -> str:

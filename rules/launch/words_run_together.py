@@ -1,0 +1,79 @@
+"""LF058: each argument of a program is a text of its own."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_py import NODES, LaunchFile
+
+_LISTS = ("arguments", "ros_arguments", "cmd")
+_TWO_TEXTS = r"""(['"])((?:(?!\1)[^\\])*)\1\s+(['"])-"""
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='talk', arguments=[{}]),\n    ])\n"
+)
+
+
+class WordsRunTogether(Rule):
+    """Two arguments of a program are one text: a comma is missing, or a space is no border.
+
+    **Why.** Python joins texts that stand side by side: ``'--ros-args' '-r'`` is ``--ros-args-r``.
+    ``'--ros-args -r a:=b'`` is one argument with spaces in it. The program ignores both, most often
+    without a word.
+
+    **Fix.** ``['--ros-args', '-r', 'a:=b']``.
+
+    **Source.** Python documentation, "String literal concatenation";
+    ``launch/descriptions/executable.py``.
+    """
+
+    code = "LF058"
+    name = "words-run-together"
+    examples = (
+        Example(
+            "one by one",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'--ros-args', '-r', 'a:=b', 'one long ' 'text'"
+                )
+            },
+        ),
+        Example(
+            "a missing comma",
+            {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
+            at=("launch/a.launch.py:7",),
+        ),
+        Example(
+            "three in one",
+            {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
+            at=("launch/a.launch.py:7",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for launch in LaunchFile.of_package(package):
+            for call in launch.find(*NODES, "ExecuteProcess"):
+                if "shell" in call.given:
+                    continue
+                for name in _LISTS:
+                    node = call.given.get(name)
+                    for item in node.elts if isinstance(node, ast.List) else ():
+                        problem = _problem(launch, item)
+                        if problem:
+                            yield self.report(launch.location(item), problem)
+
+
+def _problem(launch: LaunchFile, item: ast.expr) -> str:
+    if not isinstance(item, ast.Constant) or not isinstance(item.value, str):
+        return ""
+    if item.value.startswith("--ros-args "):
+        return "this is one argument with spaces in it: write one text for each word"
+    written = re.match(_TWO_TEXTS, launch.module.text(item))
+    if written is not None and not written[2].endswith((" ", "=", ":", ",")):
+        return f"Python joins this to {item.value!r}: a comma is missing between the texts"
+    return ""
