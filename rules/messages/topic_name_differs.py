@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
-from scaffold.model.node_entities import Endpoint, Publisher
-from scaffold.model.topics import Topic, is_private, is_remapped, topics_of
+from scaffold.model.node_entities import Endpoint
+from scaffold.model.topics import topics_of
 
 _SHORTEST = 5
 _NODE = (
@@ -48,29 +48,12 @@ class TopicNameDiffers(Rule):
             },
             at=("b.py:8",),
         ),
-        Example(
-            "private to the node that publishes it",
-            {
-                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
-                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
-            },
-            at=("b.py:8",),
-        ),
-        Example(
-            "private to the node that listens",
-            {
-                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
-                "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
-            },
-            at=("b.py:8",),
-        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         topics = topics_of(package)
         sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
         awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
-        yield from self._check_private(package, sent, awaited)
         for topic in awaited:
             for other in sent:
                 here, there = topic.subscriptions[0], other.publishers[0]
@@ -79,33 +62,6 @@ class TopicNameDiffers(Rule):
                     message = f"nobody publishes {here.name!r}; {place} publishes {there.name!r}"
                     yield self.report(here.name_argument or here, message)
                     break
-
-    def _check_private(
-        self, package: Package, sent: Sequence[Topic], awaited: Sequence[Topic]
-    ) -> Iterator[Diagnostic]:
-        """Yield names of which one side alone begins with the name of its node."""
-        for facts in package.rclpy_files():
-            for private in (*facts.publishers, *facts.subscriptions):
-                if not is_private(private) or is_remapped(package, private):
-                    continue
-                is_sent = isinstance(private, Publisher)
-                for topic in awaited if is_sent else sent:
-                    other = topic.subscriptions[0] if is_sent else topic.publishers[0]
-                    if topic.is_plain and _is_same_but_private(other, private):
-                        here, there = (other, private) if is_sent else (private, other)
-                        place = f"{there.location.path}:{there.location.line}"
-                        message = (
-                            f"nobody publishes {here.name!r}; {place} publishes {there.name!r}, "
-                            "and ~ stands for the name of its node"
-                        )
-                        yield self.report(here.name_argument or here, message)
-                        break
-
-
-def _is_same_but_private(here: Endpoint, there: Endpoint) -> bool:
-    if here.interface is None or here.interface != there.interface:
-        return False
-    return str(here.name).strip("/") == str(there.name).removeprefix("~/")
 
 
 def _is_slip(here: Endpoint, there: Endpoint) -> bool:

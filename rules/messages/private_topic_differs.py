@@ -1,0 +1,86 @@
+"""MS025: what one node keeps private, another one does not wait for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.node_entities import Endpoint, Publisher
+from scaffold.model.topics import is_private, is_remapped, topics_of
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_{}\n"
+)
+
+
+class PrivateTopicDiffers(Rule):
+    """One side of a topic has a private name, ``~/chatter``, and the other has not.
+
+    **Why.** ``~`` stands for the name of the node: nothing arrives, without an error. Said only for
+    names that have no other side in the package, and the same type.
+
+    **Fix.** Write the name without ``~/``, or with the name of the node: ``talker/chatter``.
+
+    **Source.** ROS 2 design, "Topic and Service name mapping to DDS", private names.
+    """
+
+    code = "MS025"
+    name = "private-topic-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "the same",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+        ),
+        Example(
+            "private to the node that publishes it",
+            {
+                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+            at=("b.py:8",),
+        ),
+        Example(
+            "private to the node that listens",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
+            },
+            at=("b.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        topics = topics_of(package)
+        sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
+        awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
+        for facts in package.rclpy_files():
+            for private in (*facts.publishers, *facts.subscriptions):
+                if not is_private(private) or is_remapped(package, private):
+                    continue
+                is_sent = isinstance(private, Publisher)
+                for topic in awaited if is_sent else sent:
+                    other = topic.subscriptions[0] if is_sent else topic.publishers[0]
+                    if topic.is_plain and _is_same_but_private(other, private):
+                        here, there = (other, private) if is_sent else (private, other)
+                        place = f"{there.location.path}:{there.location.line}"
+                        message = (
+                            f"nobody publishes {here.name!r}; {place} publishes {there.name!r}, "
+                            "and ~ stands for the name of its node"
+                        )
+                        yield self.report(here.name_argument or here, message)
+                        break
+
+
+def _is_same_but_private(here: Endpoint, there: Endpoint) -> bool:
+    """Tell whether two names of one type differ by ``~/`` in front of the second."""
+    if here.interface is None or here.interface != there.interface:
+        return False
+    return str(here.name).strip("/") == str(there.name).removeprefix("~/")

@@ -1,0 +1,78 @@
+"""ND096: executors have nodes, and are spun."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.executors import used_of_executor
+from scaffold.model.nodes import NodeFacts
+
+_NODE = (
+    "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n\n\n"
+    "def main():\n    rclpy.init()\n    node = Talker()\n"
+    "    executor = SingleThreadedExecutor()\n{}"
+)
+_ADD = "    executor.add_node(node)\n"
+_SPIN = "    executor.spin()\n"
+
+
+class ExecutorMisused(Rule):
+    """An executor has no node, is given a class for one, or is never spun.
+
+    **Why.** No callback is ever called: an executor without nodes waits for ever, and one that
+    nobody spins does nothing. A class in place of a node ends in ``TypeError: 'property' object is
+    not iterable``.
+
+    **Fix.** ``executor.add_node(node)`` and ``executor.spin()``.
+
+    **Source.** ``rclpy/executors.py``.
+    """
+
+    code = "ND096"
+    name = "executor-misused"
+    examples = (
+        Example("a node, spun", {"talker.py": _NODE.format(_ADD + _SPIN)}),
+        Example(
+            "a class",
+            {"talker.py": _NODE.format(_ADD.replace("node)", "Talker)") + _SPIN)},
+            at=("talker.py:16",),
+        ),
+        Example("no node", {"talker.py": _NODE.format(_SPIN)}, at=("talker.py:16",)),
+        Example("not spun", {"talker.py": _NODE.format(_ADD)}, at=("talker.py:15",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                added = _added_class(facts, call)
+                if added:
+                    message = f"this adds the class {added}: make a node of it, {added}()"
+                    yield self.report(facts.module.location(call.args[0]), message)
+                used = used_of_executor(facts, call)
+                if used is None:
+                    continue
+                is_spun = any(name.startswith("spin") for name in used)
+                if is_spun and "add_node" not in used:
+                    spin = used["spin"] if "spin" in used else next(iter(used.values()))
+                    message = "this executor has no node: nothing is ever called; add_node() first"
+                    yield self.report(facts.module.location(spin), message)
+                elif "add_node" in used and not is_spun and not facts.spin_calls:
+                    message = "nothing spins this executor: the callbacks of its nodes never run"
+                    yield self.report(facts.module.location(call), message)
+
+
+def _added_class(facts: NodeFacts, call: ast.Call) -> str:
+    """Return the class of nodes that is handed to ``add_node``, if it is no node."""
+    match call:
+        case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):
+            class_ = facts.evaluator.named_class(node)
+            if class_ is not None and facts.node_class(class_) is not None:
+                return class_.name
+    return ""

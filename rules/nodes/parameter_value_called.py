@@ -1,0 +1,69 @@
+"""ND097: the value of a parameter is read, not called."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import FIELDS
+from scaffold.model.rclpy_names import PARAMETER, class_of
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.rate = self.get_parameter('rate').{}\n"
+)
+
+
+class ParameterValueCalled(Rule):
+    """The value of a parameter is called as if it were a method.
+
+    **Why.** ``TypeError: 'float' object is not callable``.
+
+    **Fix.** Leave the parentheses out: ``self.get_parameter('rate').value``.
+
+    **Source.** ``rclpy/parameter.py``; ``rcl_interfaces/msg/ParameterValue.msg``.
+    """
+
+    code = "ND097"
+    name = "parameter-value-called"
+    examples = (
+        Example("the value", {"talker.py": _NODE.format("value")}),
+        Example("called", {"talker.py": _NODE.format("value()")}, at=("talker.py:8",)),
+        Example(
+            "a field of the message",
+            {"talker.py": _NODE.format("get_parameter_value().double_value()")},
+            at=("talker.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call in facts.module.walk(ast.Call):
+                problem = _problem(facts, call.func)
+                if problem:
+                    message = f"{problem}: leave the parentheses out"
+                    yield self.report(facts.module.location(call), message)
+
+
+def _problem(facts: NodeFacts, called: ast.expr) -> str:
+    """Return what is wrong about calling something."""
+    match called:
+        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
+            return "value is no method of a parameter"
+        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(facts, owner):
+            return f"{name} is a value, no method"
+    return ""
+
+
+def _is_message(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is what get_parameter_value of a parameter gives."""
+    match facts.evaluator.single_value(node):
+        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
+            return class_of(facts, parameter) == PARAMETER
+    return False
