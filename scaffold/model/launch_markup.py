@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
 
 
+_Element = tuple[str, Location, dict[str, Attribute], list[dict[str, Attribute]]]
+"""Tag, place and attributes, and the attributes of its parameters."""
 _ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
 
 
@@ -31,6 +33,8 @@ class MarkupNode(NamedTuple):
     executable: Attribute | None
     name: Attribute | None
     location: Location
+    parameters: list[tuple[Attribute, Attribute]]
+    """Name and value of those that are given one by one, without a type."""
 
 
 class MarkupPath(NamedTuple):
@@ -78,31 +82,55 @@ def _read(package: Package, path: str) -> MarkupFile | None:
         elements = _elements(package, path)
     except ViewError:
         return None  # another rule reports what is not well-formed
-    for tag, at, given in elements:
+    for tag, at, given, parameters in elements:
         attributes.extend(given.values())
         if tag == "node":
-            nodes.append(
-                MarkupNode(path, given.get("pkg"), given.get("exec"), given.get("name"), at)
-            )
+            package_, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
+            pairs = [
+                (one["name"], one["value"])
+                for one in parameters
+                if "type" not in one and "name" in one and "value" in one
+            ]
+            nodes.append(MarkupNode(path, package_, executable, name, at, pairs))
     paths = [found for attribute in attributes for found in _paths(attribute)]
     return MarkupFile(path, nodes, paths, attributes)
 
 
-def _elements(package: Package, path: str) -> list[tuple[str, Location, dict[str, Attribute]]]:
-    """Return tag, place and attributes of everything in a launch file."""
+def _elements(package: Package, path: str) -> list[_Element]:
+    """Return everything in a launch file."""
     if path.endswith(".xml"):
         root = _document(package, path).root
-        return [(one.tag, one.name_location, one.attributes) for one in root.descendants()]
-    found: list[tuple[str, Location, dict[str, Attribute]]] = []
+        return [
+            (
+                one.tag,
+                one.name_location,
+                one.attributes,
+                [child.attributes for child in one.children if child.tag == "param"],
+            )
+            for one in root.descendants()
+        ]
+    found: list[_Element] = []
     roots = yaml_tree.parse(Source.decode(path, package.data(path)))
     pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
     for tag, node in pending:  # grows on the way
         if isinstance(node, Sequence):
             pending += [(tag, item) for item in node.items]
         elif isinstance(node, Mapping):
-            found.append((tag, node.location, dict(_scalars(node))))
+            given = [
+                dict(_scalars(item))
+                for key, value in node.pairs
+                if key.text == "param" and isinstance(value, Sequence)
+                for item in value.items
+                if isinstance(item, Mapping) and _is_plain(item)
+            ]
+            found.append((tag, node.location, dict(_scalars(node)), given))
             pending += [(key.text, value) for key, value in node.pairs]
     return found
+
+
+def _is_plain(node: Mapping) -> bool:
+    """Tell whether no value of a mapping is in quotes."""
+    return all(isinstance(value, Scalar) and value.is_plain for _, value in node.pairs)
 
 
 def _scalars(node: Mapping) -> Iterator[tuple[str, Attribute]]:
