@@ -78,6 +78,20 @@ class FieldValueUnfit(Rule):
             at=("talker.py:8", "talker.py:10", "talker.py:12", "talker.py:13"),
         ),
         Example(
+            "a method, a parameter",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Header, String\n\n\n"
+                "class Talker(Node):\n"
+                "    def talk(self):\n"
+                "        header = Header()\n"
+                "        header.stamp = self.get_clock().now().to_msg\n"
+                "        text = String()\n"
+                "        text.data = self.get_parameter('text')\n"
+            },
+            at=("talker.py:8", "talker.py:10"),
+        ),
+        Example(
             "a table for a row",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"

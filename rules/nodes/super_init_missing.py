@@ -46,6 +46,16 @@ class SuperInitMissing(Rule):
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
             at=("talker.py:6",),
         ),
+        Example(
+            "of no object",
+            {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
+            at=("talker.py:6",),
+        ),
+        Example(
+            "self twice",
+            {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
+            at=("talker.py:6",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -53,8 +63,7 @@ class SuperInitMissing(Rule):
             for node in facts.classes:
                 skipped = _skipping(facts, node)
                 if skipped is not None:
-                    message = "begins above Node, whose __init__ is left out; write super()"
-                    yield self.report(facts.module.location(skipped), message)
+                    yield self.report(facts.module.location(skipped[0]), skipped[1])
                     continue
                 if node.calls_super_init or node.constructor is None or node.is_made_later:
                     continue
@@ -65,11 +74,18 @@ class SuperInitMissing(Rule):
                 yield self.report(at, message)
 
 
-def _skipping(facts: NodeFacts, node: NodeClass) -> ast.Call | None:
-    """Return ``super(Node, self)`` in a constructor: it looks behind Node, not at it."""
+def _skipping(facts: NodeFacts, node: NodeClass) -> tuple[ast.Call, str] | None:
+    """Return a use of ``super`` that does not reach the constructor of Node, and why."""
     for call in facts.calls_in(node.constructor) if node.constructor else ():
         match call:
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
                 if facts.module.qualified_name(first) == "rclpy.node.Node":
-                    return call
+                    return call, "begins above Node, whose __init__ is left out; write super()"
+            case ast.Call(func=ast.Name(id="super"), args=[ast.Name()]):
+                return call, "super() with a class alone is of no object; write super()"
+            case ast.Call(
+                func=ast.Attribute(attr="__init__", value=ast.Call(func=ast.Name(id="super"))),
+                args=[ast.Name(id="self"), *_],
+            ):
+                return call, "super() passes self already: the name of the node comes first"
     return None

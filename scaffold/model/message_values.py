@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.message_types import Assigned, MessageTypes
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy_names import PARAMETER, class_of, is_method
 from scaffold.model.values import UNKNOWN
 
 RCLPY_TIMES: Mapping[str | None, str] = {
@@ -313,7 +313,7 @@ class Misfits:
             return self._instead_of_message(node)
         kind = self._kinds.of(node)
         if kind is None:
-            return None
+            return self._object_of_rclpy(node)
         if kind not in _accepted(type_.name):
             return f"{self._shown(node)} is {_NAMES[kind]}"
         value = self._types.facts.evaluator.evaluate(node)
@@ -322,11 +322,24 @@ class Misfits:
             return f"{self._shown(node)} has {len(value)} characters, not {bound}"
         return self._out_of_range(type_, node, value)
 
+    def _object_of_rclpy(self, node: ast.expr) -> str | None:
+        """Say that a value is an object of rclpy, or one of its methods that nobody calls."""
+        facts = self._types.facts
+        if isinstance(node, ast.Attribute):
+            owner = class_of(facts, node.value)
+            if owner is not None and is_method(owner, node.attr):
+                return f"{node.attr} is a method that is not called here: {node.attr}()"
+        class_ = class_of(facts, node) if isinstance(node, ast.Call) else None
+        if class_ == PARAMETER:
+            return f"{self._shown(node)} is a Parameter: its value is meant"
+        return None
+
     def _instead_of_message(self, node: ast.expr) -> str | None:
         if rclpy_time(self._types, node):
             return None  # that has a rule of its own
         kind = self._kinds.of(node)
-        return f"{self._shown(node)} is {_NAMES[kind]}" if kind else None
+        shown = f"{self._shown(node)} is {_NAMES[kind]}" if kind else None
+        return shown or self._object_of_rclpy(node)
 
     def _out_of_range(self, type_: FieldType, node: ast.expr, value: object) -> str | None:
         if type_.name not in INTEGER_RANGES:
