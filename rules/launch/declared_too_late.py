@@ -41,6 +41,17 @@ class DeclaredTooLate(Rule):
             at=("launch/a.launch.py:8",),
         ),
         Example(
+            "behind a function",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    f"OpaqueFunction(function=set_up), {_DECLARED}"
+                ).replace("import Decl", "import OpaqueFunction, Decl")
+                + "\n\ndef set_up(context):\n"
+                "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
+            },
+            at=("launch/a.launch.py:14",),
+        ),
+        Example(
             "added behind",
             {
                 "launch/a.launch.py": _LAUNCH.format("node").replace("return", "launch =")

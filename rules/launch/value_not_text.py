@@ -19,6 +19,7 @@ _TEXTS: Mapping[str, tuple[str, ...]] = {
     "FindExecutable": ("name",),
     "FindPackageShare": ("package",),
     "IfCondition": ("predicate_expression",),
+    "IncludeLaunchDescription": ("launch_description_source",),
     "LaunchConfiguration": ("variable_name",),
     "LogInfo": ("msg",),
     "PathJoinSubstitution": ("substitutions",),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
@@ -49,6 +50,11 @@ class WordsRunTogether(Rule):
             at=("launch/a.launch.py:7",),
         ),
         Example(
+            "a prefix",
+            {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
+            at=("launch/a.launch.py:7",),
+        ),
+        Example(
             "three in one",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
             at=("launch/a.launch.py:7",),
@@ -60,12 +66,26 @@ class WordsRunTogether(Rule):
             for call in launch.find(*NODES, "ExecuteProcess"):
                 if "shell" in call.given:
                     continue
+                for item in _joined_parts(call.given.get("prefix")):
+                    message = "launch joins the parts of a prefix as they are: a space is missing"
+                    yield self.report(launch.location(item), message)
                 for name in _LISTS:
                     node = call.given.get(name)
                     for item in node.elts if isinstance(node, ast.List) else ():
                         problem = _problem(launch, item)
                         if problem:
                             yield self.report(launch.location(item), problem)
+
+
+def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:
+    """Yield the options of a prefix that run into the word in front of them."""
+    listed = node.elts if isinstance(node, ast.List) else []
+    for left, right in pairwise(listed):
+        match left, right:
+            case ast.Constant(value=str(first)), ast.Constant(value=str(second)) if (
+                second.startswith("-") and not first.endswith((" ", "-", "="))
+            ):
+                yield right
 
 
 def _problem(launch: LaunchFile, item: ast.expr) -> str:

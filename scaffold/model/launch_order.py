@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold.model.launch_entities import function_of
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 from scaffold.record import NamedTuple
 
@@ -20,6 +21,8 @@ _AT_ONCE = (
 """Actions that read their values as soon as they are executed."""
 _HARMLESS = ("RegisterEventHandler", "TimerAction")
 """Actions that do nothing by themselves, and set nothing."""
+_MAY_SET = ("IncludeLaunchDescription", "OpaqueFunction")
+"""Actions behind which any configuration may be set."""
 _DEEPEST = 6
 
 
@@ -50,10 +53,10 @@ def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
     """Yield the actions up to one that is not understood, or that may set configurations."""
     for node in nodes:
         call = launch.call_of(node)
-        if call is None or call.kind not in (*_AT_ONCE, *_HARMLESS):
+        if call is None or call.kind not in (*_AT_ONCE, *_HARMLESS, *_MAY_SET):
             return
         yield call
-        if call.kind == "IncludeLaunchDescription":
+        if call.kind in _MAY_SET:
             return
 
 
@@ -96,9 +99,24 @@ def _items(
 def _step(launch: LaunchFile, call: LaunchCall) -> Step:
     if call.kind in _HARMLESS:
         return Step(call, ())
+    if call.kind == "OpaqueFunction":
+        return Step(call, tuple(_performed(launch, call)) if "condition" not in call.given else ())
     parts = [call.given["condition"]] if "condition" in call.given else list(call.given.values())
     read = [one for part in parts for one in _reads(launch, part, 0)]
     return Step(call, tuple(read))
+
+
+def _performed(launch: LaunchFile, call: LaunchCall) -> Iterator[LaunchCall]:
+    """Yield the configurations whose text a function asks for, whatever happens in it."""
+    function = function_of(launch, call.given.get("function"))
+    for statement in function.body if function is not None else ():
+        if not isinstance(statement, ast.Assign | ast.Expr):
+            return
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Subscript):
+            return  # it may set a configuration
+        match statement.value:
+            case ast.Call(func=ast.Attribute(value=holder, attr="perform")):
+                yield from _reads(launch, holder, 0)
 
 
 def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCall]:
