@@ -456,6 +456,13 @@ def test_checks_tell_what_they_import(own: Fill) -> None:
     assert filled.check_imports == ("from visualization_msgs.msg import InteractiveMarkerControl",)
 
 
+def test_a_header_without_a_frame_is_not_that_of_others(own: Fill) -> None:
+    filled = own("sensor_msgs/JointState joints\ngeometry_msgs/WrenchStamped wrench\n")
+    assert "msg.joints.header.frame_id = self.frame_id" not in filled.statements
+    assert "msg.wrench.header.frame_id = self.frame_id" in filled.statements
+    assert filled.frame == "tool0"
+
+
 def test_poses_are_given_in_the_map(own: Fill) -> None:
     assert own("std_msgs/Header header\ngeometry_msgs/Pose[] poses\n").frame == "map"
     assert payload.service("nav_msgs/srv/GetPlan", BUNDLED).request.frame == "map"

@@ -47,8 +47,9 @@ class Walk:
 
     @property
     def frame(self) -> str:
-        """The frame that what is filled is given in: that of the first part that tells one."""
-        return next((one for one in self._frames if one not in {"", FRAME}), FRAME)
+        """The frame that what is filled is given in: that of a sensor before any other."""
+        told = [one for one in self._frames if one not in {"", FRAME}]
+        return next((one for one in told if one != "map"), told[0] if told else FRAME)
 
     def _is_root(self, target: str) -> bool:
         """Tell whether a target is, or is a part of, what is filled, and not a local name."""
@@ -142,7 +143,7 @@ class Walk:
                 block.add(f"{target}.stamp = {first}.stamp")
                 block.add(f"{target}.frame_id = self.frame_id")
             return
-        if self._is_root(target):
+        if self._is_root(target) and has_frame:
             self._stamped.append(target)
             self.checks.append(f"{target}.stamp.sec > 0")
         block.add(f"{target}.stamp = {NOW}")
