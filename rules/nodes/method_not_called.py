@@ -9,6 +9,7 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, class_of, is_method
 
+_FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
 """Attributes of what wraps a method."""
 _NODE = (
@@ -21,6 +22,7 @@ _NODE = (
     "        while rclpy.ok{} and not self.client.service_is_ready{}:\n"
     "            self.get_logger().info('waiting')\n"
     "        self.destroy_node{}\n"
+    "        rclpy.shutdown{}\n"
 )
 
 
@@ -38,11 +40,11 @@ class MethodNotCalled(Rule):
     code = "ND093"
     name = "method-not-called"
     examples = (
-        Example("called", {"talker.py": _NODE.format("()", "()", "()", "()")}),
+        Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
             "not called: for what it gives, as conditions, as a statement",
-            {"talker.py": _NODE.format("", "", "", "")},
-            at=("talker.py:10", "talker.py:11", "talker.py:11", "talker.py:13"),
+            {"talker.py": _NODE.format("", "", "", "", "")},
+            at=("talker.py:10", "talker.py:11", "talker.py:11", "talker.py:13", "talker.py:14"),
         ),
     )
 
@@ -53,6 +55,9 @@ class MethodNotCalled(Rule):
                     continue
                 if facts.module.qualified_name(node) == "rclpy.ok":
                     message = "rclpy.ok is a function, which is always true: call it, rclpy.ok()"
+                    yield self.report(facts.module.location(node), message)
+                elif facts.module.qualified_name(node) in _FUNCTIONS:
+                    message = f"{facts.module.text(node)} is a function: call it"
                     yield self.report(facts.module.location(node), message)
                 elif _is_method_of_rclpy(facts, node):
                     message = f"{node.attr} is a method: call it, {node.attr}()"

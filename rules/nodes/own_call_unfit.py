@@ -38,6 +38,17 @@ class OwnCallUnfit(Rule):
     name = "own-call-unfit"
     examples = (
         Example("what it takes", {"talker.py": _NODE.format("'hello', times=2")}),
+        Example(
+            "of another module",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "talker/__init__.py": "",
+                "talker/text.py": "def make(text, count):\n    return f'{text}: {count}'\n",
+                "talker/node.py": "import rclpy\n\nfrom talker.text import make\n\n"
+                "rclpy.init()\nprint(make('a', 1))\nprint(make('a'))\n",
+            },
+            at=("talker/node.py:7",),
+        ),
         Example("nothing", {"talker.py": _NODE.format("")}, at=("talker.py:9",)),
         Example("too much", {"talker.py": _NODE.format("'a', 2, 3")}, at=("talker.py:9",)),
         Example("another name", {"talker.py": _NODE.format("txt='a'")}, at=("talker.py:9",)),
@@ -57,8 +68,11 @@ class OwnCallUnfit(Rule):
                     continue
                 callback = facts.callback(call.func)
                 problem = _problem(facts, call, callback)
+                if not problem and callback.function is None:
+                    problem = _problem_of_imported(package, facts, call)
                 if problem and not is_harmless(facts.module, call, "TypeError"):
-                    message = f"{callback.name}() {problem}: TypeError"
+                    name = callback.name or facts.module.text(call.func)
+                    message = f"{name}() {problem}: TypeError"
                     yield self.report(facts.module.location(call), message)
 
 
@@ -74,6 +88,29 @@ def _problem(facts: NodeFacts, call: ast.Call, callback: Callback) -> str:
     if any(word.arg is None for word in call.keywords):
         return ""
     return _misfit(call, function.args, bound=int(callback.is_bound))
+
+
+def _problem_of_imported(package: Package, facts: NodeFacts, call: ast.Call) -> str:
+    """Say what does not fit a function that another module of the package defines."""
+    dotted = facts.module.qualified_name(call.func) or ""
+    module, _, name = dotted.rpartition(".")
+    path = f"{module.replace('.', '/')}.py"
+    if (
+        not module
+        or not package.has(path)
+        or any(isinstance(one, ast.Starred) for one in call.args)
+    ):
+        return ""
+    other = package.module(path)
+    bindings = other.index.bindings(other.tree).get(name, ())
+    function = bindings[0].node if len(bindings) == 1 else None
+    if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+        return ""
+    if function.decorator_list:
+        return ""
+    if any(word.arg is None for word in call.keywords):
+        return ""
+    return _misfit(call, function.args, bound=0)
 
 
 def _is_only_one(
