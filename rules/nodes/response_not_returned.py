@@ -50,6 +50,11 @@ class ResponseNotReturned(Rule):
             at=("server.py:10", "server.py:13"),
         ),
         Example(
+            "a field of it",
+            {"server.py": _NODE.format("        return response.success\n")},
+            at=("server.py:12",),
+        ),
+        Example(
             "the request",
             {"server.py": _NODE.format("        return Trigger.Request()\n")},
             at=("server.py:12",),
@@ -95,6 +100,9 @@ def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str
         return "None" if value.value is None else f"a {type(value.value).__name__}"
     if isinstance(value, ast.Dict | ast.List | ast.Tuple | ast.Set):
         return f"a {type(value).__name__.lower()}"
+    field = types.field_type_of(value)
+    if field is not None and (field.is_primitive or field.is_array):
+        return f"a field, {types.module.text(value)}"
     found = types.type_of(value)
     if found is not None and service.interface and found.name != f"{service.interface}.Response":
         return found.name
