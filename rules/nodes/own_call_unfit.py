@@ -49,6 +49,11 @@ class OwnCallUnfit(Rule):
             },
             at=("talker/node.py:7",),
         ),
+        Example(
+            "a constructor",
+            {"talker.py": _NODE.format("'a'") + "\n\nTALKER = Talker('talker')\n"},
+            at=("talker.py:16",),
+        ),
         Example("nothing", {"talker.py": _NODE.format("")}, at=("talker.py:9",)),
         Example("too much", {"talker.py": _NODE.format("'a', 2, 3")}, at=("talker.py:9",)),
         Example("another name", {"talker.py": _NODE.format("txt='a'")}, at=("talker.py:9",)),
@@ -69,7 +74,9 @@ class OwnCallUnfit(Rule):
                 callback = facts.callback(call.func)
                 problem = _problem(facts, call, callback)
                 if not problem and callback.function is None:
-                    problem = _problem_of_imported(package, facts, call)
+                    problem = _problem_of_imported(package, facts, call) or _problem_of_class(
+                        facts, call
+                    )
                 if problem and not is_harmless(facts.module, call, "TypeError"):
                     name = callback.name or facts.module.text(call.func)
                     message = f"{name}() {problem}: TypeError"
@@ -88,6 +95,20 @@ def _problem(facts: NodeFacts, call: ast.Call, callback: Callback) -> str:
     if any(word.arg is None for word in call.keywords):
         return ""
     return _misfit(call, function.args, bound=int(callback.is_bound))
+
+
+def _problem_of_class(facts: NodeFacts, call: ast.Call) -> str:
+    """Say what does not fit the constructor of a class of nodes of this file."""
+    class_ = facts.evaluator.named_class(call.func)
+    node = facts.node_class(class_) if class_ is not None else None
+    constructor = node.methods.get("__init__") if node is not None else None
+    if constructor is None or constructor.decorator_list or (class_ and class_.decorator_list):
+        return ""
+    if class_ is None or class_.keywords or any(isinstance(one, ast.Starred) for one in call.args):
+        return ""
+    if any(word.arg is None for word in call.keywords):
+        return ""
+    return _misfit(call, constructor.args, bound=1)
 
 
 def _problem_of_imported(package: Package, facts: NodeFacts, call: ast.Call) -> str:
