@@ -9,7 +9,9 @@ from scaffold.model.declared_parameters import declared_alone, has_always
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
 from scaffold.model.node_entities import Parameter, ParameterRead
-from scaffold.model.parameter_objects import names_used
+from scaffold.model.node_owners import NodeOwner
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.parameter_objects import NameUsed, names_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -71,6 +73,7 @@ class ParameterReadUndeclared(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        named: dict[NodeFacts, dict[NodeOwner, list[NameUsed]]] = {}
         for node, declared in declared_alone(package):
             by_name: dict[str, list[Parameter]] = {}
             for one in declared:
@@ -81,8 +84,12 @@ class ParameterReadUndeclared(Rule):
                     node.facts.module, read.call, "ParameterNotDeclaredException"
                 ):
                     yield self.report(read, message)
-            for used in names_used(node.facts):
-                if used.owner is not node or used.name in by_name or has_always(used.name):
+            if node.facts not in named:
+                named[node.facts] = {}
+                for used in names_used(node.facts):
+                    named[node.facts].setdefault(used.owner, []).append(used)
+            for used in named[node.facts].get(node, ()):
+                if used.name in by_name or has_always(used.name):
                     continue
                 module = node.facts.module
                 if not is_harmless(module, used.call, "ParameterNotDeclaredException"):

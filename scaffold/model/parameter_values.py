@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.rclpy_names import PARAMETER, class_of
@@ -11,7 +11,6 @@ from scaffold.model.rclpy_names import PARAMETER, class_of
 if TYPE_CHECKING:
     from scaffold.model.node_entities import Entity
     from scaffold.model.nodes import NodeFacts
-    from scaffold.model.scopes import FunctionNode
 
 _BUILTINS = frozenset(
     {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
@@ -27,6 +26,8 @@ _POSITIONS = {
     "create_timer": (0,),
 }
 """Which arguments of a node's methods are names and numbers."""
+_MOST_USES = 200
+"""Of one name; each object that is stored in it asks for all."""
 
 
 def objects_used(facts: NodeFacts) -> Iterator[tuple[Entity, ast.AST]]:
@@ -45,14 +46,33 @@ def _use(
         return call
     if variable is None and attribute is None:
         return None
-    function = facts.module.enclosing_function(call)
-    scope: ast.AST = function or facts.module.tree
-    if attribute is not None:
-        scope = facts.module.enclosing_class(call) or scope
-    uses = [node for node in ast.walk(scope) if _is_load(node, variable, attribute)]
-    if any(_asks(facts, use) for use in uses) or _is_rebound(scope, variable, attribute):
+    uses = _uses(facts, call, variable, attribute)
+    stored = [use for use in uses if isinstance(use.ctx, ast.Store)]
+    if len(stored) > 1 or len(uses) > _MOST_USES:
         return None
-    return next((use for use in uses if stands_for_value(facts, use)), None)
+    read = [use for use in uses if isinstance(use.ctx, ast.Load)]
+    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in read):
+        return None
+    return next((use for use in read if stands_for_value(facts, use)), None)
+
+
+def _uses(
+    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+) -> Sequence[ast.Name | ast.Attribute]:
+    """Return where what a call gives is stored and used, in its function or in its class."""
+    module = facts.module
+    class_ = module.enclosing_class(call) if attribute is not None else None
+    if attribute is not None and class_ is not None:
+        return [
+            one
+            for one in module.index.attributes(attribute)
+            if isinstance(one.value, ast.Name)
+            and one.value.id == "self"
+            and module.enclosing_class(one) is class_
+        ]
+    function = module.enclosing_function(call)
+    names = module.index.names(variable) if variable is not None else ()
+    return [one for one in names if function is None or function in module.parents(one)]
 
 
 def _objects(facts: NodeFacts) -> Iterator[Entity]:
@@ -96,28 +116,3 @@ def stands_for_value(facts: NodeFacts, node: ast.AST) -> bool:
 
 def _is_none(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value is None
-
-
-def _is_load(node: ast.AST, variable: str | None, attribute: str | None) -> bool:
-    match node:
-        case ast.Name(ctx=ast.Load()):
-            return node.id == variable
-        case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Load()):
-            return node.attr == attribute
-        case _:
-            return False
-
-
-def _asks(facts: NodeFacts, use: ast.AST) -> bool:
-    return isinstance(facts.module.parent(use), ast.Attribute)
-
-
-def _is_rebound(scope: ast.AST | FunctionNode, variable: str | None, attribute: str | None) -> bool:
-    stores = 0
-    for node in ast.walk(scope):
-        match node:
-            case ast.Name(ctx=ast.Store()):
-                stores += node.id == variable
-            case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Store()):
-                stores += node.attr == attribute
-    return stores > 1
