@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.call_fit import misfit
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
@@ -94,7 +95,7 @@ def _problem(facts: NodeFacts, call: ast.Call, callback: Callback) -> str:
         return ""
     if any(word.arg is None for word in call.keywords):
         return ""
-    return _misfit(call, function.args, bound=int(callback.is_bound))
+    return misfit(call, function.args, bound=int(callback.is_bound))
 
 
 def _problem_of_class(facts: NodeFacts, call: ast.Call) -> str:
@@ -108,7 +109,7 @@ def _problem_of_class(facts: NodeFacts, call: ast.Call) -> str:
         return ""
     if any(word.arg is None for word in call.keywords):
         return ""
-    return _misfit(call, constructor.args, bound=1)
+    return misfit(call, constructor.args, bound=1)
 
 
 def _problem_of_imported(package: Package, facts: NodeFacts, call: ast.Call) -> str:
@@ -131,7 +132,7 @@ def _problem_of_imported(package: Package, facts: NodeFacts, call: ast.Call) -> 
         return ""
     if any(word.arg is None for word in call.keywords):
         return ""
-    return _misfit(call, function.args, bound=0)
+    return misfit(call, function.args, bound=0)
 
 
 def _is_only_one(
@@ -145,26 +146,3 @@ def _is_only_one(
         return True
     class_ = facts.evaluator.self_class(func.value)
     return class_ is not None and function in class_.body
-
-
-def _misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
-    positional = [*takes.posonlyargs, *takes.args][bound:]
-    names = [one.arg for one in positional]
-    if len(call.args) > len(names) and takes.vararg is None:
-        count = len(names)
-        noun = "argument" if count == 1 else "arguments"
-        return f"takes {count or 'no'} {noun}, not {len(call.args)}"
-    words = {word.arg for word in call.keywords if word.arg}
-    by_name = {one.arg for one in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
-    by_name |= {one.arg for one in takes.kwonlyargs}
-    unknown = sorted(words - by_name)
-    if unknown and takes.kwarg is None:
-        return f"has no argument {unknown[0]!r}"
-    needed = names[len(call.args) : len(names) - len(takes.defaults)]
-    needed += [
-        one.arg
-        for one, default in zip(takes.kwonlyargs, takes.kw_defaults, strict=True)
-        if default is None
-    ]
-    missing = [name for name in needed if name not in words]
-    return f"needs {', '.join(missing)} as well" if missing else ""

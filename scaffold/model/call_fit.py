@@ -1,0 +1,38 @@
+"""Whether a call gives a function of one's own the arguments that it takes."""
+
+from __future__ import annotations
+
+import ast
+
+
+def misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
+    """Say what does not fit between a call and the parameters of what is called.
+
+    Args:
+        call: The call, without ``*`` and ``**``.
+        takes: The parameters.
+        bound: How many of the first ones are given anyway: 1 for ``self``.
+
+    Returns:
+        Words that follow the name of the function; empty when all fits.
+    """
+    positional = [*takes.posonlyargs, *takes.args][bound:]
+    names = [one.arg for one in positional]
+    if len(call.args) > len(names) and takes.vararg is None:
+        count = len(names)
+        noun = "argument" if count == 1 else "arguments"
+        return f"takes {count or 'no'} {noun}, not {len(call.args)}"
+    words = {word.arg for word in call.keywords if word.arg}
+    by_name = {one.arg for one in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
+    by_name |= {one.arg for one in takes.kwonlyargs}
+    unknown = sorted(words - by_name)
+    if unknown and takes.kwarg is None:
+        return f"has no argument {unknown[0]!r}"
+    needed = names[len(call.args) : len(names) - len(takes.defaults)]
+    needed += [
+        one.arg
+        for one, default in zip(takes.kwonlyargs, takes.kw_defaults, strict=True)
+        if default is None
+    ]
+    missing = [name for name in needed if name not in words]
+    return f"needs {', '.join(missing)} as well" if missing else ""
