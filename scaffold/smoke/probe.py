@@ -334,6 +334,9 @@ def main() -> None:
     """Run the probe."""
     # The terminal's ^C reaches the whole foreground group; the one who asked decides the end.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # The middleware complains on the first descriptor, which is for events alone.
+    sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
     Probe().run()
 
 

@@ -83,6 +83,8 @@ class _Stricter:
             return True
         if said.code == "F401":
             return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._by_alias
+        if said.code == "F841":
+            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._rebound
         rival = {"F502": "F506", "F523": "F525"}.get(said.code)
         return (said.line, rival) in self._codes
 
@@ -99,6 +101,10 @@ class _Stricter:
     @cached_property
     def _by_alias(self) -> set[tuple[int, str]]:
         return local_names.used_by_alias(self._text)
+
+    @cached_property
+    def _rebound(self) -> set[tuple[int, str]]:
+        return local_names.read_after_rebinding(self._text)
 
     @cached_property
     def _conditional_deletions(self) -> set[tuple[int, int]]:

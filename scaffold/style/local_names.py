@@ -58,6 +58,28 @@ def at_last_use(text: PythonText, finding: Finding) -> Finding:
     return finding
 
 
+def read_after_rebinding(text: PythonText) -> set[tuple[int, str]]:
+    """Return the handlers, by line and name, whose exception is given another value to be read.
+
+    To pyflakes that is one variable, to ruff the exception itself is not used.
+    """
+    found: set[tuple[int, str]] = set()
+    for handler in text.nodes:
+        if not isinstance(handler, ast.ExceptHandler) or handler.name is None:
+            continue
+        uses: set[type[ast.expr_context]] = set()
+        pending: list[ast.AST] = list(handler.body)
+        while pending:
+            node = pending.pop()
+            if isinstance(node, ast.Name) and node.id == handler.name:
+                uses.add(type(node.ctx))
+            if not isinstance(node, (*Function, ast.Lambda)):
+                pending.extend(ast.iter_child_nodes(node))
+        if {ast.Store, ast.Load} <= uses:
+            found.add((handler.lineno, handler.name))
+    return found
+
+
 def deleted_unused(text: PythonText) -> Iterator[Finding]:
     """Yield F841 for what is set, never read, and deleted where that may not happen.
 
