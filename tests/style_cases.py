@@ -572,7 +572,7 @@ NAMES: tuple[str, ...] = (
     "def f():\n    try:\n        a\n    except E as e:\n        e = 1\n        print(e)\n",
     "def f():\n    try:\n        a\n    except E as e:\n        e = 1\n        [e for a in x]\n",
     "def f():\n    try:\n        a\n    except E as e:\n        e = 1\n        return lambda: e\n",
-    "def f():\n    try:\n        a\n    except E as e:\n        if a:\n            e = 2\n    e()\n",
+    "def f():\n    try:\n        a\n    except E as e:\n        if a:\n            e = 2\n    e\n",
     "def f():\n    try:\n        a\n    except E as e:\n        for e in x:\n            e()\n",
     "def f():\n    try:\n        a\n    except E as e:\n        with x as e:\n            pass\n",
     "try:\n    pass\nexcept E as e:\n    e = str(1)\n    print(e)\n",
