@@ -1247,6 +1247,7 @@ PYTHON_3_12: tuple[str, ...] = (
     "print(f'{a +b}')\n",
     "print(f'{d[\"a\"]}')\n",
     "print(f\"{d['a']}\")\n",
+    "x = f'{d['a']}'\n",
     "print(f'{x:%Y,%m}')\n",
     "print(f'{x};{y}')\n",
     "print(f'{{ }}')\n",
