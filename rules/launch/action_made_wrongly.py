@@ -1,4 +1,4 @@
-"""LF047: lists of actions are lists, and the parts of commands have spaces between them."""
+"""LF047: actions are made of what they need, and lists of actions are lists."""
 
 from __future__ import annotations
 
@@ -13,61 +13,57 @@ _ACTIONS = frozenset(
     | {"LogInfo", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
 )
 _SETTERS = ("PushRosNamespace", "PushROSNamespace", "SetParameter", "SetRemap")
-_PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import GroupAction\n"
-    "from launch.substitutions import Command\nfrom launch_ros.actions import Node\n\n\n"
+    "from launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"
-    "    text = Command({})\n"
-    "    node = Node(package='talker', executable='node', parameters=[{{'text': text}}])\n"
-    "    return LaunchDescription([{}])\n"
+    "    node = Node(package='talker', {})\n"
+    "    return LaunchDescription({})\n"
 )
-_RIGHT = ("['xacro ', 'a.urdf']", "GroupAction([node])")
+_RIGHT = ("executable='node'", "[GroupAction([node])]")
+
+
+def _launch(node: str, actions: str) -> dict[str, str]:
+    return {"launch/a.launch.py": _LAUNCH.format(node, actions)}
 
 
 class ActionMadeWrongly(Rule):
-    """A list of actions or a command is not what launch makes of it.
+    """An action lacks the program that it starts, or a list of actions is none.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
-    ``'Node' object is not callable`` where a comma is missing between two actions; parts of a
-    command are joined as they are, so that ``xacro`` and its file become one word.
+    ``'Node' object is not callable`` where a comma is missing between two actions, ``missing 1
+    required keyword-only argument: 'executable'``. A setting at the end of a group sets nothing.
 
-    **Fix.** ``actions=[...]``; a space at the end of ``'xacro '``, or ``' '`` behind
-    ``FindExecutable(...)``.
+    **Fix.** ``Node(package=..., executable=...)``, ``actions=[...]``, and settings first.
 
     **Source.** ``launch/actions/group_action.py``, ``timer_action.py``,
-    ``launch/substitutions/command.py``.
+    ``launch/launch_description.py``; ``launch_ros/actions/node.py``.
     """
 
     code = "LF047"
     name = "action-made-wrongly"
     examples = (
-        Example("right", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
+        Example("right", _launch(*_RIGHT)),
+        Example("no list", _launch(_RIGHT[0], "[GroupAction(node)]"), at=("launch/a.launch.py:8",)),
         Example(
-            "no space, no list",
-            {"launch/a.launch.py": _LAUNCH.format("['xacro', 'a']", "GroupAction(node)")},
-            at=("launch/a.launch.py:8", "launch/a.launch.py:10"),
+            "several arguments", _launch(_RIGHT[0], "node, node"), at=("launch/a.launch.py:8",)
         ),
         Example(
             "a missing comma",
-            {
-                "launch/a.launch.py": _LAUNCH.format(
-                    _RIGHT[0], "Node(package='a', executable='b')(node)"
-                )
-            },
-            at=("launch/a.launch.py:10",),
+            _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
+            at=("launch/a.launch.py:8",),
         ),
+        Example("no program", _launch("name='node'", "[node]"), at=("launch/a.launch.py:7",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for launch in LaunchFile.of_package(package):
             for call in launch.calls:
+                problem = _problem(launch, call)
+                if problem:
+                    yield self.report(call, problem)
                 if call.kind in _ACTIONS:
                     yield from self._check_action(launch, call)
-                elif call.kind == "Command" and call.call.args:
-                    problem = _glued(launch, call.call.args[0])
-                    if problem:
-                        yield self.report(call, problem)
 
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)
@@ -95,30 +91,19 @@ def _setting_nothing(launch: LaunchFile, actions: ast.expr | None) -> LaunchCall
     return last if runs and last is not None and last.kind in _SETTERS else None
 
 
-def _glued(launch: LaunchFile, node: ast.expr) -> str:
-    """Return what is wrong about a command whose first word runs into the next part."""
-    if not isinstance(node, ast.List) or len(node.elts) < 2:  # noqa: PLR2004  word and argument
-        return ""
-    first, second = node.elts[0], node.elts[1]
-    found = launch.call_of(first)
-    if found is not None and found.kind == "PathJoinSubstitution":
-        parts = found.given.get("substitutions")
-        if isinstance(parts, ast.List) and len(parts.elts) == 1:
-            found = launch.call_of(parts.elts[0])
-    word = first.value if isinstance(first, ast.Constant) else ""
-    if found is not None and found.kind == "FindExecutable":
-        word = str(launch.text(found, "name"))
-    if word not in _PROGRAMS or _begins_with_space(launch, second):
-        return ""
-    what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' behind it"
-    return f"parts of a command are joined without spaces: write {what}"
+def _problem(launch: LaunchFile, call: LaunchCall) -> str:
+    if call.kind in NODES and not call.is_open and not call.call.args:
+        if "executable" not in call.given and "node_executable" not in call.given:
+            return f"{call.kind} needs executable=...: TypeError"
+        if "package" not in call.given and _is_script(launch, call):
+            return f"{call.kind} has no package=...: the program is looked for on the PATH"
+    second = call.call.args[1] if len(call.call.args) > 1 else None
+    if call.kind == "LaunchDescription" and launch.call_of(second) is not None:
+        return "LaunchDescription takes one list of actions: put them in [...]"
+    return ""
 
 
-def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a part of a command begins with a space, or may do so."""
-    value = launch.evaluator.joined_text(node)
-    if isinstance(value, str):
-        return value[:1].isspace()
-    call = launch.call_of(node)
-    paths = {"FindPackageShare", "PathJoinSubstitution", "ThisLaunchFileDir"}
-    return call is None or call.kind not in paths | {"LaunchConfiguration"}
+def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
+    """Tell whether a program is named that is surely not on the path of programs."""
+    name = launch.text(call, "executable")
+    return isinstance(name, str) and name.endswith(".py") and "/" not in name

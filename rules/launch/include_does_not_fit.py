@@ -1,20 +1,14 @@
-"""LF053: an included launch file gets the arguments that it has, and the source that reads it."""
+"""LF053: an included launch file gets the arguments that it has."""
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.launch_includes import Included, given_arguments, included
 from scaffold.model.launch_py import LaunchCall, LaunchFile
 
-_ENDINGS: Mapping[str, tuple[str, ...]] = {
-    "PythonLaunchDescriptionSource": (".launch.xml", ".launch.yaml", ".launch.yml", ".xml"),
-    "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
-    "YAMLLaunchDescriptionSource": (".py", ".xml"),
-}
 _INCLUDED = (
     "from launch import LaunchDescription\n"
     "from launch.actions import DeclareLaunchArgument, LogInfo\n"
@@ -46,13 +40,12 @@ def _files(path: str, given: str) -> dict[str, str]:
 
 
 class IncludeDoesNotFit(Rule):
-    """An include gives another argument than the launch file has, or a value that is no text.
+    """An include gives other arguments than the launch file has, or includes the file itself.
 
     **Why.** ``ros2 launch`` stops: ``Included launch description missing required argument
-    'robot_name'``; ``'bool' object is not iterable``; ``invalid syntax`` where Python reads XML. An
-    argument that the file does not have is dropped without a word.
+    'robot_name'``. An argument that the file does not have is dropped without a word.
 
-    **Fix.** Write the name that the included file declares, and texts as values.
+    **Fix.** Write the name that the included file declares.
 
     **Source.** ``launch/actions/include_launch_description.py``.
     """
@@ -67,14 +60,9 @@ class IncludeDoesNotFit(Rule):
             at=("launch/a.launch.py:11",),
         ),
         Example(
-            "misspelt, and a number",
-            _files("b.launch.py", "{'robot_nam': 3}"),
-            at=("launch/a.launch.py:13", "launch/a.launch.py:13"),
-        ),
-        Example(
-            "XML for Python",
-            _files("b.launch.xml", "{}"),
-            at=("launch/a.launch.py:12",),
+            "misspelt",
+            _files("b.launch.py", "{'robot_nam': 'a'}"),
+            at=("launch/a.launch.py:13",),
         ),
         Example("itself", _files("a.launch.py", "{}"), at=("launch/a.launch.py:11",)),
     )
@@ -82,24 +70,9 @@ class IncludeDoesNotFit(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for launch in LaunchFile.of_package(package):
             for call in launch.find("IncludeLaunchDescription"):
-                for name, _, value in given_arguments(launch, call) or ():
-                    problem = _value_problem(launch, value)
-                    if problem:
-                        yield self.report(launch.location(value), f"{name!r} gets {problem}")
-                node = call.given.get("launch_arguments")
-                problem = "" if node is None else _shape_problem(node)
-                if problem and node is not None:
-                    yield self.report(launch.location(node), problem)
                 other = included(package, launch, call)
                 if other is not None:
                     yield from self._check_names(launch, call, other)
-            for kind, endings in _ENDINGS.items():
-                for source in launch.find(kind):
-                    path = launch.text(source, "launch_file_path")
-                    if isinstance(path, str) and path.endswith(endings):
-                        name = path.rpartition("/")[2]
-                        meant = "write AnyLaunchDescriptionSource"
-                        yield self.report(source, f"{kind} cannot read {name}: {meant}")
 
     def _check_names(
         self, launch: LaunchFile, call: LaunchCall, other: Included
@@ -127,30 +100,3 @@ class IncludeDoesNotFit(Rule):
 def _is_understood(call: LaunchCall) -> bool:
     known = {"launch_description_source", "launch_arguments", "condition"}
     return known.issuperset(call.words)
-
-
-def _shape_problem(node: ast.expr) -> str:
-    """Return what is wrong about arguments that are no pairs; dictionaries have a rule."""
-    pairs = "launch takes pairs, {...}.items() or [('name', 'value')]"
-    match node:
-        case ast.Set():
-            return f"this is a set: {pairs}"
-        case ast.Attribute(value=ast.Dict(), attr="items"):
-            return "items is not called: write .items()"
-        case ast.List(elts=items) | ast.Tuple(elts=items):
-            if any(isinstance(one, ast.Constant | ast.JoinedStr) for one in items):
-                return f"these are no pairs: {pairs}"
-    return ""
-
-
-def _value_problem(launch: LaunchFile, node: ast.expr) -> str:
-    value = launch.evaluator.evaluate(node)
-    if isinstance(node, ast.Constant) and not isinstance(node.value, str):
-        return f"{node.value!r}, which is no text: write {str(node.value).lower()!r}"
-    if type(value) in {bool, int, float}:
-        return f"{value!r}, which is no text"
-    if isinstance(node, ast.List) and any(
-        isinstance(one, ast.Constant) and type(one.value) in {bool, int, float} for one in node.elts
-    ):
-        return "a list with a number, which launch cannot join"
-    return ""

@@ -1,4 +1,4 @@
-"""LF055: periods, choices, commands and parameters are what launch takes."""
+"""LF055: periods, choices and commands are what launch takes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 from scaffold.model.values import is_known
 
@@ -15,7 +14,7 @@ _LAUNCH = (
     "from launch.actions import DeclareLaunchArgument, ExecuteProcess, TimerAction\n"
     "from launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"
-    "    node = Node(package='a', executable='b', parameters=[{{'a': {}}}])\n"
+    "    node = Node(package='a', executable='b')\n"
     "    return LaunchDescription([\n"
     "        DeclareLaunchArgument('mode', default_value='{}', choices=['fast', 'slow']),\n"
     "        ExecuteProcess(cmd={}),\n        TimerAction(period={}, actions=[node]),\n    ])\n"
@@ -23,17 +22,16 @@ _LAUNCH = (
 
 
 class ValueRefusedByLaunch(Rule):
-    """A period, a choice, a command or a parameter is of a kind that launch refuses.
+    """A period, a choice or a command is of a kind that launch refuses.
 
     **Why.** ``ros2 launch`` stops: ``'TimerAction' expected 'period' to be one of ... float``,
-    ``Provided default_value "fst" is not in provided choices``, ``Unexpected type for parameter
-    value None``, ``Expected a non-empty sequence, with items of uniform type``; a command that is
-    one text is looked for as one program: ``No such file or directory: 'ls -l'``.
+    ``Provided default_value "fst" is not in provided choices``; a command that is one text is
+    looked for as one program: ``No such file or directory: 'ls -l'``.
 
-    **Fix.** ``period=1.0``; a default out of the choices; ``cmd=['ls', '-l']``; values of one type.
+    **Fix.** ``period=1.0``; a default out of the choices; ``cmd=['ls', '-l']``.
 
     **Source.** ``launch/actions/timer_action.py``, ``declare_launch_argument.py``,
-    ``execute_process.py``; ``launch_ros/utilities/normalize_parameters.py``.
+    ``execute_process.py``.
     """
 
     code = "LF055"
@@ -41,17 +39,17 @@ class ValueRefusedByLaunch(Rule):
     examples = (
         Example(
             "taken",
-            {"launch/a.launch.py": _LAUNCH.format("[1, 2]", "fast", "['ls', '-l']", "1.0")},
+            {"launch/a.launch.py": _LAUNCH.format("fast", "['ls', '-l']", "1.0")},
         ),
         Example(
             "refused",
-            {"launch/a.launch.py": _LAUNCH.format("None", "fst", "'ls -l'", "1")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (7, 9, 10, 11)),),
+            {"launch/a.launch.py": _LAUNCH.format("fst", "'ls -l'", "1")},
+            at=(*(f"launch/a.launch.py:{line}" for line in (9, 10, 11)),),
         ),
         Example(
-            "a mixed list, two words in one",
-            {"launch/a.launch.py": _LAUNCH.format("[1, 'a']", "fast", "['ls -l']", "1.0")},
-            at=("launch/a.launch.py:7", "launch/a.launch.py:10"),
+            "two words in one",
+            {"launch/a.launch.py": _LAUNCH.format("fast", "['ls -l']", "1.0")},
+            at=("launch/a.launch.py:10",),
         ),
     )
 
@@ -62,12 +60,6 @@ class ValueRefusedByLaunch(Rule):
                     problem = _problem(launch, call, name, node)
                     if problem:
                         yield self.report(launch.location(node), problem)
-        for started in consumers(package):
-            for name, _, node in started.parameter_dicts:
-                problem = _parameter_problem(node)
-                if problem:
-                    message = f"the parameter {name!r} {problem}"
-                    yield self.report(started.launch.location(node), message)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:
@@ -123,17 +115,4 @@ def _command_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> st
         text = first.value.strip()
         if " " in text and "\\ " not in text and not text.startswith(("/", "'", '"')):
             return f"this is one word, so a program {text!r} is looked for: write a list of words"
-    return ""
-
-
-def _parameter_problem(node: ast.expr) -> str:
-    match node:
-        case ast.Constant(value=None):
-            return "is None, which is no value of a parameter"
-        case ast.List(elts=[]) | ast.Tuple(elts=[]):
-            return "is an empty list, whose type nobody knows"
-        case ast.List(elts=items) | ast.Tuple(elts=items):
-            kinds = {type(one.value) if isinstance(one, ast.Constant) else object for one in items}
-            if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
-                return "mixes types in a list"
     return ""

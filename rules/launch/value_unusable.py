@@ -16,10 +16,10 @@ _LAUNCH = (
     "def generate_launch_description():\n"
     "    return LaunchDescription([\n"
     "        DeclareLaunchArgument('rate', default_value={}),\n"
-    "        Node(package='talker', executable='node', remappings={}, arguments={}),\n"
+    "        Node(package='talker', executable='node', arguments={}),\n"
     "    ])\n"
 )
-_RIGHT = _LAUNCH.format("'2.0'", "[('a', 'b')]", "['--rate', '3']")
+_RIGHT = _LAUNCH.format("'2.0'", "['--rate', '3']")
 _CHOICE = (
     "from launch.substitutions import IfElseSubstitution, LaunchConfiguration\n\n\n"
     "def generate_launch_description():\n"
@@ -30,11 +30,9 @@ _CHOICE = (
 class ValueUnusable(Rule):
     """An action of launch gets a value of a kind that it cannot use.
 
-    **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``; a dictionary of remappings
-    is read letter by letter.
+    **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``.
 
-    **Fix.** Texts for defaults and arguments, ``[('from', 'to')]`` for remappings,
-    ``IfCondition(...)`` for conditions.
+    **Fix.** Texts for defaults and arguments, ``IfCondition(...)`` for conditions.
 
     **Source.** ``launch/actions``, ``launch_ros/actions/node.py``,
     ``launch/utilities/normalize_to_list_of_substitutions_impl.py``.
@@ -45,9 +43,9 @@ class ValueUnusable(Rule):
     examples = (
         Example("usable", {"launch/a.launch.py": _RIGHT, "launch/b.launch.py": _CHOICE}),
         Example(
-            "a number, a dictionary, a number in a list",
-            {"launch/a.launch.py": _LAUNCH.format("2.0", "{'a': 'b'}", "['--rate', 3]")},
-            at=("launch/a.launch.py:8", "launch/a.launch.py:9", "launch/a.launch.py:9"),
+            "a number, a number in a list",
+            {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
+            at=("launch/a.launch.py:8", "launch/a.launch.py:9"),
         ),
     )
 
@@ -71,8 +69,6 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
         problem = _condition_problem(launch, node, value)
     elif call.kind not in NODES:
         return ""
-    elif name == "remappings":
-        problem = _remapping_problem(node)
     elif name in {"arguments", "ros_arguments"} and isinstance(node, ast.List | ast.Tuple):
         numbers = [one for one in node.elts if _is_number(one)]
         problem = f"an argument is text: write {_text(numbers[0])!r}" if numbers else ""
@@ -107,23 +103,6 @@ def _condition_problem(launch: LaunchFile, node: ast.expr, value: object) -> str
     if value is None or not is_text:
         return ""
     return "a condition is an object such as IfCondition(...), not a value"
-
-
-def _remapping_problem(node: ast.expr) -> str:
-    if isinstance(node, ast.Dict):
-        return "remappings are a list of pairs, [('from', 'to')], not a dictionary"
-    if isinstance(node, ast.Tuple) and node.elts and not isinstance(node.elts[0], ast.Tuple):
-        is_pair = not isinstance(node.elts[0], ast.List | ast.Name | ast.Starred)
-        return (
-            "this is one pair: remappings are a list of pairs, [('from', 'to')]" if is_pair else ""
-        )
-    if isinstance(node, ast.List):
-        for one in node.elts:
-            if isinstance(one, ast.Constant) and isinstance(one.value, str):
-                return f"{one.value!r} is no pair ('from', 'to')"
-            if isinstance(one, ast.Tuple) and len(one.elts) != 2:  # noqa: PLR2004  from and to
-                return f"a remapping is a pair, and this has {len(one.elts)} parts"
-    return ""
 
 
 def _parameter_problem(node: ast.List) -> str:

@@ -36,3 +36,35 @@ def misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
     ]
     missing = [name for name in needed if name not in words]
     return f"needs {', '.join(missing)} as well" if missing else ""
+
+
+def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> str:
+    """Say what does not fit between a function and what an OpaqueFunction gives it.
+
+    Args:
+        arguments: The parameters of the function.
+        count: How many of them are given by position, the context included.
+        words: The names of what is given besides.
+
+    Returns:
+        Words that follow the name of the function; empty when all fits.
+    """
+    given = [one.arg for one in [*arguments.posonlyargs, *arguments.args]]
+    if not given and arguments.vararg is None:
+        return "takes no arguments; it is given the context: TypeError"
+    if count > len(given) and arguments.vararg is None:
+        return f"is given context and {count - 1} more, and takes {len(given)} in all: TypeError"
+    optional = len(arguments.defaults)
+    needed = [name for name in given[count : len(given) - optional] if name not in words]
+    needed += [
+        one.arg
+        for one, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
+        if default is None and one.arg not in words
+    ]
+    if needed:
+        return f"takes {needed[0]!r}, which args=[...] does not give: TypeError"
+    names = {*given, *(one.arg for one in arguments.kwonlyargs)}
+    unknown = sorted(words - names)
+    if unknown and arguments.kwarg is None:
+        return f"takes no {unknown[0]!r}, which kwargs={{...}} gives: TypeError"
+    return ""

@@ -1,0 +1,62 @@
+"""LF061: values of parameters in launch files are of one type that parameters have."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_nodes import consumers
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='a', executable='b', parameters=[{{'a': {}}}])\n    ])\n"
+)
+
+
+def _launch(value: str) -> dict[str, str]:
+    return {"launch/a.launch.py": _LAUNCH.format(value)}
+
+
+class ParameterRefusedByLaunch(Rule):
+    """A parameter in a launch file is ``None``, an empty list or a list of mixed types.
+
+    **Why.** ``ros2 launch`` stops: ``Unexpected type for parameter value None``, ``Expected a
+    non-empty sequence, with items of uniform type``.
+
+    **Fix.** Leave the parameter out, so that the node takes its default, or write values of one
+    type.
+
+    **Source.** ``launch_ros/utilities/normalize_parameters.py``.
+    """
+
+    code = "LF061"
+    name = "parameter-refused-by-launch"
+    examples = (
+        Example("values of one type", _launch("[1, 2]")),
+        Example("nothing", _launch("None"), at=("launch/a.launch.py:7",)),
+        Example("an empty list", _launch("[]"), at=("launch/a.launch.py:7",)),
+        Example("a mixed list", _launch("[1, 'a']"), at=("launch/a.launch.py:7",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for started in consumers(package):
+            for name, _, node in started.parameter_dicts:
+                problem = _problem(node)
+                if problem:
+                    message = f"the parameter {name!r} {problem}"
+                    yield self.report(started.launch.location(node), message)
+
+
+def _problem(node: ast.expr) -> str:
+    match node:
+        case ast.Constant(value=None):
+            return "is None, which is no value of a parameter"
+        case ast.List(elts=[]) | ast.Tuple(elts=[]):
+            return "is an empty list, whose type nobody knows"
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            kinds = {type(one.value) if isinstance(one, ast.Constant) else object for one in items}
+            if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
+                return "mixes types in a list"
+    return ""
