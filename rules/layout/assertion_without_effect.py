@@ -11,6 +11,7 @@ from scaffold.model.scopes import FunctionNode
 from scaffold.model.test_files import test_functions, test_modules
 
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
+_OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"
 _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
@@ -38,6 +39,7 @@ class AssertionWithoutEffect(Rule):
                 )
             },
         ),
+        Example("a class that the test runs", {"test/test_text.py": _TEST.format(_OWN)}),
         Example(
             "a comparison, an error that nothing raises",
             {
@@ -80,9 +82,16 @@ def _problem(module: PythonModule, test: FunctionNode, node: ast.AST) -> tuple[a
                 if _drops(module, handler):
                     return handler, "this drops the AssertionError: the test passes all the same"
         case ast.FunctionDef(name=name) if node is not test and name.startswith("test_"):
-            if not module.index.names(name) and not node.decorator_list:
+            holder = module.parent(node)
+            used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
+            if not (used or _is_used(module, node)):
                 problem = f"{name} stands in {test.name}: pytest does not collect it"
     return node, problem
+
+
+def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
+    """Tell whether anything else has to do with a function or class."""
+    return bool(node.decorator_list or module.index.names(node.name))
 
 
 def _statement_problem(module: PythonModule, value: ast.expr) -> str:

@@ -24,6 +24,7 @@ _RIGHT = (
     "launch_testing.actions.ReadyToTest()",
     "unittest.TestCase",
 )
+_OTHER = _TEST.format("", *_RIGHT[1:3], "object")
 
 
 class LaunchTestMisused(Rule):
@@ -44,6 +45,7 @@ class LaunchTestMisused(Rule):
     name = "launch-test-misused"
     examples = (
         Example("right", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
+        Example("for launch_pytest", {"test/test_a.py": "import launch_pytest\n" + _OTHER}),
         Example(
             "never ready",
             {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
@@ -64,7 +66,8 @@ class LaunchTestMisused(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for module in package.modules():
             function = module.functions.get(LAUNCH)
-            if function is None or "launch_testing" not in module.imports_by_root:
+            roots = module.imports_by_root
+            if function is None or "launch_testing" not in roots or "launch_pytest" in roots:
                 continue
             for problem in _problems(package, module):
                 yield self.report(function, problem)
