@@ -65,6 +65,18 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a pattern; a file that the launch file makes anew",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', '*.yml'"),
+                "launch/b.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    made = os.path.join(share, 'config', 'made.urdf')\n"
+                    "    if os.path.isfile(made):\n        os.remove(made)\n    return",
+                ),
+            },
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,

@@ -19,6 +19,13 @@ if TYPE_CHECKING:
     from scaffold.model.source import Location
 
 
+_OF_MADE_FILES = frozenset(
+    {"os.mknod", "os.remove", "os.unlink", "os.path.exists", "os.path.isfile"}
+    | {"xacro.open_output"}
+)
+"""Functions that make, remove or ask for a file that need not be there."""
+
+
 class NamedPath(NamedTuple):
     """A path below the share directory of a package, named in a launch file."""
 
@@ -52,7 +59,7 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a launch file makes the file itself: ``open(path, 'w')``."""
+    """Tell whether a launch file makes the file itself, ``open(path, 'w')``, or asks for it."""
     holder = launch.module.parent(node)
     targets = holder.targets if isinstance(holder, ast.Assign) else ()
     names = {target.id for target in targets if isinstance(target, ast.Name)}
@@ -62,7 +69,17 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
                 func=ast.Name(id="open"), args=[ast.Name(id=name), ast.Constant(value=mode), *_]
             ) if name in names and str(mode)[:1] in "wax":
                 return True
+            case ast.Call(args=[ast.Name(id=name), *_]) if (
+                name in names and launch.module.qualified_name(call.func) in _OF_MADE_FILES
+            ):
+                return not _is_demanded(launch, call)
     return False
+
+
+def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
+    """Tell whether a launch file raises an error when a file that it asks for is not there."""
+    parents = [one for one in launch.module.parents(call) if isinstance(one, ast.If)]
+    return any(isinstance(node, ast.Raise) for one in parents[:1] for node in ast.walk(one))
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:
@@ -107,6 +124,7 @@ def _name(path: str) -> str:
 
 
 def _is_file_name(path: str) -> bool:
-    """Tell a file from a directory, or from the beginning of a name."""
+    """Tell a file from a directory, from the beginning of a name, and from a pattern."""
     stem, ending = posixpath.splitext(_name(path))
-    return bool(stem) and 2 <= len(ending) <= 8  # noqa: PLR2004  .py to .geojson
+    is_pattern = not {"*", "?", "["}.isdisjoint(path)
+    return bool(stem) and 2 <= len(ending) <= 8 and not is_pattern  # noqa: PLR2004  .py to .geojson
