@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, is_used_by_build, programs
 from scaffold.model.near import nearest
-from scaffold.model.own_modules import paths_imported_by
+from scaffold.model.own_modules import paths_imported_by, shows_itself
 from scaffold.model.python_module import PythonModule
 
 _NODE = (
@@ -44,7 +44,7 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
-            "started by an installed script or an entry point; left out; data of an agent",
+            "started by a script or an entry point; left out; data; a module that shows itself",
             {
                 "CMakeLists.txt": _LISTS.format("    # talker/old.py\n").replace(
                     "ament_p",
@@ -54,6 +54,8 @@ class ProgramNotInstalled(Rule):
                 "talker/setup.cfg": "console_scripts =\n  a = talker.a:main\n",
                 "talker/node.py": "from talker.other import main\n\nmain()\n",
                 **dict.fromkeys(("talker/a.py", "talker/old.py", "talker/other.py"), _NODE),
+                "talker/__init__.py": "",
+                "talker/list.py": _NODE.replace("main()", "show()"),
                 "skills/arm/scripts/move.py": _NODE,
             },
         ),
@@ -88,7 +90,7 @@ class ProgramNotInstalled(Rule):
         at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
         used = tuple(f"/{path}" for path in paths_imported_by(package, known))
         for module in package.modules():
-            if module.path in known or not self._is_started(module):
+            if module.path in known or not self._is_started(package, module):
                 continue
             if f"/{module.path}".endswith(used):
                 continue
@@ -100,7 +102,7 @@ class ProgramNotInstalled(Rule):
             )
             yield self.report(place, message)
 
-    def _is_started(self, module: PythonModule) -> bool:
+    def _is_started(self, package: Package, module: PythonModule) -> bool:
         """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
         return (
             module.is_script
@@ -108,6 +110,7 @@ class ProgramNotInstalled(Rule):
             and "rclpy" in module.imports_by_root
             and not module.in_tests
             and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
+            and not shows_itself(package, module)
         )
 
     def _is_misspelt(self, package: Package, path: str) -> bool:

@@ -108,3 +108,18 @@ def _lacks_package(package: Package, module: PythonModule, own: str, name: str) 
         return False
     mended = "sys.path" in module.source.text or "-packages" in setup.module.source.text
     return not mended and bool(file_of(package, f"{own}.{name}"))
+
+
+def shows_itself(package: Package, module: PythonModule) -> bool:
+    """Tell a module of a CMake package that, when it is started, only shows what it can do.
+
+    It lies in a Python package, and has neither a ``main`` nor a node that is spun: others import
+    it.
+    """
+    directory = module.path.rpartition("/")[0]
+    return (
+        bool(package.cmake.find("ament_python_install_package"))
+        and package.has(f"{directory}/__init__.py")
+        and "main" not in module.functions
+        and "spin" not in module.source.text
+    )
