@@ -53,6 +53,18 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "messages that only the tests have",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "CMakeLists.txt": "project(talker)\nset(_NAME ${PROJECT_NAME})\n"
+                'set(PROJECT_NAME "talker_test_msgs")\n'
+                "rosidl_generate_interfaces(${PROJECT_NAME} test/msg/A.msg SKIP_INSTALL)\n"
+                "set(PROJECT_NAME ${_NAME})\n",
+                "test/msg/A.msg": "int32 a\n",
+                "test/test_a.py": "from talker_test_msgs.msg import A\n",
+            },
+        ),
+        Example(
             "what CMake has for tests alone is a dependency of tests",
             {
                 "package.xml": '<package format="3">\n'

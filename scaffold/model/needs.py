@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.brought_along import provided_by
+from scaffold.model.cmake_interfaces import generations
 from scaffold.model.known import ROS1_PACKAGES, keys_of_module
 from scaffold.record import NamedTuple
 
@@ -178,7 +179,15 @@ def _local_names(package: Package) -> frozenset[str]:
         for path in package.tree.directories
         if package.has(f"{path}/__init__.py") or not keys_of_module(path.rpartition("/")[2])
     }
-    return frozenset(files | directories)
+    return frozenset(files | directories | _generated_names(package))
+
+
+def _generated_names(package: Package) -> set[str]:
+    """Return the modules that CMake generates of interfaces; tests may have some of their own."""
+    try:
+        return {one.target for one in generations(package) if one.target}
+    except ViewError:
+        return set()
 
 
 def _run_names(package: Package) -> set[str]:
