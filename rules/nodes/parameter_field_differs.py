@@ -45,6 +45,17 @@ class ParameterFieldDiffers(Rule):
     examples = (
         Example("the field of its type", {"talker.py": _NODE.format("double_value")}),
         Example(
+            "another field where the first one cannot be read",
+            {
+                "talker.py": _VARIABLES.format("double_value").replace(
+                    "        self.period = value.double_value\n",
+                    "        try:\n            self.period = value.double_value\n"
+                    "        except AttributeError:\n"
+                    "            self.period = value.integer_value\n",
+                )
+            },
+        ),
+        Example(
             "another field",
             {"talker.py": _NODE.format("integer_value")},
             at=("talker.py:8",),
@@ -65,6 +76,9 @@ class ParameterFieldDiffers(Rule):
                     read, declared = _read(package, facts, field)
                     if not declared or field.attr == f"{declared}_value":
                         continue
+                    parents = facts.module.parents(field)
+                    if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
+                        continue  # for a value that cannot be read otherwise
                     _, end = facts.module.span(field)
                     edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
                     message = f"{read!r} is declared as {declared}, so {field.attr} stays empty"
