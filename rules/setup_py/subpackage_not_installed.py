@@ -45,7 +45,7 @@ class SubpackageNotInstalled(Rule):
         ),
         Example(
             "listed by their directories",
-            {**_FILES, "setup.py": _SETUP.format("setup", "['talker', 'talker/text']")},
+            {**_FILES, "setup.py": _SETUP.format("setup", "['talker', 'talker/text/']")},
         ),
         Example(
             "one listed",

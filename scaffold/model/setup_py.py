@@ -212,8 +212,9 @@ class SetupPy:
         if isinstance(node, ast.Call):
             return self._find_packages(node)
         if isinstance(word.value, list | tuple):
-            # setuptools takes the directory, too: "talker/nodes".
-            names = [item.replace("/", ".") for item in word.value if isinstance(item, str)]
+            # setuptools takes the directory, too: "talker/nodes", "talker/nodes/".
+            texts = [item for item in word.value if isinstance(item, str)]
+            names = [text.rstrip("/").replace("/", ".") for text in texts]
             return names if len(names) == len(word.value) else UNKNOWN
         return UNKNOWN
 
