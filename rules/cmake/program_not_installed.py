@@ -19,6 +19,7 @@ _LISTS = (
     "install(\n  PROGRAMS\n    talker/node.py\n{}  DESTINATION lib/${{PROJECT_NAME}}\n)\n"
     "ament_package()\n"
 )
+_DATA = "install(DIRECTORY scripts DESTINATION share/talker)\nament_package()\n"
 
 
 class ProgramNotInstalled(Rule):
@@ -59,6 +60,7 @@ class ProgramNotInstalled(Rule):
                 "skills/arm/scripts/move.py": _NODE,
             },
         ),
+        Example("scripts as data", {"CMakeLists.txt": _DATA, "scripts/node.py": _NODE}),
         Example(
             "a CMakeLists.txt that colcon does not read",
             {

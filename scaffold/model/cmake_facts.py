@@ -150,14 +150,16 @@ def is_used_by_build(package: Package, path: str) -> bool:
     """Tell whether a file is installed, alone or in a directory of programs, or handed on.
 
     Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
-    says that it is left out.
+    says that it is left out. A package without programs has scripts as data that Python is given.
     """
+    is_script = not programs(package) and not package.is_executable(path)
     directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
     for install in package.cmake.installs:
         is_for_programs = (install.destination or "").startswith("lib")
         for item in install.items:
             is_around = install.kind == "DIRECTORY" and item.path in directories
-            is_data = is_around and path.count("/") > 1 and item.path == path.partition("/")[0]
+            is_deep = path.count("/") > 1 and item.path == path.partition("/")[0]
+            is_data = is_around and (is_deep or is_script)
             if item.path == path or (is_around and is_for_programs) or is_data:
                 return True
     name = path.rpartition("/")[2].removesuffix(".py")
