@@ -81,6 +81,16 @@ def test_a_type_that_the_package_lacks() -> None:
         make(package="scan_interfaces", add=[given])
 
 
+def test_a_message_that_holds_itself() -> None:
+    tree = {"kind": "message", "name": "Tree", "fields": "Tree[] branches"}
+    with pytest.raises(InputError, match="the message 'Tree' would hold itself$"):
+        make(package="plants", add=[tree])
+    leaf = {"kind": "message", "name": "Leaf", "fields": "Tree tree"}
+    tree["fields"] = "Leaf[] leaves"
+    with pytest.raises(InputError, match="would hold itself, inside another one$"):
+        make(package="plants", add=[tree, leaf])
+
+
 def test_interfaces_and_python_nodes_cannot_share_a_package() -> None:
     with pytest.raises(InputError, match="one of their own, such as talker_interfaces"):
         make(package="talker", add=["message:Status", "publisher:speaker"])

@@ -115,12 +115,35 @@ def refuse_impossible(
         for answer in part.answers.values():
             if isinstance(answer, Fields):
                 refuse_missing(answer, [*messages, *own])
+    _refuse_endless([part for part in parts if part.template.definition == "msg"])
     names: dict[str, Part] = {}
     for part in parts:
         other = names.setdefault(part.name, part)
         if other is not part:
             raise InputError(f"two parts of the package have the name {part.name!r}")
     _refuse_alike([part for part in parts if part.template.role is Role.INTERFACE])
+
+
+def _refuse_endless(messages: Sequence[Part]) -> None:
+    """Raise if a message holds itself, by way of others or not: no array of it would ever end."""
+    held = {
+        part.name: {
+            name
+            for answer in part.answers.values()
+            if isinstance(answer, Fields)
+            for name in answer.own_types
+        }
+        for part in messages
+    }
+    for name in held:
+        pending, reached = [name], set[str]()
+        while pending:
+            inner = held.get(pending.pop(), set()) - reached
+            reached |= inner
+            pending += inner
+        if name in reached:
+            way = "" if name in held[name] else ", inside another one"
+            raise InputError(f"the message {name!r} would hold itself{way}")
 
 
 def _refuse_alike(interfaces: Sequence[Part]) -> None:
