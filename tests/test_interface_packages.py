@@ -83,11 +83,11 @@ def test_a_type_that_the_package_lacks() -> None:
 
 def test_a_message_that_holds_itself() -> None:
     tree = {"kind": "message", "name": "Tree", "fields": "Tree[] branches"}
-    with pytest.raises(InputError, match="the message 'Tree' would hold itself$"):
+    with pytest.raises(InputError, match=r"the message 'Tree' would hold itself$"):
         make(package="plants", add=[tree])
     leaf = {"kind": "message", "name": "Leaf", "fields": "Tree tree"}
     tree["fields"] = "Leaf[] leaves"
-    with pytest.raises(InputError, match="would hold itself, inside another one$"):
+    with pytest.raises(InputError, match=r"would hold itself, inside another one$"):
         make(package="plants", add=[tree, leaf])
 
 

@@ -135,14 +135,14 @@ def _refuse_endless(messages: Sequence[Part]) -> None:
         }
         for part in messages
     }
-    for name in held:
+    for name, types in held.items():
         pending, reached = [name], set[str]()
         while pending:
             inner = held.get(pending.pop(), set()) - reached
             reached |= inner
             pending += inner
         if name in reached:
-            way = "" if name in held[name] else ", inside another one"
+            way = "" if name in types else ", inside another one"
             raise InputError(f"the message {name!r} would hold itself{way}")
 
 
