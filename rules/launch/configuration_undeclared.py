@@ -47,6 +47,15 @@ class ConfigurationUndeclared(Rule):
             },
         ),
         Example(
+            "set by a file that another one includes before this one",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", _USED),
+                "launch/all.yaml": "launch:\n- include:\n    file: launch/names.yaml\n"
+                "- include:\n    file: launch/a.launch.py\n",
+                "launch/names.yaml": "launch:\n- arg:\n    name: node\n    default: talker\n",
+            },
+        ),
+        Example(
             "never used",
             {
                 "launch/a.launch.py": _LAUNCH.format("", "'talk'").replace(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
@@ -42,8 +43,22 @@ def set_names(
 
 
 def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
-    """Tell whether another launch file of the workspace includes this one and sets the name."""
+    """Tell whether another launch file of the workspace includes this one and sets the name.
+
+    Or includes, beside this one, a third file that sets it.
+    """
     basename = launch.path.rpartition("/")[2]
+    including = [text for _, text in _others(package, launch) if basename in text]
+    if any(name in text for text in including):
+        return True
+    return bool(including) and any(
+        name in text and any(other in one for one in including)
+        for other, text in _others(package, launch)
+    )
+
+
+def _others(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
+    """Yield name and text of the other launch files of the workspace."""
     for other in package.workspace:
         for path in other.files:
             if "launch" not in path or not path.endswith(_ENDINGS):
@@ -51,12 +66,9 @@ def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> boo
             if other is package and path == launch.path:
                 continue
             try:
-                text = other.source(path).text
+                yield path.rpartition("/")[2], other.source(path).text
             except ViewError:
                 continue
-            if basename in text and name in text:
-                return True
-    return False
 
 
 def _has_own_actions(launch: LaunchFile) -> bool:
