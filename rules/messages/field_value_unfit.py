@@ -60,7 +60,7 @@ class FieldValueUnfit(Rule):
             at=("talker.py:13", "talker.py:15", "talker.py:17", "talker.py:19", "talker.py:19"),
         ),
         Example(
-            "fields of others, times, texts in bytes",
+            "fields of others, times, texts in bytes, a method, a parameter",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Float64, Header, Int32, String\n\n\n"
@@ -73,23 +73,11 @@ class FieldValueUnfit(Rule):
                 "        header = Header()\n"
                 "        header.stamp.sec = self.get_clock().now().nanoseconds\n"
                 "        header.stamp = self.get_clock().now().nanoseconds\n"
+                "        header.stamp = self.get_clock().now().to_msg\n"
+                "        text.data = self.get_parameter('text')\n"
                 "        return one, two, text\n",
             },
-            at=("talker.py:8", "talker.py:10", "talker.py:12", "talker.py:13"),
-        ),
-        Example(
-            "a method, a parameter",
-            {
-                "talker.py": "from rclpy.node import Node\n"
-                "from std_msgs.msg import Header, String\n\n\n"
-                "class Talker(Node):\n"
-                "    def talk(self):\n"
-                "        header = Header()\n"
-                "        header.stamp = self.get_clock().now().to_msg\n"
-                "        text = String()\n"
-                "        text.data = self.get_parameter('text')\n"
-            },
-            at=("talker.py:8", "talker.py:10"),
+            at=(*(f"talker.py:{line}" for line in (8, 10, 12, 13, 14, 15)),),
         ),
         Example(
             "a table for a row",

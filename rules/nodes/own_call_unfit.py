@@ -7,9 +7,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.call_fit import misfit
+from scaffold.model.called_function import called_function
 from scaffold.model.handlers import is_harmless
-from scaffold.model.node_entities import Callback
-from scaffold.model.nodes import NodeFacts
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -70,79 +69,8 @@ class OwnCallUnfit(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for call in facts.module.walk(ast.Call):
-                if not isinstance(call.func, ast.Name | ast.Attribute):
-                    continue
-                callback = facts.callback(call.func)
-                problem = _problem(facts, call, callback)
-                if not problem and callback.function is None:
-                    problem = _problem_of_imported(package, facts, call) or _problem_of_class(
-                        facts, call
-                    )
-                if problem and not is_harmless(facts.module, call, "TypeError"):
-                    name = callback.name or facts.module.text(call.func)
-                    message = f"{name}() {problem}: TypeError"
+                called = called_function(package, facts, call)
+                problem = misfit(call, called.takes, bound=called.bound) if called else ""
+                if called and problem and not is_harmless(facts.module, call, "TypeError"):
+                    message = f"{called.name}() {problem}: TypeError"
                     yield self.report(facts.module.location(call), message)
-
-
-def _problem(facts: NodeFacts, call: ast.Call, callback: Callback) -> str:
-    """Say what does not fit, if it is known for sure which function is called."""
-    function = callback.function
-    if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
-        return ""
-    if callback.is_called or callback.is_partial or not _is_only_one(facts, call.func, function):
-        return ""
-    if any(isinstance(one, ast.Starred) for one in call.args):
-        return ""
-    if any(word.arg is None for word in call.keywords):
-        return ""
-    return misfit(call, function.args, bound=int(callback.is_bound))
-
-
-def _problem_of_class(facts: NodeFacts, call: ast.Call) -> str:
-    """Say what does not fit the constructor of a class of nodes of this file."""
-    class_ = facts.evaluator.named_class(call.func)
-    node = facts.node_class(class_) if class_ is not None else None
-    constructor = node.methods.get("__init__") if node is not None else None
-    if constructor is None or constructor.decorator_list or (class_ and class_.decorator_list):
-        return ""
-    if class_ is None or class_.keywords or any(isinstance(one, ast.Starred) for one in call.args):
-        return ""
-    if any(word.arg is None for word in call.keywords):
-        return ""
-    return misfit(call, constructor.args, bound=1)
-
-
-def _problem_of_imported(package: Package, facts: NodeFacts, call: ast.Call) -> str:
-    """Say what does not fit a function that another module of the package defines."""
-    dotted = facts.module.qualified_name(call.func) or ""
-    module, _, name = dotted.rpartition(".")
-    path = f"{module.replace('.', '/')}.py"
-    if (
-        not module
-        or not package.has(path)
-        or any(isinstance(one, ast.Starred) for one in call.args)
-    ):
-        return ""
-    other = package.module(path)
-    bindings = other.index.bindings(other.tree).get(name, ())
-    function = bindings[0].node if len(bindings) == 1 else None
-    if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
-        return ""
-    if function.decorator_list:
-        return ""
-    if any(word.arg is None for word in call.keywords):
-        return ""
-    return misfit(call, function.args, bound=0)
-
-
-def _is_only_one(
-    facts: NodeFacts, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
-) -> bool:
-    """Tell whether no class that inherits, and no assignment, puts another function in place."""
-    others = [one for one in facts.module.function_nodes if one.name == function.name]
-    if len(others) != 1 or facts.evaluator.stores(function.name):
-        return False
-    if not isinstance(func, ast.Attribute):
-        return True
-    class_ = facts.evaluator.self_class(func.value)
-    return class_ is not None and function in class_.body

@@ -9,9 +9,7 @@ from scaffold.model.declared_parameters import declared_alone, has_always
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
 from scaffold.model.node_entities import Parameter, ParameterRead
-from scaffold.model.node_owners import NodeOwner
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import NameUsed, names_used
+from scaffold.model.parameter_objects import names_used_by
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -73,7 +71,6 @@ class ParameterReadUndeclared(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        named: dict[NodeFacts, dict[NodeOwner, list[NameUsed]]] = {}
         for node, declared in declared_alone(package):
             by_name: dict[str, list[Parameter]] = {}
             for one in declared:
@@ -84,11 +81,7 @@ class ParameterReadUndeclared(Rule):
                     node.facts.module, read.call, "ParameterNotDeclaredException"
                 ):
                     yield self.report(read, message)
-            if node.facts not in named:
-                named[node.facts] = {}
-                for used in names_used(node.facts):
-                    named[node.facts].setdefault(used.owner, []).append(used)
-            for used in named[node.facts].get(node, ()):
+            for used in names_used_by(package, node):
                 if used.name in by_name or has_always(used.name):
                     continue
                 module = node.facts.module

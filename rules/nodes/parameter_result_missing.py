@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import CALLBACKS
-from scaffold.model.parameter_results import wrong_list, wrong_result
+from scaffold.model.parameter_results import wrong_value
 from scaffold.model.returns import is_generator, may_end, returned
 from scaffold.model.scopes import FunctionNode
 
@@ -86,9 +86,8 @@ class ParameterResultMissing(Rule):
         function = callback.function
         if function is None or callback.is_partial or callback.is_called:
             return
-        wrong = wrong_list if method == _PRE else wrong_result
         if isinstance(function, ast.Lambda):
-            problem = wrong(facts, function.body) if method != _POST else ""
+            problem = wrong_value(method, facts, function.body) if method != _POST else ""
             if problem:
                 yield self.report(facts.module.location(function.body), f"returns {problem}")
         elif not function.decorator_list:
@@ -115,7 +114,6 @@ class ParameterResultMissing(Rule):
             message = f"{function.name} does not return {wanted}{path}"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
-            check = wrong_list if method == _PRE else wrong_result
-            problem = check(facts, statement.value)
+            problem = wrong_value(method, facts, statement.value)
             if problem:
                 yield self.report(module.location(statement), f"returns {problem}")

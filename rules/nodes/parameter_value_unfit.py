@@ -9,8 +9,7 @@ from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.declared_parameters import declared_by
 from scaffold.model.handlers import is_harmless
 from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import FIELDS, parameter_read
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.parameter_objects import parameter_read
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -18,7 +17,7 @@ _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
     "        self.declare_parameter('rate', {})\n"
-    "        self.rate = self.get_parameter('rate').value{}\n\n"
+    "        self.rate = self.get_parameter('rate').value\n\n"
     "    def start(self):\n"
     "        self.create_timer(1.0 / self.rate, self.tick)\n\n"
     "    def tick(self):\n        pass\n"
@@ -29,8 +28,7 @@ class ParameterValueUnfit(Rule):
     """The value of a parameter is computed with as if it were of another type than declared.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
-    cannot be interpreted as an integer``, or ``AttributeError: 'float' object has no attribute
-    'double_value'``: ``.value`` is the value already.
+    cannot be interpreted as an integer``.
 
     **Fix.** Declare the parameter with a default of the type that the code needs.
 
@@ -40,21 +38,16 @@ class ParameterValueUnfit(Rule):
     code = "ND088"
     name = "parameter-value-unfit"
     examples = (
-        Example("a number", {"talker.py": _NODE.format("2.0", "")}),
+        Example("a number", {"talker.py": _NODE.format("2.0")}),
         Example(
             "converted",
             {
-                "talker.py": _NODE.format("'2.0'", "")
+                "talker.py": _NODE.format("'2.0'")
                 .replace("self.rate =", "self.rate = float(")
                 .replace(".value", ".value)")
             },
         ),
-        Example("a text", {"talker.py": _NODE.format("'2.0'", "")}, at=("talker.py:11",)),
-        Example(
-            "a field of the value",
-            {"talker.py": _NODE.format("2.0", ".double_value")},
-            at=("talker.py:8",),
-        ),
+        Example("a text", {"talker.py": _NODE.format("'2.0'")}, at=("talker.py:11",)),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -77,13 +70,6 @@ def _problems(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, st
                 if problem:
                     yield operation, problem
     yield from _ranges(package, facts)
-    for field in FIELDS:
-        for attribute in facts.module.index.attributes(field):
-            match facts.evaluator.single_value(attribute.value):
-                case ast.Attribute(attr="value", value=parameter) if (
-                    class_of(facts, parameter) == PARAMETER
-                ):
-                    yield attribute, f"value is the value already, without {field}: AttributeError"
 
 
 def _ranges(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]]:

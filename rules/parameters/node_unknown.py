@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.declared_parameters import own_nodes
-from scaffold.model.launch_nodes import StartedNode
-from scaffold.model.parameter_files import ParameterFile, Section, parameter_file, parameter_paths
-from scaffold.model.parameter_use import is_alike, node_names, use_of
+from scaffold.model.parameter_files import ParameterFile, parameter_file, parameter_paths
+from scaffold.model.parameter_use import names_alike, node_names, use_of
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -33,7 +32,7 @@ class NodeUnknown(Rule):
 
     **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
 
-    **Fix.** Write the name of the node, with its namespace; ``/**`` is for all nodes.
+    **Fix.** Write the name of the node; ``/**`` is for all nodes.
 
     **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
     """
@@ -91,19 +90,15 @@ class NodeUnknown(Rule):
         names = {node.name for node in use.nodes if isinstance(node.name, str)}
         if any(not isinstance(node.name, str) for node in use.nodes):
             return
-        given = {section.name for section in file.sections}
         useless = not any(s.is_pattern or s.name in names for s in file.sections)
         everywhere = node_names(package)
         in_one_process = any(node.package == _CONTROL for node in use.nodes)
         for section in file.sections:
             name = section.name
             # The controller manager makes more nodes, and names them after its controllers.
-            if section.is_pattern or (in_one_process and name != _CONTROL):
+            if section.is_pattern or name in names or (in_one_process and name != _CONTROL):
                 continue
-            if name in names:
-                yield from self._in_other_namespace(section, use.nodes)
-                continue
-            alike = [other for other in sorted(names - given) if is_alike(name, other)]
+            alike = names_alike(file, names, name)
             if alike or (useless and use.complete and name not in everywhere):
                 first = use.nodes[0].call.location
                 message = (
@@ -112,30 +107,14 @@ class NodeUnknown(Rule):
                 )
                 yield self.report(section.key, message)
 
-    def _in_other_namespace(
-        self, section: Section, nodes: list[StartedNode]
-    ) -> Iterator[Diagnostic]:
-        """Judge a section with the name of a node that runs in no namespace."""
-        named = [node for node in nodes if node.name == section.name]
-        if any(node.is_scoped or node.full_name is None or node.namespace for node in named):
-            return
-        if not any(section.fits(node.full_name or "") for node in named):
-            at = named[0].call.location
-            message = (
-                f"this section is for {section.node}, but {at.path}:{at.line} starts "
-                f"{named[0].full_name}"
-            )
-            yield self.report(section.key, message)
-
     def _for_own(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
         """Judge a file that no launch file names by the nodes in the code of the package."""
         nodes, complete = own_nodes(package)
         names = {str(node.node_name) for node in nodes}
-        given = {section.name for section in file.sections}
         everywhere = node_names(package)
         for section in file.sections if complete else ():
             name = section.name
-            alike = [other for other in sorted(names - given) if is_alike(name, other)]
+            alike = names_alike(file, names, name)
             if alike and name not in everywhere and not section.is_pattern:
                 message = f"no node of this package is called {name!r}; {alike[0]!r} is meant"
                 yield self.report(section.key, message)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
-from scaffold.model.declared_parameters import ALWAYS, Declared, declared_by, home_of, place_of
+from scaffold.model.declared_parameters import declared_by
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_values import value_given
-from scaffold.model.node_entities import Parameter
 from scaffold.model.parameter_files import Entry, parameter_file, parameter_paths, value_type
+from scaffold.model.parameter_types import a_type, agreed_type, narrow_default
 from scaffold.model.parameter_use import nodes_for
 from scaffold.model.yaml_tree import Scalar
 
@@ -87,76 +87,25 @@ class ParameterTypeDiffers(Rule):
             for section in file.sections if file else ():
                 known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
                 for entry in section.entries:
-                    kind, where = _declared(package, known, entry.name)
-                    if entry.name in ALWAYS:
-                        kind, where = "bool", f"{entry.name}, which every node has,"
+                    kind, where = agreed_type(package, known, entry.name)
                     given = value_type(entry.value)
                     if not kind or not given or given == kind:
                         continue
-                    default = _narrow_default(package, known, entry.name, given)
-                    if default is not None:
-                        at = entry.value.location
-                        message = (
-                            f"the default is {_article(kind)}, but {at.path}:{at.line} sets "
-                            f"{_article(given)}: the node dies; declare {_article(given)}"
-                        )
-                        yield self.report(default, message)
-                        continue
-                    message = f"{where} is {_article(kind)}, but this is {_article(given)}"
-                    yield self.report(entry.value, message, _fix(path, entry, kind, given))
+                    if narrow_default(package, known, entry.name, given) is None:
+                        message = f"{where} is {a_type(kind)}, but this is {a_type(given)}"
+                        yield self.report(entry.value, message, _fix(path, entry, kind, given))
         yield from self._in_launch_files(package)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in consumers(package):
-            owner = node.owner
-            declared = declared_by(owner, package) if owner is not None else None
+            known = [declared_by(node.owner, package)] if node.owner is not None else []
             for name, _, value in node.parameter_dicts:
-                kind, where = _declared(package, [declared] if declared else [], name)
-                if name in ALWAYS:
-                    kind, where = "bool", f"{name}, which every node has,"
+                kind, where = agreed_type(package, known, name)
                 given = value_given(node.launch, value)
                 if kind and given and given.type != kind:
-                    message = (
-                        f"{where} is {_article(kind)}, but {given.text} is {_article(given.type)}"
-                    )
+                    said = f"{given.text} is {a_type(given.type)}"
+                    message = f"{where} is {a_type(kind)}, but {said}"
                     yield self.report(node.launch.location(value), message)
-
-
-def _declared(package: Package, known: list[Declared], name: str) -> tuple[str | None, str]:
-    """Return the type that all nodes agree on, and the name with where it is declared."""
-    nodes = [one for one in known if name in one.types]
-    types = {one.types[name] for one in nodes}
-    if len(types) != 1:
-        return None, name
-    return types.pop(), f"{name} ({place_of(nodes[0].places[name], package)})"
-
-
-def _narrow_default(
-    package: Package, known: list[Declared], name: str, given: str
-) -> Parameter | None:
-    """Return the parameter whose default, not the file, has a type that nobody means.
-
-    Such as ``1`` for a period, or a number in quotes.
-    """
-    for one in known:
-        parameter = one.places.get(name)
-        default = parameter.default if parameter else None
-        owner = parameter.owner if parameter else None
-        if owner is None or home_of(owner, package) is not package:
-            continue  # of another package, which is judged by itself
-        if given == "double" and (type(default) is int or _is_number(default)):
-            return parameter
-        if given == "integer" and _is_number(default):
-            return parameter
-    return None
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, str) and value.lstrip("+-").replace(".", "", 1).isdecimal()
-
-
-def _article(kind: str) -> str:
-    return f"{'an' if kind.startswith('i') else 'a'} {kind}"
 
 
 def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:

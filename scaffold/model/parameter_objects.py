@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.node_entities import parameter_type
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from scaffold.model.node_entities import Entity
     from scaffold.model.node_owners import NodeOwner
     from scaffold.model.nodes import NodeFacts
+    from scaffold.model.package import Package
     from scaffold.model.scopes import FunctionNode
 
 _PARAMETER = "rclpy.parameter.Parameter"
@@ -222,6 +223,18 @@ def names_used(facts: NodeFacts) -> Iterator[NameUsed]:
         name = read.argument("name")
         if read.owner is not None and read.method == "get_parameter" and name is not None:
             yield from _texts(facts, read.owner, read.call, _looped(facts, name.node))
+
+
+def names_used_by(package: Package, owner: NodeOwner) -> Sequence[NameUsed]:
+    """Return what `names_used` says of one node; a file is looked at once for all of its nodes."""
+
+    def by_owner() -> dict[NodeOwner, list[NameUsed]]:
+        found: dict[NodeOwner, list[NameUsed]] = {}
+        for used in names_used(owner.facts):
+            found.setdefault(used.owner, []).append(used)
+        return found
+
+    return package.remember(("names_used", owner.facts), by_owner).get(owner, ())
 
 
 def _texts(

@@ -7,17 +7,24 @@ import re
 from typing import TYPE_CHECKING
 
 from scaffold.model.descriptors import message_made
+from scaffold.model.parameter_objects import CALLBACKS
 from scaffold.model.returns import is_generator, may_end, returned
 
 if TYPE_CHECKING:
     from scaffold.model.nodes import NodeFacts
 
+_PRE = CALLBACKS[-1]
 RESULT = "rcl_interfaces.msg.SetParametersResult"
 _MESSAGE = r"\w+\.(?:msg|srv|action)\.\w+"
 _REFUSED = "every change is refused"
 
 
-def wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
+def wrong_value(method: str, facts: NodeFacts, value: ast.expr | None) -> str:
+    """Return what is wrong about what a callback returns that a method adds, else nothing."""
+    return (_wrong_list if method == _PRE else _wrong_result)(facts, value)
+
+
+def _wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a SetParametersResult, else nothing."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
@@ -49,7 +56,7 @@ def _one_of_constants(facts: NodeFacts, value: ast.expr) -> ast.Constant | None:
     return constants[0] if constants and len(constants) == len(values) else None
 
 
-def wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
+def _wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a list of parameters, else nothing."""
     made = facts.evaluator.single_value(value) if value is not None else None
     if made is None or (isinstance(made, ast.Constant) and made.value in {None, True, False}):

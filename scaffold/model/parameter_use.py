@@ -17,7 +17,7 @@ from scaffold.record import NamedTuple
 if TYPE_CHECKING:
     from scaffold.model.node_owners import NodeOwner
     from scaffold.model.package import Package
-    from scaffold.model.parameter_files import Section
+    from scaffold.model.parameter_files import ParameterFile, Section
 
 _ALIKE = 0.75
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
@@ -92,7 +92,13 @@ def node_names(package: Package) -> set[str]:
     return names | {str(node.name) for node in (*started_nodes(package), *consumers(package))}
 
 
-def is_alike(name: str, other: str) -> bool:
+def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
+    """Return the nodes without a section of the file that one for ``name`` may be meant for."""
+    given = {section.name for section in file.sections}
+    return [other for other in sorted(names - given) if _is_alike(name, other)]
+
+
+def _is_alike(name: str, other: str) -> bool:
     """Tell whether one name of a node may be meant to be the other."""
     one, two = name.replace("_", "").lower(), other.replace("_", "").lower()
     if one == two:

@@ -1,0 +1,49 @@
+"""ND098: ``.value`` of a parameter is the value itself."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.parameter_objects import FIELDS
+from scaffold.model.rclpy_names import PARAMETER, class_of
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.rate = self.get_parameter('rate'){}.double_value\n"
+)
+
+
+class FieldOfPlainValue(Rule):
+    """A field of ``ParameterValue`` is read from ``.value``, which is the value itself.
+
+    **Why.** ``AttributeError: 'float' object has no attribute 'double_value'``.
+
+    **Fix.** ``.value`` alone, or ``.get_parameter_value().double_value``.
+
+    **Source.** ``rclpy/parameter.py``.
+    """
+
+    code = "ND098"
+    name = "field-of-plain-value"
+    examples = (
+        Example("of the message", {"talker.py": _NODE.format(".get_parameter_value()")}),
+        Example("of the value", {"talker.py": _NODE.format(".value")}, at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for field in FIELDS:
+                for attribute in facts.module.index.attributes(field):
+                    match facts.evaluator.single_value(attribute.value):
+                        case ast.Attribute(attr="value", value=parameter):
+                            is_parameter = class_of(facts, parameter) == PARAMETER
+                        case _:
+                            continue
+                    if is_parameter and not is_harmless(facts.module, attribute, "AttributeError"):
+                        message = f"value is the value already, without {field}: AttributeError"
+                        yield self.report(facts.module.location(attribute), message)

@@ -1,0 +1,61 @@
+"""PF034: defaults have the type of the values that parameter files give."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.declared_parameters import declared_by
+from scaffold.model.parameter_files import parameter_file, parameter_paths, value_type
+from scaffold.model.parameter_types import a_type, agreed_type, narrow_default
+from scaffold.model.parameter_use import nodes_for
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', {})\n"
+)
+_FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
+
+
+def _files(default: str, value: str) -> dict[str, str]:
+    return {"talker.py": _NODE.format(default), "a.yaml": _FILE.format(value)}
+
+
+class DefaultTooNarrow(Rule):
+    """A node declares an integer, or a number in quotes, where its parameter file has a double.
+
+    **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter
+    'rate' to '2.5' of type 'DOUBLE', expecting type 'INTEGER'``. The default alone says the type.
+
+    **Fix.** ``self.declare_parameter('rate', 1.0)``; a number without quotes.
+
+    **Source.** ``rclpy/node.py``, ``declare_parameters``.
+    """
+
+    code = "PF034"
+    name = "default-too-narrow"
+    examples = (
+        Example("doubles", _files("1.0", "2.5")),
+        Example("an integer", _files("1", "2.5"), at=("talker.py:7",)),
+        Example("a number in quotes", _files("'1'", "2"), at=("talker.py:7",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
+                for entry in section.entries:
+                    kind, _ = agreed_type(package, known, entry.name)
+                    given = value_type(entry.value)
+                    if not kind or not given or given == kind:
+                        continue
+                    default = narrow_default(package, known, entry.name, given)
+                    if default is not None:
+                        at = entry.value.location
+                        message = (
+                            f"the default is {a_type(kind)}, but {at.path}:{at.line} sets "
+                            f"{a_type(given)}: the node dies; declare {a_type(given)}"
+                        )
+                        yield self.report(default, message)

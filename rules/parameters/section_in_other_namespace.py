@@ -1,0 +1,79 @@
+"""PF035: the sections of a parameter file name the namespaces of its nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.launch_nodes import StartedNode
+from scaffold.model.parameter_files import Section, parameter_file, parameter_paths
+from scaffold.model.parameter_use import use_of
+
+_CONTROL = "controller_manager"
+_MANIFEST = '<package format="3"><name>demo</name></package>\n'
+_FILE = "{}:\n  ros__parameters:\n    rate: 1.0\n"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\nfrom launch_ros.substitutions import FindPackageShare\n"
+    "\n\ndef generate_launch_description():\n"
+    "    params = PathJoinSubstitution([FindPackageShare('demo'), 'config', 'demo.yaml'])\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='eyes', executable='eye', name='camera', parameters=[params]),\n    ])\n"
+)
+
+
+def _files(section: str) -> dict[str, str]:
+    return {
+        "package.xml": _MANIFEST,
+        "launch/a.launch.py": _LAUNCH,
+        "config/demo.yaml": _FILE.format(section),
+    }
+
+
+class SectionInOtherNamespace(Rule):
+    """A parameter file is for a node in a namespace, and the node runs in none.
+
+    **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
+
+    **Fix.** Write the name as ``ros2 node list`` shows it, or ``/**/name`` for any namespace.
+
+    **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
+    """
+
+    code = "PF035"
+    name = "section-in-other-namespace"
+    examples = (
+        Example("no namespace", _files("camera")),
+        Example("any namespace", _files("/**/camera")),
+        Example("another namespace", _files("/front/camera"), at=("config/demo.yaml:1",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            nodes = use_of(package, path).nodes if file is not None else []
+            if any(not isinstance(node.name, str) for node in nodes):
+                continue
+            in_one_process = any(node.package == _CONTROL for node in nodes)
+            for section in file.sections if file is not None else ():
+                # The controller manager names the nodes that it makes after its controllers.
+                if section.is_pattern or (in_one_process and section.name != _CONTROL):
+                    continue
+                other = _other_node(section, nodes)
+                if other is not None:
+                    at = other.call.location
+                    message = (
+                        f"this section is for {section.node}, but {at.path}:{at.line} starts "
+                        f"{other.full_name}"
+                    )
+                    yield self.report(section.key, message)
+
+
+def _other_node(section: Section, nodes: list[StartedNode]) -> StartedNode | None:
+    """Return the node of the same name that surely runs in no namespace."""
+    named = [node for node in nodes if node.name == section.name]
+    if any(node.is_scoped or node.full_name is None or node.namespace for node in named):
+        return None
+    return (
+        named[0] if named and not any(section.fits(str(one.full_name)) for one in named) else None
+    )
