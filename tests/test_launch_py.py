@@ -19,9 +19,11 @@ from scaffold.model import parameter_files, yaml_tree
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_py import LaunchFile, returns, share_path
 from scaffold.model.package import Package
-from scaffold.model.package_programs import programs_of
+from scaffold.model.package_programs import nodes_of, programs_of
 from scaffold.model.share_files import share_of
 from scaffold.model.source import Source
+from scaffold.model.tree import MemoryTree
+from scaffold.model.workspace import Workspace
 from scaffold.model.yaml_tree import Mapping, Scalar
 from tests import PATIENCE
 
@@ -306,3 +308,26 @@ def test_damaged_files_never_break_a_rule(chance: random.Random, which: str) -> 
     files[path] = "".join(words)
     said = runner.check(Package.of(files), [rule() for rule in RULES])
     assert [one.message for one in said if one.code == "SC002"] == []
+
+
+def test_nodes_of_a_program_include_those_that_functions_of_other_packages_make() -> None:
+    manifest = "<package format='3'><name>{}</name><export><build_type>ament_python</build_type>"
+    manifest += "</export></package>\n"
+    setup = "from setuptools import setup\nsetup(name='talker', entry_points={'console_scripts': "
+    setup += "['talk = talker.talk:main']})\n"
+    talk = "import rclpy\nfrom helper.options import read\nfrom rclpy.node import Node\n\n\n"
+    talk += "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n\n\n"
+    talk += "def main():\n    rclpy.init()\n    read()\n    rclpy.spin(Talker())\n"
+    options = "import rclpy\n\n\ndef read():\n    node = rclpy.create_node('options')\n"
+    options += "    return node.declare_parameter('path', '').value\n"
+    trees = [
+        {"package.xml": manifest.format("talker"), "setup.py": setup, "talker/talk.py": talk},
+        {"package.xml": manifest.format("helper"), "helper/options.py": options},
+    ]
+    alone = Package(MemoryTree(trees[0], ()))
+    assert [node.name for node in nodes_of(alone, "talk")] == ["Talker"]
+    workspace = Workspace()
+    packages = [Package(MemoryTree(files, ()), workspace=workspace) for files in trees]
+    for package in packages:
+        workspace.add(package)
+    assert [node.name for node in nodes_of(packages[0], "talk")] == ["Talker", "node"]

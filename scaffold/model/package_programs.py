@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.errors import ViewError
 from scaffold.model.cmake_facts import programs
+from scaffold.model.known import keys_of_module
+from scaffold.model.node_owners import NodeObject
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -59,7 +62,23 @@ def nodes_of(package: Package, program: str) -> list[NodeOwner]:
     found = list(facts.nodes)
     for name in _imported(package, path):
         found.extend(package.node_facts(name).nodes)
+    found.extend(_made_by_others(package, path))
     return found
+
+
+def _made_by_others(package: Package, path: str) -> Iterator[NodeOwner]:
+    """Yield the nodes that functions of other packages make, as far as a file imports those."""
+    for one in package.module(path).imports:
+        if one.level or one.root == package.name or keys_of_module(one.root):
+            continue
+        other = package.workspace.get(one.root)
+        stem = one.module.replace(".", "/")
+        for name in (f"{stem}.py", f"src/{stem}.py"):
+            if other is None or not other.has(name):
+                continue
+            with contextlib.suppress(ViewError):
+                nodes = other.node_facts(name).nodes
+                yield from (node for node in nodes if isinstance(node, NodeObject))
 
 
 def _imported(package: Package, path: str) -> Iterator[str]:
