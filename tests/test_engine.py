@@ -14,9 +14,13 @@ from scaffold.check.diagnostic import Diagnostic, Edit
 from scaffold.check.fixer import splice
 from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
+from scaffold.check.session import Session
 from scaffold.errors import ConfigError, ContentError, MissingFileError
+from scaffold.model.discovery import Target
 from scaffold.model.package import Package
 from scaffold.model.source import Location
+from scaffold.model.tree import MemoryTree
+from scaffold.model.workspace import Workspace
 
 RULE = '''\
 """A rule."""
@@ -61,6 +65,17 @@ class Crashing(Loud):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield self.report(package.start_of("CMakeLists.txt"), "before the crash")
         raise ZeroDivisionError("by zero")
+
+
+class ReadsNotesOfListener(Rule):
+    code = "CM903"
+    name = "reads-notes"
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        listener = package.workspace.get("listener") if package.name == "talker" else None
+        if listener is not None:
+            listener.source("notes.txt")
+        yield from ()
 
 
 class NeedsManifest(Loud):
@@ -114,6 +129,20 @@ def test_a_missing_view_silences_the_rule() -> None:
     assert runner.check(package, [NeedsManifest()]) == []
     with pytest.raises(MissingFileError):
         _ = package.manifest
+
+
+@pytest.mark.parametrize("order", [("talker", "listener"), ("listener", "talker")])
+def test_what_is_read_for_others_is_not_reported(order: tuple[str, str]) -> None:
+    workspace = Workspace()
+    notes = {"listener": b"\xff", "talker": b"heard\n"}
+    packages = {}
+    for name, data in notes.items():
+        files = {"package.xml": f"<package><name>{name}</name></package>\n", "notes.txt": data}
+        packages[name] = Package(MemoryTree(files), directory=name, workspace=workspace)
+        workspace.add(packages[name])
+    session = Session([ReadsNotesOfListener], Selection(select=("CM",)))
+    results = session.run_batch([Target(packages[name]) for name in order])
+    assert [one.diagnostics for one in results] == [[], []]
 
 
 def test_an_unparsable_file_is_reported_once() -> None:

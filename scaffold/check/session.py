@@ -108,6 +108,10 @@ class Session:
         return StyleCheck(packages)
 
     def _check_rules(self, package: Package) -> list[Diagnostic]:
+        if package.parse_errors:
+            # They were met for other packages: the verdict must not depend on who came first.
+            package.forget()
+            _ = package.name  # which everybody asks for: a malformed manifest is told of
         said = runner.check(package, self._rules)
         return suppression.apply(package, said, self._ran)
 
