@@ -135,9 +135,12 @@ def test_a_missing_view_silences_the_rule() -> None:
 def test_what_is_read_for_others_is_not_reported(order: tuple[str, str]) -> None:
     workspace = Workspace()
     notes = {"listener": b"\xff", "talker": b"heard\n"}
-    packages = {}
+    packages: dict[str, Package] = {}
     for name, data in notes.items():
-        files = {"package.xml": f"<package><name>{name}</name></package>\n", "notes.txt": data}
+        files: dict[str, str | bytes] = {
+            "package.xml": f"<package><name>{name}</name></package>\n",
+            "notes.txt": data,
+        }
         packages[name] = Package(MemoryTree(files), directory=name, workspace=workspace)
         workspace.add(packages[name])
     session = Session([ReadsNotesOfListener], Selection(select=("CM",)))

@@ -11,7 +11,7 @@ from scaffold.model.scopes import FunctionNode
 
 PROPERTIES = frozenset(
     {"clients", "context", "default_callback_group", "executor", "guards", "handle", "publishers"}
-    | {"services", "subscriptions", "timers", "waitables", "callback_groups"}
+    | {"services", "subscriptions", "timers", "waitables"}
 )
 _LISTS = frozenset({"clients", "guards", "services", "subscriptions", "timers", "waitables"})
 """Properties that an executor loops over."""

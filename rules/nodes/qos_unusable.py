@@ -52,6 +52,11 @@ class QosUnusable(Rule):
         ),
         Example("a text", {"talker.py": _NODE.format("'10'")}, at=("talker.py:9",)),
         Example(
+            "a depth below nothing",
+            {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
+            at=("talker.py:9",),
+        ),
+        Example(
             "a policy alone",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
             at=("talker.py:9",),
@@ -103,6 +108,8 @@ def _problem_of_word(facts: NodeFacts, word: ast.keyword) -> str:
     value = facts.evaluator.evaluate(word.value)
     if word.arg == "depth" and isinstance(value, str | float):
         return f"a depth is an int, and this is {kind_of(value)}: AssertionError"
+    if word.arg == "depth" and type(value) is int and value < 0:
+        return f"a depth is at least 0, and this is {value}: ValueError"
     wanted = _POLICIES.get(word.arg or "")
     if wanted and isinstance(value, str):
         return f"{word.arg} is a {wanted}, and this is a str: AssertionError"

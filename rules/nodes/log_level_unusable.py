@@ -1,0 +1,93 @@
+"""ND099: levels of loggers are severities."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.loggers import is_of_rclpy
+from scaffold.model.nodes import NodeFacts
+from scaffold.model.values import is_known
+
+_SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
+_SET = "rclpy.logging.set_logger_level"
+_NODE = (
+    "from rclpy.logging import LoggingSeverity, set_logger_level\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.get_logger().set_level({0})\n"
+    "        set_logger_level('talker', {0})\n"
+)
+
+
+class LogLevelUnusable(Rule):
+    """The level of a logger is a text, or a number that is no severity.
+
+    **Why.** ``ValueError: 'debug' is not a valid LoggingSeverity``.
+
+    **Fix.** ``LoggingSeverity.DEBUG``, from ``rclpy.logging``.
+
+    **Source.** ``rclpy/logging.py``; ``rclpy/impl/rcutils_logger.py``, ``set_level``.
+    """
+
+    code = "ND099"
+    name = "log-level-unusable"
+    examples = (
+        Example("a severity", {"talker.py": _NODE.format("LoggingSeverity.DEBUG")}),
+        Example("the number of a severity", {"talker.py": _NODE.format("10")}),
+        Example(
+            "a logger of one's own",
+            {
+                "talker.py": "import rclpy\n\n\nclass Log:\n    def get_logger(self):\n"
+                "        return self\n\n    def start(self):\n"
+                "        self.get_logger().set_level('debug')\n"
+            },
+        ),
+        Example(
+            "a text",
+            {"talker.py": _NODE.format("'debug'")},
+            at=("talker.py:8", "talker.py:9"),
+        ),
+        Example("a number", {"talker.py": _NODE.format("1")}, at=("talker.py:8", "talker.py:9")),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for call, level in _levels(facts):
+                value = facts.evaluator.evaluate(level)
+                is_severity = type(value) is int and value in _SEVERITIES
+                if (
+                    is_known(value)
+                    and not is_severity
+                    and not is_harmless(facts.module, call, "ValueError")
+                ):
+                    message = f"a level is a LoggingSeverity, and {value!r} is none: ValueError"
+                    yield self.report(facts.module.location(level), message)
+
+
+def _levels(facts: NodeFacts) -> Iterator[tuple[ast.Call, ast.expr]]:
+    """Yield the levels that loggers of rclpy are given."""
+    for attribute in facts.module.index.attributes("set_level"):
+        call = facts.module.parent(attribute)
+        if not isinstance(call, ast.Call) or call.func is not attribute or len(call.args) != 1:
+            continue
+        if _is_logger(facts, facts.evaluator.single_value(attribute.value)):
+            yield call, call.args[0]
+    for call in facts.module.walk(ast.Call):
+        if facts.module.qualified_name(call.func) == _SET and len(call.args) > 1:
+            yield call, call.args[1]
+
+
+def _is_logger(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression asks for a logger: a node, or rclpy itself."""
+    match node:
+        case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):
+            is_node = facts.owner_of(owner) is not None and is_of_rclpy(facts, method)
+            return is_node or facts.module.qualified_name(method) == "rclpy.logging.get_logger"
+        case ast.Call(func=ast.Name() as function):
+            return facts.module.qualified_name(function) == "rclpy.logging.get_logger"
+    return False
