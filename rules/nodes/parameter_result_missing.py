@@ -10,7 +10,7 @@ from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import CALLBACKS
 from scaffold.model.parameter_results import wrong_value
-from scaffold.model.returns import is_generator, may_end, returned
+from scaffold.model.returns import is_generator, may_end_with_items, returned
 from scaffold.model.scopes import FunctionNode
 
 _ON, _POST, _PRE = CALLBACKS
@@ -48,6 +48,7 @@ class ParameterResultMissing(Rule):
     name = "parameter-result-missing"
     examples = (
         Example("a result", {"talker.py": _NODE.format("parameters", _RIGHT)}),
+        Example("looped", {"talker.py": _NODE.format("a", "        for b in a:\n    " + _RIGHT)}),
         Example(
             "filled afterwards",
             {
@@ -109,7 +110,7 @@ class ParameterResultMissing(Rule):
             message = f"{function.name} is {word}, and does not return {wanted}"
             yield self.report(module.name_location(function), message)
             return
-        if may_end(function):
+        if may_end_with_items(function):
             path = " on every path" if returned(function) else ""
             message = f"{function.name} does not return {wanted}{path}"
             yield self.report(module.name_location(function), message)

@@ -17,6 +17,20 @@ def returned(function: FunctionNode) -> Sequence[ast.Return]:
     return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
 
 
+def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr | None:
+    """Return what the name that is returned was last set to, if no branch or loop is in between."""
+    name = statement.value.id if isinstance(statement.value, ast.Name) else None
+    if name is None or statement not in function.body:
+        return None
+    for earlier in reversed(function.body[: function.body.index(statement)]):
+        match earlier:
+            case ast.Assign(targets=[ast.Name(id=target)], value=value) if target == name:
+                return value
+        if any(_sets(node, name) for node in ast.walk(earlier)):
+            return None
+    return None
+
+
 def is_generator(function: FunctionNode) -> bool:
     """Tell whether a call of the function gives a generator."""
     return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
@@ -25,6 +39,17 @@ def is_generator(function: FunctionNode) -> bool:
 def may_end(function: FunctionNode) -> bool:
     """Tell whether the end of the function may be reached, so that it returns ``None``."""
     return _passes(function.body)
+
+
+def may_end_with_items(function: FunctionNode) -> bool:
+    """Tell whether the end may be reached although the last argument, a list, is not empty."""
+    *before, last = function.body
+    names = [one.arg for one in function.args.args[-1:]]
+    match last:
+        case ast.For(iter=ast.Name(id=name), body=body, orelse=[]) if name in names:
+            leaves = any(isinstance(node, ast.Break | ast.Continue) for node in ast.walk(last))
+            return _passes(before) and (leaves or _passes(body))
+    return may_end(function)
 
 
 def _own_nodes(function: FunctionNode) -> Iterator[ast.AST]:
@@ -62,6 +87,10 @@ def _passes_one(statement: ast.stmt) -> bool:
         case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
             passes = False
     return passes
+
+
+def _sets(node: ast.AST, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name and not isinstance(node.ctx, ast.Load)
 
 
 def _is_safe(statement: ast.stmt) -> bool:
