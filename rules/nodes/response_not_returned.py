@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import Service
-from scaffold.model.returns import is_generator, may_end, returned
+from scaffold.model.returns import is_generator, may_end, returned, value_set_before
 from scaffold.model.scopes import FunctionNode
 
 _NODE = (
@@ -59,6 +59,15 @@ class ResponseNotReturned(Rule):
             {"server.py": _NODE.format("        return Trigger.Request()\n")},
             at=("server.py:12",),
         ),
+        Example(
+            "the class in place of the response",
+            {
+                "server.py": _NODE.format(
+                    "        response = Trigger.Response\n        return response\n"
+                )
+            },
+            at=("server.py:13",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -86,7 +95,8 @@ class ResponseNotReturned(Rule):
             message = f"{function.name} does not return the response{never}; {said}: TypeError"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
-            wrong = _wrong(types, service, statement.value)
+            value = value_set_before(function, statement) or statement.value
+            wrong = _wrong(types, service, value)
             if wrong:
                 message = f"returns {wrong}, not the response; {said}: TypeError"
                 yield self.report(module.location(statement), message)

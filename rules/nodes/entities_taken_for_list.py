@@ -1,0 +1,95 @@
+"""ND100: the properties of Node that give its entities are gone through, not kept things in."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.model.handlers import is_harmless
+from scaffold.model.node_owners import NodeClass
+from scaffold.model.nodes import NodeFacts
+
+_PROPERTIES = (
+    *("clients", "guards", "publishers", "services", "subscriptions", "timers", "waitables"),
+)
+_METHODS = frozenset({"append", "clear", "copy", "extend", "get", "items", "keys", "pop", "remove"})
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        {}\n"
+)
+
+
+def _files(line: str) -> dict[str, str]:
+    return {"talker.py": _NODE.format(line)}
+
+
+class EntitiesTakenForList(Rule):
+    """``self.publishers``, ``self.timers`` and the like are used as lists or dictionaries.
+
+    **Why.** Node has them as properties that give a generator: ``AttributeError: 'generator' object
+    has no attribute 'append'``, ``TypeError: 'generator' object is not subscriptable``.
+
+    **Fix.** Keep what the node makes under another name, such as ``self.publishers_by_name``.
+
+    **Source.** ``rclpy/node.py``, the properties of ``Node``.
+    """
+
+    code = "ND100"
+    name = "entities-taken-for-list"
+    examples = (
+        Example("gone through", _files("print([one.topic for one in self.publishers])")),
+        Example("a list of it", _files("print(list(self.timers)[0])")),
+        Example(
+            "its own",
+            {"talker.py": _NODE.format("self.timers.append(1)") + "\n    timers = []\n"},
+        ),
+        Example(
+            "added to",
+            _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
+            at=("talker.py:8",),
+        ),
+        Example("by name", _files("self.clients['a'] = None"), at=("talker.py:8",)),
+        Example("counted", _files("print(len(self.timers))"), at=("talker.py:8",)),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for facts in package.rclpy_files():
+            for name in _PROPERTIES:
+                for attribute in facts.module.index.attributes(name):
+                    error = _error(facts, attribute)
+                    is_told = error and not is_harmless(facts.module, attribute, error)
+                    if is_told and _is_of_node(facts, attribute):
+                        message = f"Node has {name} itself, which gives a generator: {error}"
+                        yield self.report(facts.module.location(attribute), message)
+
+
+def _error(facts: NodeFacts, attribute: ast.Attribute) -> str:
+    """Return the error that ends what a generator is used for."""
+    match facts.module.parent(attribute):
+        case ast.Attribute(attr=name) if name in _METHODS:
+            return "AttributeError"
+        case ast.Subscript(value=value) if value is attribute:
+            return "TypeError"
+        case ast.Call(func=ast.Name(id="len"), args=[given]) if given is attribute:
+            return "TypeError"
+    return ""
+
+
+def _is_of_node(facts: NodeFacts, attribute: ast.Attribute) -> bool:
+    """Tell whether nothing but Node itself has the attribute: no class sets or defines it."""
+    owner = facts.owner_of(attribute.value)
+    while isinstance(owner, NodeClass):
+        bindings = owner.facts.module.index.bindings(owner.node)
+        if len(owner.node.bases) != 1 or attribute.attr in bindings:
+            return False
+        if owner.facts.evaluator.stores(attribute.attr):
+            return False
+        if owner.base is None:
+            base = owner.facts.module.qualified_name(owner.node.bases[0]) or ""
+            return base.startswith("rclpy.")
+        owner = owner.base
+    return False
