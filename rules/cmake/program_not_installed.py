@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, is_used_by_build, programs
 from scaffold.model.near import nearest
-from scaffold.model.own_modules import paths_imported_by, shows_itself
-from scaffold.model.python_module import PythonModule
+from scaffold.model.own_modules import is_started, paths_imported_by
 
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
@@ -92,7 +91,7 @@ class ProgramNotInstalled(Rule):
         at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
         used = tuple(f"/{path}" for path in paths_imported_by(package, known))
         for module in package.modules():
-            if module.path in known or not self._is_started(package, module):
+            if module.path in known or not is_started(package, module):
                 continue
             if f"/{module.path}".endswith(used):
                 continue
@@ -103,17 +102,6 @@ class ProgramNotInstalled(Rule):
                 f"{module.path} is a node with a main, but not installed: `ros2 run` misses it"
             )
             yield self.report(place, message)
-
-    def _is_started(self, package: Package, module: PythonModule) -> bool:
-        """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
-        return (
-            module.is_script
-            and module.has_main_guard
-            and "rclpy" in module.imports_by_root
-            and not module.in_tests
-            and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
-            and not shows_itself(package, module)
-        )
 
     def _is_misspelt(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""

@@ -7,11 +7,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.python_module import PythonModule
-from scaffold.model.scopes import FunctionNode
 from scaffold.model.test_files import test_functions, test_modules
 
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
-_OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"
 _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
@@ -19,8 +17,7 @@ class AssertionWithoutEffect(Rule):
     """A test states something that nothing looks at.
 
     **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
-    with nothing to call, ``assert`` in a ``try`` that drops the AssertionError, a test inside a
-    test.
+    with nothing to call, ``assert`` in a ``try`` that drops the AssertionError.
 
     **Fix.** Write ``assert``, or ``with pytest.raises(...):``.
 
@@ -39,7 +36,6 @@ class AssertionWithoutEffect(Rule):
                 )
             },
         ),
-        Example("a class that the test runs", {"test/test_text.py": _TEST.format(_OWN)}),
         Example(
             "a comparison, an error that nothing raises",
             {
@@ -50,14 +46,13 @@ class AssertionWithoutEffect(Rule):
             at=("test/test_text.py:9", "test/test_text.py:10"),
         ),
         Example(
-            "an error that is dropped, a test in a test",
+            "an error that is dropped",
             {
                 "test/test_text.py": _TEST.format(
-                    "    try:\n        assert ready()\n    except Exception:\n        pass\n\n"
-                    "    def test_more():\n        assert ready()\n"
+                    "    try:\n        assert ready()\n    except Exception:\n        pass\n"
                 )
             },
-            at=("test/test_text.py:11", "test/test_text.py:14"),
+            at=("test/test_text.py:11",),
         ),
     )
 
@@ -65,12 +60,12 @@ class AssertionWithoutEffect(Rule):
         for module in test_modules(package):
             for test in test_functions(module):
                 for node in ast.walk(test.node):
-                    at, problem = _problem(module, test.node, node)
+                    at, problem = _problem(module, node)
                     if problem:
                         yield self.report(module.location(at), problem)
 
 
-def _problem(module: PythonModule, test: FunctionNode, node: ast.AST) -> tuple[ast.AST, str]:
+def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
     problem = ""
     match node:
         case ast.Expr(value=value):
@@ -81,17 +76,7 @@ def _problem(module: PythonModule, test: FunctionNode, node: ast.AST) -> tuple[a
             for handler in handlers:
                 if _drops(module, handler):
                     return handler, "this drops the AssertionError: the test passes all the same"
-        case ast.FunctionDef(name=name) if node is not test and name.startswith("test_"):
-            holder = module.parent(node)
-            used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
-            if not (used or _is_used(module, node)):
-                problem = f"{name} stands in {test.name}: pytest does not collect it"
     return node, problem
-
-
-def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
-    """Tell whether anything else has to do with a function or class."""
-    return bool(node.decorator_list or module.index.names(node.name))
 
 
 def _statement_problem(module: PythonModule, value: ast.expr) -> str:

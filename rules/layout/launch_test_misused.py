@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.returns import is_generator, may_end, returned
-from scaffold.model.test_files import LAUNCH, is_test_case, marks, methods
+from scaffold.model.test_files import LAUNCH, is_test_case, marks, may_start, methods
 
 _MARKS = ("launch_test", "rostest")
 _TEST = (
@@ -98,7 +98,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
     by_pytest = package.has("setup.py") and not package.has("CMakeLists.txt")
     collected = name.startswith("test_") or name.endswith("_test.py")
     marked = any(mark in _MARKS for mark, _ in marks(module, node))
-    if by_pytest and collected and tests and not marked and not _is_started(package, name):
+    if by_pytest and collected and tests and not marked and not may_start(package, name):
         yield f"@pytest.mark.launch_test is missing: pytest does not start what {LAUNCH} describes"
 
 
@@ -110,12 +110,3 @@ def _calls_others(module: PythonModule, node: ast.AST) -> bool:
             if not name.startswith(("launch.", "launch_ros.", "launch_testing.", "os.", "ament_")):
                 return True
     return False
-
-
-def _is_started(package: Package, name: str) -> bool:
-    """Tell whether another file of the package may start the test with ``launch_test``."""
-    return any(
-        name in module.source.text or "'launch_test'" in module.source.text
-        for module in package.modules()
-        if module.path.rpartition("/")[2] != name
-    )

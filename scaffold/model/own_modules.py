@@ -123,3 +123,15 @@ def shows_itself(package: Package, module: PythonModule) -> bool:
         and "main" not in module.functions
         and "spin" not in module.source.text
     )
+
+
+def is_started(package: Package, module: PythonModule) -> bool:
+    """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
+    return (
+        module.is_script
+        and module.has_main_guard
+        and "rclpy" in module.imports_by_root
+        and not module.in_tests
+        and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
+        and not shows_itself(package, module)
+    )

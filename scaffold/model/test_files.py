@@ -143,6 +143,20 @@ def has_other_ways(package: Package) -> bool:
     return any(word in text for text in texts for word in _PLUGINS)
 
 
+def may_start(package: Package, name: str) -> bool:
+    """Tell whether another file of the package may start a test with ``launch_test``.
+
+    Args:
+        package: The package.
+        name: The name of the file that describes the launch.
+    """
+    return any(
+        name in module.source.text or "'launch_test'" in module.source.text
+        for module in package.modules()
+        if module.path.rpartition("/")[2] != name
+    )
+
+
 def is_named_elsewhere(package: Package, name: str) -> bool:
     """Tell whether a name stands anywhere else: in a call, an import, an argument, a text."""
     count = sum(module.source.text.count(name) for module in package.modules())

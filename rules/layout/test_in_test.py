@@ -1,0 +1,59 @@
+"""LY077: tests stand where pytest collects them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.model.python_module import PythonModule
+from scaffold.model.test_files import test_functions, test_modules
+
+_TEST = "def ready():\n    return False\n\n\ndef test_text():\n{}"
+_OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"
+_MORE = "    assert ready()\n\n    def test_more():\n        assert ready()\n"
+
+
+class TestInTest(Rule):
+    """A test stands inside of another test, and that does nothing with it.
+
+    **Why.** pytest does not collect it: it is never run, whatever it states.
+
+    **Fix.** Move it out, behind the test that it stands in.
+
+    **Source.** pytest documentation, "Conventions for Python test discovery".
+    """
+
+    code = "LY077"
+    name = "test-in-test"
+    severity = Severity.WARNING
+    examples = (
+        Example("a class that the test runs", {"test/test_text.py": _TEST.format(_OWN)}),
+        Example(
+            "a function that nothing calls",
+            {"test/test_text.py": _TEST.format(_MORE)},
+            at=("test/test_text.py:8",),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in test_modules(package):
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    is_other = isinstance(node, ast.FunctionDef) and node is not test.node
+                    if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
+                        place = f"{node.name} stands in {test.node.name}"
+                        message = f"{place}: pytest does not collect it"
+                        yield self.report(module.location(node), message)
+
+
+def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:
+    """Tell whether a function is a test by its name, and nothing has to do with it."""
+    holder = module.parent(node)
+    used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
+    return node.name.startswith("test_") and not (used or _is_used(module, node))
+
+
+def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
+    """Tell whether anything else has to do with a function or class."""
+    return bool(node.decorator_list or module.index.names(node.name))
