@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.node_entities import Endpoint, Publisher
-from scaffold.model.topics import is_private, is_remapped, topics_of
+from scaffold.model.topics import is_private, is_remapped, one_sided
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -58,9 +58,7 @@ class PrivateTopicDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        topics = topics_of(package)
-        sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
-        awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
+        sent, awaited = one_sided(package)
         for facts in package.rclpy_files():
             for private in (*facts.publishers, *facts.subscriptions):
                 if not is_private(private) or is_remapped(package, private):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.model.node_entities import Endpoint
-from scaffold.model.topics import topics_of
+from scaffold.model.topics import one_sided
 
 _SHORTEST = 5
 _NODE = (
@@ -51,9 +51,7 @@ class TopicNameDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        topics = topics_of(package)
-        sent = [one for one in topics.values() if one.publishers and not one.subscriptions]
-        awaited = [one for one in topics.values() if one.subscriptions and not one.publishers]
+        sent, awaited = one_sided(package)
         for topic in awaited:
             for other in sent:
                 here, there = topic.subscriptions[0], other.publishers[0]

@@ -36,6 +36,15 @@ def topics_of(package: Package) -> Mapping[str, Topic]:
     return package.remember("topics", lambda: _topics(package))
 
 
+def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
+    """Return the topics that are published only, and those that are subscribed to only."""
+    topics = topics_of(package).values()
+    return (
+        [one for one in topics if one.publishers and not one.subscriptions],
+        [one for one in topics if one.subscriptions and not one.publishers],
+    )
+
+
 def services_of(package: Package) -> Mapping[str, ServiceName]:
     """Return the services by their names as written, a leading slash aside."""
     return package.remember("services", lambda: _services(package))

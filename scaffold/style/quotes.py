@@ -51,8 +51,9 @@ def _may_fail(text: str) -> bool:
     rest = text.replace('"""', "")
     if '"' in rest or "\\'" in rest or "''" in rest:
         return True
-    if re.search(r"[fF][rR]?'[^'\n]*\{[^'}\n]*'", rest):  # its own quotes inside of an f-string
-        return True
+    for piece in re.findall(r"[fF][rR]?'([^'\n]*)'", rest):
+        if piece.rfind("{") > piece.rfind("}"):  # its own quotes inside of an f-string
+            return True
     # What stands where a docstring may stand.
     return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None
 
