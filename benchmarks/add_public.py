@@ -30,7 +30,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from scaffold.cli import main
+from scaffold.cli import exit_codes, main
 from scaffold.model import discovery
 from scaffold.model.package import Package
 from scaffold.smoke import environment
@@ -65,7 +65,7 @@ class Outcome(NamedTuple):
     @property
     def is_good(self) -> bool:
         """Tell whether nothing is to be complained about."""
-        failed = self.code not in {main.CLEAN, main.FOUND}
+        failed = self.code not in {exit_codes.CLEAN, exit_codes.FINDINGS}
         return not failed and self.is_stable and not self.notes and self.built != "broken"
 
 
@@ -88,9 +88,9 @@ def judge(
     code, _, error = run_add(what, directory)
     again, changes, _ = run_add(what, directory, "--diff")
     built = before
-    if before == "builds" and ros is not None and code in {main.CLEAN, main.FOUND}:
+    if before == "builds" and ros is not None and code in {exit_codes.CLEAN, exit_codes.FINDINGS}:
         # What is left to the user may be what installs the program.
-        program = NODE if code == main.CLEAN and NODE in what else ""
+        program = NODE if code == exit_codes.CLEAN and NODE in what else ""
         built = "builds" if builds(root, package, ros, program) == "builds" else "broken"
     added, removed = counts(diff)
     lines = error.splitlines()
@@ -102,9 +102,9 @@ def judge(
         removed,
         sum(line.startswith("        because ") for line in lines),
         [line for line in lines if line.startswith("note: ") and str(directory) in line],
-        code not in {main.CLEAN, main.FOUND} or (again == code and not changes),
+        code not in {exit_codes.CLEAN, exit_codes.FINDINGS} or (again == code and not changes),
         built,
-        error.strip() if code not in {main.CLEAN, main.FOUND} else "",
+        error.strip() if code not in {exit_codes.CLEAN, exit_codes.FINDINGS} else "",
         diff,
     )
 

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
-    from scaffold.cli.main import CLEAN, DEFECT, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.generate import add
     from scaffold.printable import printable
 
@@ -72,13 +72,13 @@ def run(options: argparse.Namespace) -> int:
     said = _said(session, before, added)
     if _is_defect(session, said, added):
         _report(target.package, said)
-        return DEFECT
+        return INTERNAL_ERROR
     if not (options.diff or options.dry_run):
         plan.write(force=True)
     for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
         sys.stderr.write(f"note: {printable(note)}\n")
     _show(options, target.package, added, plan)
-    return FOUND if any(one.is_needed for one in added.by_hand) else CLEAN
+    return FINDINGS if any(one.is_needed for one in added.by_hand) else CLEAN
 
 
 def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:

@@ -137,11 +137,11 @@ def _plan(root: str, fixed: Fixed) -> WritePlan:
 
 def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int:
     from scaffold import reporters
-    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     if options.diff:
         sys.stderr.write(f"{_fixes(count)}, nothing written\n")
-        return FOUND if count else CLEAN
+        return FINDINGS if count else CLEAN
     sys.stderr.write(f"{_fixes(count)} applied\n")
     reporters.get(options.format)(results, sys.stdout)
     return exit_code(results)
@@ -149,7 +149,7 @@ def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int
 
 def _reference(targets: Sequence[Target]) -> int:
     """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
-    from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.printable import printable
     from scaffold.reporters.paths import shown
     from scaffold.style import reference
@@ -160,7 +160,7 @@ def _reference(targets: Sequence[Target]) -> int:
         place = f"{shown(package, one.path)}:{one.line}"
         sys.stdout.write(f"{printable(place)}: {printable(one.message)}\n")
     sys.stdout.write(f"{count or 'no'} differences to pydocstyle\n")
-    return DEFECT if count else CLEAN
+    return INTERNAL_ERROR if count else CLEAN
 
 
 def _fixes(count: int) -> str:
@@ -171,12 +171,12 @@ def exit_code(results: list[Result]) -> int:
     """Return 0 for nothing but advice, 1 for something found, 3 for a rule that failed."""
     from scaffold.check.diagnostic import Severity
     from scaffold.check.internal import RuleCrashed
-    from scaffold.cli.main import CLEAN, DEFECT, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
 
     found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if any(diagnostic.code == RuleCrashed.code for diagnostic in found):
-        return DEFECT
-    return FOUND if any(d.severity is not Severity.INFO for d in found) else CLEAN
+        return INTERNAL_ERROR
+    return FINDINGS if any(d.severity is not Severity.INFO for d in found) else CLEAN
 
 
 def _selection(options: argparse.Namespace, settings: Config, rules: list[type[Rule]]) -> Selection:

@@ -9,17 +9,13 @@ import sys
 
 from scaffold import __version__
 from scaffold.check import memory
+from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR, INTERRUPTED, USAGE_ERROR
 from scaffold.errors import ScaffoldError
 
 TYPE_CHECKING = False  # the one of typing is slow to import
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-CLEAN = 0
-FOUND = 1
-AT_FAULT = 2
-DEFECT = 3
-INTERRUPTED = 130
 
 COLLECT_FROM = 100_000
 """Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
@@ -58,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from scaffold.printable import printable
 
         sys.stderr.write(f"ros2-scaffold: error: {printable(str(error))}\n")
-        return AT_FAULT
+        return USAGE_ERROR
     except KeyboardInterrupt:
         sys.stderr.write("ros2-scaffold: interrupted\n")
         return INTERRUPTED
@@ -100,7 +96,7 @@ def _defect(error: Exception) -> int:
         f"({os.path.basename(last.filename)}:{last.lineno}); "
         "please report it; SCAFFOLD_DEBUG=1 shows more\n"
     )
-    return DEFECT
+    return INTERNAL_ERROR
 
 
 def _complete() -> None:

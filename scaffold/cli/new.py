@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     """Write a package; return the exit code."""
     from scaffold import config, content
     from scaffold.check import registry
-    from scaffold.cli.main import CLEAN, DEFECT
+    from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.errors import ScaffoldError
     from scaffold.generate import draft, place, template
     from scaffold.generate.defaults import User
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     defects = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
     if defects:
         _report_defects(defects)
-        return DEFECT
+        return INTERNAL_ERROR
     if not options.dry_run and not options.diff:
         plan.write(force=options.force)
     for remark in made.remarks:

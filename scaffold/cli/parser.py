@@ -7,7 +7,8 @@ from importlib import import_module
 from typing import NoReturn
 
 from scaffold import __version__
-from scaffold.cli.main import AT_FAULT, VERBS
+from scaffold.cli.exit_codes import USAGE_ERROR
+from scaffold.cli.main import VERBS
 
 
 class _Parser(argparse.ArgumentParser):
@@ -18,7 +19,7 @@ class _Parser(argparse.ArgumentParser):
         from scaffold.printable import printable
 
         message = printable(message)
-        self.exit(AT_FAULT, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
+        self.exit(USAGE_ERROR, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
 
 
 def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argparse.ArgumentParser:

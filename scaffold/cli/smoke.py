@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     from pathlib import Path
     from signal import Signals
 
-    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.model import discovery
     from scaffold.smoke.report import report
     from scaffold.smoke.smoke import InterruptedBySignalError, Options, packages_of, smoke
@@ -103,7 +103,7 @@ def run(options: argparse.Namespace) -> int:
     report(result, options.format, sys.stdout)
     if result.scratch:
         sys.stderr.write(f"kept: {result.scratch}\n")
-    return CLEAN if result.ok else FOUND
+    return CLEAN if result.ok else FINDINGS
 
 
 class _Progress:

@@ -95,7 +95,7 @@ def _test(
     """Say what became of each example; 1 if something is wrong, or nothing can be."""
     from scaffold import content
     from scaffold.check import registry
-    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.generate import examples
 
     rules = registry.load(content.roots("rules"))
@@ -112,7 +112,7 @@ def _test(
     for name in without:
         sys.stderr.write(f"note: {name} has no examples: nothing of it was tested\n")
     print(f"{len(tried)} examples, {wrong} wrong")
-    return FOUND if wrong or not tried else CLEAN
+    return FINDINGS if wrong or not tried else CLEAN
 
 
 def _build(tried: Sequence[Tried]) -> int:

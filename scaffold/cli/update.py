@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Bring a package in step with the templates; 1 when there is something to decide."""
     from scaffold import config, content
-    from scaffold.cli.main import CLEAN, FOUND
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import InputError
     from scaffold.generate import template, update
     from scaffold.generate.defaults import User
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
         sys.stderr.write(f"note: {remark}\n")
     if not options.diff:
         print(_summary(options, updated, plan))
-    return FOUND if updated.conflicts else CLEAN
+    return FINDINGS if updated.conflicts else CLEAN
 
 
 def _summary(options: argparse.Namespace, updated: Updated, plan: WritePlan) -> str:
