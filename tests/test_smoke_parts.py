@@ -10,13 +10,25 @@ import socket
 import sys
 from collections.abc import Callable, Coroutine
 from importlib.util import find_spec
+from io import StringIO
 from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
 
 from scaffold.errors import EnvironmentMissingError
-from scaffold.smoke import domain, environment, output, probe, process, shared_memory
+from scaffold.smoke import build, domain, environment, output, probe, process, shared_memory, trial
+from scaffold.smoke.report import report
+from scaffold.smoke.result import (
+    Build,
+    Executable,
+    Observation,
+    Package,
+    Problem,
+    Smoke,
+    Stop,
+    Topic,
+)
 
 Result = TypeVar("Result")
 HAS_WHEELS = os.path.exists(os.path.join(sys.prefix, "share", "ament_cmake"))
@@ -401,3 +413,53 @@ def test_field_as_data(kind: str, given: object, shown: object) -> None:
     message = probe.find_type(f"std_msgs/msg/{kind}")()
     message.data = given
     assert probe.as_data(message)["data"] == shown
+
+
+# -- hostile output
+
+
+def test_no_line_of_a_build_takes_long(tmp_path: Path) -> None:
+    """Each of these took minutes to hours while a pattern was quadratic."""
+    size = output.READ_BYTES
+    assert output.warnings("x" * size) == []
+    assert output.errors("x" * size) == ["x" * size]
+    assert output.errors("error in " * (size // 9))
+    log = tmp_path / "stdout.log"
+    log.write_text("--- stderr: \n" * (size // 13))
+    unended = output.read(log)
+    assert build.without_repeats(unended) == unended
+    error = "RCLError: " * (size // 10)
+    assert not trial.is_late_call(error)
+    assert trial.is_late_call(error + "the context is invalid")
+
+
+def test_repeats_of_colcon_are_left_out() -> None:
+    console = "before\n--- stderr: demo\nerror: of demo\n---\nafter\n--- stderr: cut off\n"
+    assert build.without_repeats(console) == "before\nafter\n--- stderr: cut off\n"
+
+
+ESCAPES = "\x1b]0;title\x07 \x00 \u202eevil \x9b31m"
+
+
+def test_report_neutralizes_escapes() -> None:
+    executable = Executable(
+        f"run{ESCAPES}",
+        Observation(
+            nodes=(f"/node{ESCAPES}",),
+            topics=(Topic(f"/topic{ESCAPES}", "a/msg/A", 1, messages=({"data": ESCAPES},)),),
+            services=((f"/service{ESCAPES}", "a/srv/A"),),
+        ),
+        stops=(Stop("SIGINT", 1, 0.1),),
+        problems=(Problem(f"crashed: {ESCAPES}", (f"\tline {ESCAPES}",)),),
+        notes=(f"note {ESCAPES}",),
+    )
+    packages = (
+        Package("demo", Build(ok=True, warnings=(f"warning: {ESCAPES}",)), (executable,)),
+        Package("other", Build(ok=False, errors=(f"error: {ESCAPES}",))),
+    )
+    environment = {"kind": "wheels", "prefix": f"/opt{ESCAPES}", "rmw": "rmw"}
+    out = StringIO()
+    report(Smoke(environment, packages, notes=(f"broken {ESCAPES}",)), "text", out)
+    text = out.getvalue()
+    assert [line for line in text.split("\n") if not line.isprintable()] == []
+    assert "crashed: \\x1b]0;title" in text

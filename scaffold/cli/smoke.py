@@ -6,6 +6,8 @@ import argparse
 import sys
 from collections.abc import Callable
 
+from scaffold.printable import printable
+
 FORMATS = ("text", "json")
 SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM")}
 
@@ -102,7 +104,7 @@ def run(options: argparse.Namespace) -> int:
             return 128 + end.number
     report(result, options.format, sys.stdout)
     if result.scratch:
-        sys.stderr.write(f"kept: {result.scratch}\n")
+        sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS
 
 
@@ -122,7 +124,7 @@ class _Progress:
 
     def _show(self, text: str) -> None:
         if self._shown:
-            sys.stderr.write(f"\r\033[K{text[:100]} ...")
+            sys.stderr.write(f"\r\033[K{printable(text)[:100]} ...")
             sys.stderr.flush()
 
 

@@ -23,8 +23,9 @@ _JOB = re.compile(
     r"\[(?P<time>[\d.]+)\] \((?P<name>[^)]*)\) "
     r"Job(?P<what>Queued|Started|Ended|Skipped)(?P<rest>.*)"
 )
-_WRITTEN_TWICE = re.compile(r"^--- stderr: .*?^---$", re.MULTILINE | re.DOTALL)
-"""What colcon repeats on the console from the logs of the packages."""
+_REPEAT_STARTS = "--- stderr: "
+_REPEAT_ENDS = "---"
+"""Around what colcon repeats on the console from the logs of the packages."""
 _SUCCESS = re.compile(r"'rc': 0\b")
 
 
@@ -164,6 +165,23 @@ def _has_compiler(variables: Mapping[str, str], variable: str, names: tuple[str,
     return any(shutil.which(name, path=path) for name in names)
 
 
+def without_repeats(console: str) -> str:
+    """Return what colcon itself has written, line by line: a log may hold anything."""
+    lines = console.splitlines(keepends=True)
+    ends = {index for index, line in enumerate(lines) if line.rstrip("\n") == _REPEAT_ENDS}
+    last_end = max(ends, default=-1)
+    kept: list[str] = []
+    is_repeat = False
+    for index, line in enumerate(lines):
+        if not is_repeat and line.startswith(_REPEAT_STARTS) and index < last_end:
+            is_repeat = True
+        if not is_repeat:
+            kept.append(line)
+        elif index in ends:
+            is_repeat = False
+    return "".join(kept)
+
+
 @dataclass
 class _Job:
     queued: str = ""
@@ -189,7 +207,7 @@ class _Log:
     def read(cls, directory: Path, said: str, *, succeeded: bool) -> _Log:
         events = directory / "events.log"
         if not events.exists():
-            return cls(directory, None, _WRITTEN_TWICE.sub("", said), succeeded)
+            return cls(directory, None, without_repeats(said), succeeded)
         jobs: dict[str, _Job] = {}
         for line in output.read(events).splitlines():
             event = _JOB.match(line)
@@ -205,7 +223,7 @@ class _Log:
                 job.succeeded = bool(_SUCCESS.search(event["rest"]))
             else:
                 job.skipped = True
-        return cls(directory, jobs, _WRITTEN_TWICE.sub("", said), succeeded)
+        return cls(directory, jobs, without_repeats(said), succeeded)
 
     def had_no_turn(self, name: str) -> bool:
         """Tell whether the build ended early, for no reason that concerns this package."""

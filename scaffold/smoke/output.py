@@ -26,7 +26,7 @@ PASSED_ON = "CalledProcessError"
 _CMAKE_ERROR = re.compile(r"CMake Error")
 _CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
 _ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
-_WARNING_LINE = re.compile(r"\bwarning: |\w+Warning: ")
+_WARNING_LINE = re.compile(r"\bwarning: |(?<=\w)Warning: ")
 _COMPLAINT = re.compile(
     r"^\[[\d.]+s\] (?:WARNING|ERROR):[\w.]+:"
     r"(?P<text>.*(?:\n(?!\[|---|[A-Z][a-z]+ (?:>>>|<<<)|\s).+)*)",

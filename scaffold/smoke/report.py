@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
 from json import dumps
-from typing import Any, TextIO
+from typing import Any, TextIO, TypeVar, cast
 
+from scaffold.printable import printable
 from scaffold.smoke.result import Executable, Package, Problem, Smoke, Stop, Topic
 from scaffold.smoke.trial import ending
 
@@ -16,6 +18,8 @@ _SHOWN_MESSAGES = 2
 _SHOWN_NAMES = 6
 _SHOWN_WIDTH = 100
 _RED, _GREEN, _YELLOW, _BOLD, _DIM = "31", "32", "33", "1", "2"
+
+Value = TypeVar("Value")
 
 Paint = Callable[[str, str], str]
 
@@ -100,7 +104,23 @@ def _stop_data(stop: Stop) -> dict[str, Any]:
 
 def _report_text(result: Smoke, out: TextIO) -> None:
     paint = _painter(out)
-    out.writelines(line.rstrip() + "\n" for line in _lines(result, paint))
+    lines = _lines(_without_escapes(result), paint)
+    out.writelines(line.rstrip() + "\n" for line in lines)
+
+
+def _without_escapes(value: Value) -> Value:
+    """Return a result in which no text can command the terminal that shows it."""
+    cleaned: object = value
+    if isinstance(value, str):
+        cleaned = printable(value.expandtabs())
+    elif isinstance(value, tuple):
+        cleaned = tuple(map(_without_escapes, value))
+    elif isinstance(value, Mapping):
+        cleaned = {_without_escapes(key): _without_escapes(item) for key, item in value.items()}
+    elif is_dataclass(value) and not isinstance(value, type):
+        changes = {one.name: _without_escapes(getattr(value, one.name)) for one in fields(value)}
+        cleaned = replace(value, **changes)
+    return cast("Value", cleaned)
 
 
 def _lines(result: Smoke, paint: Paint) -> Iterator[str]:
@@ -183,7 +203,7 @@ def _topics(topics: list[Topic]) -> Iterator[str]:
             f"{rate:>{widths[3]}}  {count:>{widths[4]}}"
         )
         for message in topic.messages[:_SHOWN_MESSAGES]:
-            yield "  " + _shortened(_flow(message))
+            yield "  " + printable(_shortened(_flow(message)))
 
 
 def _flow(value: object) -> str:

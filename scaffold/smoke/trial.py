@@ -23,7 +23,7 @@ CHILDREN_LOOKS = 20
 CHILDREN_PERIOD = 0.05
 """The children of an executable may live so often so many seconds longer than itself."""
 
-_LATE_CALL = re.compile(r"RCLError: .*context is (?:invalid|not valid)")
+_LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 """rclpy ends the context at once on a signal, also in the middle of a callback."""
 
 
@@ -236,7 +236,7 @@ class _Run:
             self._report(
                 f"does not stop cleanly on {done.asked}, {how}",
                 where or last_lines,
-                doubtful=trace is not None and bool(_LATE_CALL.search(output.exception(trace))),
+                doubtful=trace is not None and is_late_call(output.exception(trace)),
             )
 
     def _report_exception(self, running: process.Running) -> None:
@@ -264,6 +264,11 @@ class _Run:
     def _remember_segments(self, running: process.Running, mark: str) -> None:
         pids = [running.group, self._observer.pid, *process.marked(mark)]
         self._segments.update(shared_memory.used_by(pids))
+
+
+def is_late_call(exception: str) -> bool:
+    """Tell whether a call came too late: rclpy had ended its context already."""
+    return bool(_LATE_CALL.search(exception.partition("RCLError: ")[2]))
 
 
 def ending(code: int | None) -> str:
