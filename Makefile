@@ -24,6 +24,7 @@ help:
 	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
 	@echo 'make lint        ruff and mypy on the whole repository'
 	@echo 'make format      let ruff format the code'
+	@echo 'make examples    write what rules report now into their examples; CODES=... for some'
 	@echo 'make docs        write docs/rules from the rules'
 	@echo 'make benchmark   how fast the tool is, as ratios'
 	@echo 'make clean       remove what all of these have made'
@@ -57,6 +58,10 @@ lint: $(VENV)/test.stamp
 .PHONY: format
 format: $(VENV)/test.stamp
 	$(BIN)/ruff format .
+
+.PHONY: examples
+examples: $(VENV)/test.stamp
+	$(BIN)/python scripts/pin_examples.py $(CODES)
 
 .PHONY: docs
 docs: $(VENV)/test.stamp

@@ -12,7 +12,7 @@ from scaffold.check.diagnostic import (
     Safety,
     Severity,
 )
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rule import Example, Report, Rule
 from scaffold.errors import ViewError
 from scaffold.model.package import Package
 from scaffold.model.source import Location, Source
@@ -27,6 +27,7 @@ __all__ = [
     "MakeExecutable",
     "Package",
     "Remove",
+    "Report",
     "Rule",
     "Safety",
     "Severity",

@@ -15,7 +15,7 @@ from scaffold.model.package import Package
 from scaffold.model.tree import MemoryTree
 
 RULES = registry.load(content.roots("rules"))
-REJECTED = [(rule, one) for rule in RULES for one in rule.examples if one.at]
+REJECTED = [(rule, one) for rule in RULES for one in rule.examples if one.reports]
 ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)
 AREAS = {"setup_py", "launch", "parameters"}

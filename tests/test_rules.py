@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import pickle
 import re
 from inspect import cleandoc
 from pathlib import Path
@@ -12,11 +11,8 @@ import pytest
 
 from scaffold import content
 from scaffold.check import fixer, registry, runner, suppression
+from scaffold.check.examples import package_of, reports
 from scaffold.check.rule import Example, Rule
-from scaffold.model.package import Package
-from scaffold.model.rosdep import RosdepKeys
-from scaffold.model.tree import MemoryTree
-from scaffold.model.workspace import Workspace
 
 RULES = registry.load(content.roots("rules"))
 CASES = [
@@ -37,27 +33,14 @@ AREAS = {
 }
 
 
-def package_of(example: Example) -> Package:
-    """Return the package of an example, in the workspace of its neighbours."""
-    workspace = Workspace()
-    # Written into the instance: the cache of this machine is not asked.
-    keys = example.rosdep_keys
-    data = pickle.dumps({key: {"ubuntu": [key]} for key in keys or ()}, 2)
-    workspace.rosdep = None if keys is None else RosdepKeys([data])
-    tree = MemoryTree(dict(example.files), example.executable)
-    package = Package(tree, directory="", workspace=workspace)
-    workspace.add(package)
-    for directory, files in example.neighbours.items():
-        workspace.add(Package(MemoryTree(dict(files)), directory=directory, workspace=workspace))
-    return package
-
-
 @pytest.mark.parametrize(("rule", "example"), CASES)
 def test_example(rule: type[Rule], example: Example) -> None:
     package = package_of(example)
-    said = runner.check(package, [rule()])
-    assert [f"{d.location.path}:{d.location.line}" for d in said] == list(example.at)
-    assert {d.code for d in said} <= {rule.code}
+    diagnostics = runner.check(package, [rule()])
+    assert {diagnostic.code for diagnostic in diagnostics} <= {rule.code}
+    assert [vars(report) for report in reports(rule, example)] == [
+        vars(report) for report in example.reports
+    ], "`make examples` writes what is reported now"
 
     fixed = fixer.fix(package, lambda one: runner.check(one, [rule()]), unsafe=True)
     after = dict(fixed.changed)
@@ -75,8 +58,14 @@ def test_is_documented(rule: type[Rule]) -> None:
     for part in ("**Why.**", "**Fix.**", "**Source.**"):
         assert part in text, f"{rule.code} has no {part}"
     assert re.fullmatch(r"[A-Z]{2}[0-9]{3}", rule.code)
-    assert any(example.at for example in rule.examples), "no rejected example"
-    assert any(not example.at for example in rule.examples), "no accepted example"
+    assert any(example.reports for example in rule.examples), "no rejected example"
+    assert any(not example.reports for example in rule.examples), "no accepted example"
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
+def test_declares_and_shows_every_severity(rule: type[Rule]) -> None:
+    shown = {report.severity or rule.severity for x in rule.examples for report in x.reports}
+    assert shown == {rule.severity, *rule.other_severities}
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
@@ -109,18 +98,18 @@ def test_examples_can_be_suppressed() -> None:
     silenced = 0
     for rule in RULES:
         for example in rule.examples:
-            if len(example.at) != 1:
+            if len(example.reports) != 1:
                 continue
-            path, _, line = example.at[0].rpartition(":")
+            path, line = example.reports[0].path, example.reports[0].line
             if not path.endswith((".py", ".txt")) or path not in example.files:
                 continue
             lines = example.files[path].split("\n")
-            if int(line) > len(lines):
+            if line > len(lines):
                 continue
-            reported = lines[int(line) - 1]
+            reported = lines[line - 1]
             if '"""' in reported or reported.startswith("#!"):  # no place for a comment
                 continue
-            lines[int(line) - 1] += f"  # noqa: {rule.code}"
+            lines[line - 1] += f"  # noqa: {rule.code}"
             files = {**example.files, path: "\n".join(lines)}
             package = package_of(
                 Example("", files, executable=example.executable, neighbours=example.neighbours)

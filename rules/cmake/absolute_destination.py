@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_parser import Command
 
 _LISTS = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
@@ -35,7 +35,11 @@ class AbsoluteDestination(Rule):
         Example(
             "absolute",
             {"CMakeLists.txt": _LISTS.format("/opt/talker/share")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:38", "installs to /opt/talker/share, outside of the workspace"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake_facts import PACKAGE_COMMANDS, has_unknown_commands, uses_ament
 
 _LISTS = (
@@ -31,7 +31,13 @@ class AmentPackageMissing(Rule):
         Example(
             "forgotten",
             {"CMakeLists.txt": _LISTS},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "no ament_package() at the end: `ros2` does not find the package",
+                    fix="call ament_package()",
+                ),
+            ),
             fixed={"CMakeLists.txt": f"{_LISTS}\n{_CALL}"},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 FATAL = (
     "ament_export_definitions",
@@ -43,7 +43,12 @@ class AmentPackageNotLast(Rule):
         Example(
             "an export behind it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
-            at=("CMakeLists.txt:4",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:4:1",
+                    "ament_export_libraries() stands behind ament_package() of line 3",
+                ),
+            ),
         ),
     )
 

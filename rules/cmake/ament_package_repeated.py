@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 
 class AmentPackageRepeated(Rule):
@@ -32,7 +32,7 @@ class AmentPackageRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
-            at=("CMakeLists.txt:3",),
+            reports=(Report("CMakeLists.txt:3:1", "ament_package() was called in line 2 already"),),
         ),
     )
 

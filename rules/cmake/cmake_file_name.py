@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 MODULE = "include(FindPackageHandleStandardArgs)\nfind_package_handle_standard_args(FOO)\n"
@@ -30,12 +30,19 @@ class CmakeFileName(Rule):
         Example(
             "CMakelists.txt",
             {"CMakelists.txt": "project(talker)\n"},
-            at=("CMakelists.txt:1",),
+            reports=(
+                Report("CMakelists.txt:1:1", "CMake looks for CMakeLists.txt, spelt exactly so"),
+            ),
         ),
         Example(
             "FindFoo.cmake",
             {"cmake/FindFoo.cmake": MODULE},
-            at=("cmake/FindFoo.cmake:1",),
+            reports=(
+                Report(
+                    "cmake/FindFoo.cmake:1:1",
+                    "ament_lint_cmake wants upper case in names of find modules: FindFOO.cmake",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity, Source
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, Source
 from scaffold.model import cmake_style
 
 
@@ -27,13 +27,25 @@ class CommandCaseMixed(Rule):
         Example(
             "one in upper case",
             {"CMakeLists.txt": "project(talker)\nIF(A)\nendif()\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    '"IF" stands in a file whose first command is in lower case',
+                    fix="write the commands in lower case",
+                ),
+            ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\nendif()\n"},
         ),
         Example(
             "the first in upper case: the others are reported",
             {"CMakeLists.txt": "PROJECT(talker)\nif(A)\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    '"if" stands in a file whose first command is in upper case',
+                    fix="write the commands in lower case",
+                ),
+            ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\n"},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 
@@ -26,13 +26,19 @@ class CommandCaseWonky(Rule):
         Example(
             "as the documentation of a module spells it",
             {"CMakeLists.txt": "FetchContent_Declare(json)\n"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:1",
+                    '"FetchContent_Declare" mixes cases: write "fetchcontent_declare"',
+                    fix="write fetchcontent_declare",
+                ),
+            ),
             fixed={"CMakeLists.txt": "fetchcontent_declare(json)\n"},
         ),
         Example(
             "looks like a command, is an argument",
             {"CMakeLists.txt": "set(WORDS\n  Word(s)\n)\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(Report("CMakeLists.txt:2:3", '"Word" mixes cases: write "word"'),),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_commands import BUILT_IN, OF_AMENT
 from scaffold.model.cmake_facts import uses_ament
 
@@ -46,12 +46,21 @@ class CommandMisspelt(Rule):
         Example(
             "misspelt",
             {"CMakeLists.txt": _LISTS.format("ament_pakage")},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "CMake knows no command ament_pakage(); ament_package() is meant",
+                ),
+            ),
         ),
         Example(
             "of catkin",
             {"CMakeLists.txt": _LISTS.format("catkin_package")},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1", "catkin_package() is of ROS 1; ament has ament_package"
+                ),
+            ),
         ),
     )
 

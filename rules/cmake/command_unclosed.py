@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
 from scaffold.model import cmake_style
 from scaffold.model.package import CMAKE_LISTS
 
@@ -25,11 +25,15 @@ class CommandUnclosed(Rule):
     severity = Severity.WARNING
     examples = (
         Example("closed", {"cmake/talker.cmake": "set(TALKER\n  1\n)\n"}),
-        Example("open", {"cmake/talker.cmake": "set(TALKER\n  1\n"}, at=("cmake/talker.cmake:1",)),
+        Example(
+            "open",
+            {"cmake/talker.cmake": "set(TALKER\n  1\n"},
+            reports=(Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),),
+        ),
         Example(
             "hidden from the linter",
             {"cmake/talker.cmake": 'set(COLOUR "#fff")\n'},
-            at=("cmake/talker.cmake:1",),
+            reports=(Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 PROVIDERS = {
     "ament_add_gmock": ("ament_cmake_gmock", "ament_cmake_auto", "ament_cmake_ros"),
@@ -70,7 +70,17 @@ class CommandUndefined(Rule):
             "found",
             {"CMakeLists.txt": _LISTS.format("find_package(ament_cmake_pytest REQUIRED)\n")},
         ),
-        Example("not found", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:2",)),
+        Example(
+            "not found",
+            {"CMakeLists.txt": _LISTS.format("")},
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "ament_add_pytest_test() is not known without "
+                    "find_package(ament_cmake_pytest REQUIRED)",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.model.known import ROS_PACKAGES
 
@@ -57,7 +57,12 @@ class DeclaredNotFound(Rule):
         Example(
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:17",
+                    "<build_depend> 'std_msgs', but CMakeLists.txt does not find it",
+                ),
+            ),
         ),
     )
 

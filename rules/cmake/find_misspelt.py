@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
 from scaffold.model.cmake import Argument
 from scaffold.model.known import similar_package
 
@@ -29,7 +29,13 @@ class FindMisspelt(Rule):
         Example(
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("std_msg")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:14",
+                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    fix="write std_msgs",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
         ),
         Example(
@@ -38,7 +44,13 @@ class FindMisspelt(Rule):
                 "CMakeLists.txt": _LISTS.format("std_msgs")
                 + "ament_export_dependencies(std_msgs std_msg)\n"
             },
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:36",
+                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    fix="write std_msgs",
+                ),
+            ),
             fixed={
                 "CMakeLists.txt": _LISTS.format("std_msgs")
                 + "ament_export_dependencies(std_msgs std_msgs)\n"

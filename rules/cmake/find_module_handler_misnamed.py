@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 INCLUDE = "include(FindPackageHandleStandardArgs)\n"
@@ -32,7 +32,11 @@ class FindModuleHandlerMisnamed(Rule):
         Example(
             "another name",
             {"cmake/FindFOO.cmake": INCLUDE + "find_package_handle_standard_args(BAR BAR_LIB)\n"},
-            at=("cmake/FindFOO.cmake:2",),
+            reports=(
+                Report(
+                    "cmake/FindFOO.cmake:2:1", "BAR is handed over in FindFOO.cmake: expected FOO"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 INCLUDE = "include(FindPackageHandleStandardArgs)\n"
@@ -30,12 +30,22 @@ class FindModuleHandlerMissing(Rule):
         Example(
             "not included",
             {"cmake/FindFOO.cmake": CALL},
-            at=("cmake/FindFOO.cmake:1",),
+            reports=(
+                Report(
+                    "cmake/FindFOO.cmake:1:1",
+                    "this find module never includes FindPackageHandleStandardArgs",
+                ),
+            ),
         ),
         Example(
             "not called",
             {"cmake/FindFOO.cmake": INCLUDE + "set(FOO_FOUND TRUE)\n"},
-            at=("cmake/FindFOO.cmake:1",),
+            reports=(
+                Report(
+                    "cmake/FindFOO.cmake:1:1",
+                    "this find module never calls find_package_handle_standard_args",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 
 _FIND = "find_package(rclcpp REQUIRED)\n"
 
@@ -27,7 +27,13 @@ class FindRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": f"project(talker)\n{_FIND}{_FIND}"},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "'rclcpp' was looked for in line 2 already",
+                    fix="remove it",
+                ),
+            ),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
         ),
     )

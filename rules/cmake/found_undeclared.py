@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model import needs
 from scaffold.model.brought_along import provided_by
 from scaffold.model.known import ROS_PACKAGES
@@ -57,7 +57,14 @@ class FoundUndeclared(Rule):
         Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "CMakeLists.txt, line 3 finds 'std_msgs', which no dependency here "
+                    "names; add <build_depend>std_msgs</build_depend>",
+                    fix="declare std_msgs",
+                ),
+            ),
             fixed={
                 "package.xml": _MANIFEST.format("").replace(
                     "  <depend>rclcpp</depend>\n",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.errors import ViewError
 from scaffold.model.brought_along import provided_by
 from scaffold.model.known import ROS_PACKAGES
@@ -54,7 +54,14 @@ class FoundWhenRunOnly(Rule):
         Example(
             "for running",
             {"package.xml": _MANIFEST.format(_EXEC), "CMakeLists.txt": _LISTS},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:3",
+                    "<exec_depend> 'std_msgs' is not there when the package is built, "
+                    "but CMakeLists.txt, line 2 finds it; add <build_depend>",
+                    fix="add a <build_depend> of std_msgs",
+                ),
+            ),
             fixed={
                 "package.xml": _MANIFEST.format("  <build_depend>std_msgs</build_depend>\n" + _EXEC)
             },

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _INSTALL = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
 
@@ -28,7 +28,11 @@ class InstallBehindAmentPackage(Rule):
         Example(
             "behind",
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1", "stands behind ament_package() of line 2, like 1 more"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.near import nearest
 
 _KINDS = (
@@ -44,13 +44,25 @@ class InstallKindUnknown(Rule):
         Example(
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("PROGRAM"), "talker/node.py": "pass\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:9",
+                    "install() knows no PROGRAM, PROGRAMS is meant: CMake stops",
+                    fix="write PROGRAMS",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
         ),
         Example(
             "in lower case",
             {"CMakeLists.txt": _LISTS.format("programs"), "talker/node.py": "pass\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:9",
+                    "install() knows no programs, PROGRAMS is meant: CMake stops",
+                    fix="write PROGRAMS",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _KINDS = ("PROGRAMS", "FILES", "DIRECTORY")
 _LISTS = "project(talker)\ninstall(DIRECTORY launch{})\nament_package()\n"
@@ -31,7 +31,9 @@ class InstallWithoutDestination(Rule):
         Example(
             "without",
             {"CMakeLists.txt": _LISTS.format(""), **_FILES},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report("CMakeLists.txt:2:1", "install(DIRECTORY) has no DESTINATION: CMake stops"),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 _INSTALL = "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
@@ -32,7 +32,12 @@ class InstalledForTestsOnly(Rule):
                 "CMakeLists.txt": _LISTS.format(f"if(BUILD_TESTING)\n{_INSTALL}endif()\n"),
                 "talker/node.py": _NODE,
             },
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:18",
+                    "talker/node.py is installed only when tests are built: releases lack it",
+                ),
+            ),
         ),
     )
 

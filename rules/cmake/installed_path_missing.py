@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake import Install, InstallItem
 from scaffold.model.cmake_facts import is_made_by_build, runs_if_exists
 from scaffold.model.left_out import is_left_out
@@ -43,12 +43,27 @@ class InstalledPathMissing(Rule):
                 + _INSTALL.format("PROGRAMS talker/nod.py"),
                 "talker/node.py": "",
             },
-            at=("CMakeLists.txt:2", "CMakeLists.txt:4"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "installs the directory include/, which does not exist: the build stops",
+                ),
+                Report(
+                    "CMakeLists.txt:4:18",
+                    "installs talker/nod.py, which does not exist: the build stops; "
+                    "talker/node.py is near",
+                ),
+            ),
         ),
         Example(
             "an empty directory",
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "the directory include/ is empty: git does not keep it, then the build stops",
+                ),
+            ),
         ),
     )
 

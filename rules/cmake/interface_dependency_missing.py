@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_interfaces import Generation, generations
 from scaffold.model.interface_files import interface_files
 from scaffold.model.interfaces import KINDS, Definitions
@@ -37,7 +37,18 @@ class InterfaceDependencyMissing(Rule):
         Example(
             "no DEPENDENCIES; one that is not enough",
             {"CMakeLists.txt": _LISTS % "", **_FILES},
-            at=("CMakeLists.txt:4", "CMakeLists.txt:4"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:4:1",
+                    "msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
+                    "DEPENDENCIES: add it",
+                ),
+                Report(
+                    "CMakeLists.txt:4:1",
+                    "msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not among "
+                    "the DEPENDENCIES: add it",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.brought_along import provided_by
 from scaffold.model.cmake import CMakeLists
 from scaffold.model.cmake_facts import has_unknown_commands
@@ -49,7 +49,13 @@ class InterfaceDependencyNotFound(Rule):
         Example(
             "not found",
             {"CMakeLists.txt": _LISTS.format(""), **_BEAT},
-            at=("CMakeLists.txt:4",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:4:1",
+                    "'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
+                    "find_package(std_msgs REQUIRED) is missing",
+                ),
+            ),
         ),
     )
 

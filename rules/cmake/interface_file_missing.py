@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_interfaces import generations
 from scaffold.model.interface_syntax import SECTIONS
 from scaffold.model.interfaces import nearest_word
@@ -40,12 +40,26 @@ class InterfaceFileMissing(Rule):
                 "CMakeLists.txt": _LISTS % "\n  msg/beat.msg\n  Beat.msg\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            at=("CMakeLists.txt:3", "CMakeLists.txt:4"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:3",
+                    "there is no file 'msg/beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
+                ),
+                Report(
+                    "CMakeLists.txt:4:3",
+                    "there is no file 'Beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
+                ),
+            ),
         ),
         Example(
             "beside CMakeLists.txt",
             {"CMakeLists.txt": _LISTS % "Beat.msg", "Beat.msg": "int32 count\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:11",
+                    "Beat.msg must be in a directory, so CMake stops: move it to msg/",
+                ),
+            ),
         ),
     )
 

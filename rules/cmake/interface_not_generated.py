@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, Severity
 from scaffold.model.cmake_facts import uses_ament
 from scaffold.model.cmake_interfaces import Generation, generations, may_generate_more
 from scaffold.model.interface_files import is_commented_out, standing, words_of_users
@@ -26,6 +26,7 @@ class InterfaceNotGenerated(Rule):
 
     code = "CM060"
     name = "interface-not-generated"
+    other_severities = {Severity.WARNING: "nothing in the package uses the interface"}
     examples = (
         Example(
             "listed; left out on purpose, as a comment says; a file for tests",
@@ -43,7 +44,14 @@ class InterfaceNotGenerated(Rule):
                 "msg/Beat.msg": "int32 count\n",
                 "srv/Add.srv": "int32 a\n---\nint32 b\n",
             },
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "srv/Add.srv is not among the files: nobody can use Add",
+                    fix="generate srv/Add.srv",
+                    severity=Severity.WARNING,
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS % '"msg/Beat.msg"\n  "srv/Add.srv"'},
         ),
         Example(
@@ -52,7 +60,12 @@ class InterfaceNotGenerated(Rule):
                 "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:1",
+                    "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
+                ),
+            ),
         ),
         Example(
             "in a Python package",
@@ -62,7 +75,12 @@ class InterfaceNotGenerated(Rule):
                 "setup.py": "",
                 "msg/Beat.msg": "int32 count\n",
             },
-            at=("msg/Beat.msg:1",),
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:1",
+                    "an ament_python package generates no interfaces: move it to ament_cmake",
+                ),
+            ),
         ),
     )
 
@@ -90,9 +108,13 @@ class InterfaceNotGenerated(Rule):
                 continue
             name = path.rpartition("/")[2].rpartition(".")[0]
             message = f"{path} is not among the files: nobody can use {name}"
-            found = self.report(calls[0].command.name_location, message, _add(calls[0], path))
             is_used = name in words_of_users(package)
-            yield found if is_used else found._replace(severity=Severity.WARNING)
+            yield self.report(
+                calls[0].command.name_location,
+                message,
+                _add(calls[0], path),
+                severity=Severity.ERROR if is_used else Severity.WARNING,
+            )
 
 
 def _add(call: Generation, path: str) -> Fix | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake_interfaces import generations
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(%s msg/Beat.msg)\n"
@@ -36,7 +36,14 @@ class InterfaceTargetDiffers(Rule):
         Example(
             "another name",
             {"CMakeLists.txt": _LISTS % "messages", **_MESSAGE},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:28",
+                    "the interfaces are generated as 'messages', but the project is "
+                    "'my_msgs': their libraries are not found when they are used",
+                    fix="write ${PROJECT_NAME}",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS % "${PROJECT_NAME}"},
         ),
     )

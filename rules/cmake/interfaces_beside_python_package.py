@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_interfaces import generations, is_interface_package
 
 _LISTS = (
@@ -33,7 +33,14 @@ class InterfacesBesidePythonPackage(Rule):
         Example(
             "the same name",
             {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "the Python package 'my_robot' and the interfaces generated in line "
+                    "2 have the same name, so CMake stops: move the interfaces to a "
+                    "package of their own",
+                ),
+            ),
         ),
     )
 

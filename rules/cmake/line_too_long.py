@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 LONG = "set(WORDS " + "word " * 26 + "word)\n"
@@ -30,11 +30,19 @@ class LineTooLong(Rule):
             "a string that cannot be broken",
             {"CMakeLists.txt": f'set(TEXT\n  "{"x" * 150}"\n)\n'},
         ),
-        Example("too long", {"CMakeLists.txt": LONG}, at=("CMakeLists.txt:1",)),
+        Example(
+            "too long",
+            {"CMakeLists.txt": LONG},
+            reports=(
+                Report("CMakeLists.txt:1:141", "145 characters: ament_lint_cmake allows 140"),
+            ),
+        ),
         Example(
             "a message can be broken",
             {"cmake/say.cmake": f'message(\n  "{"x" * 150}"\n)\n'},
-            at=("cmake/say.cmake:2",),
+            reports=(
+                Report("cmake/say.cmake:2:141", "154 characters: ament_lint_cmake allows 140"),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 
@@ -27,12 +27,22 @@ class LintPragmaInvalid(Rule):
         Example(
             "no sign",
             {"CMakeLists.txt": "# lint_cmake: linelength\n"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:1",
+                    "'linelength' is no filter with - or +: ament_lint_cmake crashes on it",
+                ),
+            ),
         ),
         Example(
             "misspelt",
             {"CMakeLists.txt": "project(talker)\n# lint_cmake: -linelenght\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "'-linelenght' is no filter with - or +: ament_lint_cmake crashes on it",
+                ),
+            ),
         ),
     )
 

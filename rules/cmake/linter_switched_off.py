@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _LISTS = (
     "project(talker)\nif(BUILD_TESTING)\n{}  ament_lint_auto_find_test_dependencies()\nendif()\n"
@@ -30,7 +30,9 @@ class LinterSwitchedOff(Rule):
         Example(
             "as written by ros2 pkg create",
             {"CMakeLists.txt": _LISTS.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report("CMakeLists.txt:3:3", "switches ament_cmake_copyright off: it never runs"),
+            ),
         ),
     )
 

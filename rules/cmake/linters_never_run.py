@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _LISTS = "project(talker)\nif(BUILD_TESTING)\n  find_package(ament_lint_auto REQUIRED)\n{}endif()\n"
 
@@ -27,7 +27,16 @@ class LintersNeverRun(Rule):
             "registered",
             {"CMakeLists.txt": _LISTS.format("  ament_lint_auto_find_test_dependencies()\n")},
         ),
-        Example("found only", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:3",)),
+        Example(
+            "found only",
+            {"CMakeLists.txt": _LISTS.format("")},
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:16",
+                    "no linter runs: ament_lint_auto_find_test_dependencies() is not called",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

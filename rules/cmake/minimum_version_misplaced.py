@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _MINIMUM = "cmake_minimum_required(VERSION 3.8)\n"
 
@@ -29,9 +29,23 @@ class MinimumVersionMisplaced(Rule):
         Example(
             "after project",
             {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:1",
+                    "cmake_minimum_required() of line 2 belongs in front of project()",
+                ),
+            ),
         ),
-        Example("none", {"CMakeLists.txt": "project(talker)\n"}, at=("CMakeLists.txt:1",)),
+        Example(
+            "none",
+            {"CMakeLists.txt": "project(talker)\n"},
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:1",
+                    "no cmake_minimum_required(VERSION ...) in front of project()",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 
 _OLDEST = (3, 5)
 _WANTED = "3.8"
@@ -36,7 +36,13 @@ class MinimumVersionOutdated(Rule):
         Example(
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("2.8.3")},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:32",
+                    "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
+                    fix="write 3.8",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("3.8")},
         ),
     )

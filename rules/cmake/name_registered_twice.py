@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_parser import Command
 
 _NAMING = (
@@ -44,7 +44,12 @@ class NameRegisteredTwice(Rule):
         Example(
             "one name",
             {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:23",
+                    "ament_add_pytest_test(talk) stands in line 2 already: CMake stops",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 
@@ -27,7 +27,12 @@ class OddIndentation(Rule):
         Example(
             "aligned with the word behind a parenthesis",
             {"CMakeLists.txt": "install(TARGETS a\n        DESTINATION lib)\nset(BEE a\n   b)\n"},
-            at=("CMakeLists.txt:4",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:4:1",
+                    "indented by 3 blanks: ament_lint_cmake wants steps of two",
+                ),
+            ),
         ),
         Example(
             "switched off for the file",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity, Source
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, Source
 from scaffold.model import cmake_style
 from scaffold.model.cmake_style import Finding
 
@@ -31,19 +31,41 @@ class ParenthesisSpaceMismatch(Rule):
         Example(
             "one side only",
             {"CMakeLists.txt": "if(A)\n  set( B 1)\nendif()\nset(C 1 )\n"},
-            at=("CMakeLists.txt:2", "CMakeLists.txt:4"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:6",
+                    'blanks behind the "(" of set and before the ")" in line 2 differ',
+                    fix="even the blanks out",
+                ),
+                Report(
+                    "CMakeLists.txt:4:4",
+                    'blanks behind the "(" of set and before the ")" in line 4 differ',
+                    fix="even the blanks out",
+                ),
+            ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\nset(C 1)\n"},
         ),
         Example(
             "indented like nothing else",
             {"CMakeLists.txt": "set(\n  B\n  1\n    )\n"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:4",
+                    'blanks behind the "(" of set and before the ")" in line 4 differ',
+                    fix="even the blanks out",
+                ),
+            ),
             fixed={"CMakeLists.txt": "set(\n  B\n  1\n)\n"},
         ),
         Example(
             "the first parenthesis is in a string: mend it by hand",
             {"CMakeLists.txt": 'message("so ) " )\n'},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:8",
+                    'blanks behind the "(" of message and before the ")" in line 1 differ',
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake import Install
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
@@ -32,7 +32,13 @@ class ProgramDestinationDiffers(Rule):
         Example(
             "to bin, as for other programs",
             {"CMakeLists.txt": _LISTS.format("bin"), "talker/node.py": "import rclpy\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:45",
+                    "installs to bin; `ros2 run talker` looks in lib/talker",
+                    fix="install to lib/${PROJECT_NAME}",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),
         Example(
@@ -41,7 +47,13 @@ class ProgramDestinationDiffers(Rule):
                 "CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"),
                 "talker/node.py": "import rclpy\n",
             },
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:45",
+                    "installs to lib/PROJECT_NAME; `ros2 run talker` looks in lib/talker",
+                    fix="install to lib/${PROJECT_NAME}",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),
     )

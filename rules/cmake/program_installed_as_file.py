@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.cmake import Install
 
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
@@ -37,7 +37,14 @@ class ProgramInstalledAsFile(Rule):
         Example(
             "as a file",
             {"CMakeLists.txt": _LISTS.format("FILES"), "talker/node.py": _NODE},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:15",
+                    "install(FILES) drops the executable bit of talker/node.py: `ros2 "
+                    "run` finds no executable; install it with PROGRAMS",
+                    fix="write PROGRAMS",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
             executable=("talker/node.py",),
         ),
@@ -47,7 +54,13 @@ class ProgramInstalledAsFile(Rule):
                 "CMakeLists.txt": _LISTS.format("DIRECTORY").replace("/node.py", ""),
                 "talker/node.py": _NODE,
             },
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "install(DIRECTORY) drops the executable bit of talker/node.py: "
+                    "`ros2 run` finds no executable; install it with PROGRAMS",
+                ),
+            ),
             executable=("talker/node.py",),
         ),
     )

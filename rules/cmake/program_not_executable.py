@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Report, Rule
 from scaffold.model.cmake_facts import is_only_imported, programs
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
@@ -37,7 +37,15 @@ class ProgramNotExecutable(Rule):
         Example(
             "not executable",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
-            at=("talker/node.py:1",),
+            reports=(
+                Report(
+                    "talker/node.py:1:1",
+                    "CMakeLists.txt, line 2 installs it as a program, but it has no "
+                    "executable bit: `colcon build --symlink-install` makes an "
+                    "executable that does not start",
+                    fix="make talker/node.py executable",
+                ),
+            ),
             fixed={"talker/node.py": _NODE},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import has_unknown_commands, is_used_by_build, programs
 from scaffold.model.near import nearest
 from scaffold.model.own_modules import is_started, paths_imported_by
@@ -76,7 +76,13 @@ class ProgramNotInstalled(Rule):
                 "CMakeLists.txt": _LISTS.format(""),
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "talker/other.py is a node with a main, but not installed: `ros2 "
+                    "run` misses it",
+                ),
+            ),
         ),
     )
 

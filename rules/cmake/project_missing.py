@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import uses_ament
 
 _LISTS = (
@@ -27,7 +27,11 @@ class ProjectMissing(Rule):
     name = "project-missing"
     examples = (
         Example("named", {"CMakeLists.txt": _LISTS.format("project(talker)\n")}),
-        Example("missing", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:1",)),
+        Example(
+            "missing",
+            {"CMakeLists.txt": _LISTS.format("")},
+            reports=(Report("CMakeLists.txt:1:1", "no project(): CMake stops at ament_package()"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.identity import other_name
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
@@ -35,7 +35,13 @@ class ProjectNameDiffers(Rule):
         Example(
             "another name",
             {"package.xml": _MANIFEST, "CMakeLists.txt": "project(listener)\n"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:9",
+                    "the project is 'listener', the package 'talker' (package.xml, line 2)",
+                    fix="name the project talker",
+                ),
+            ),
             fixed={"CMakeLists.txt": "project(talker)\n"},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.near import nearest
 
 COMMANDS = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
@@ -30,7 +30,12 @@ class PytestFileMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("test_talks.py"), "test/test_talk.py": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:28",
+                    "there is no test file test/test_talks.py; test/test_talk.py is near",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import uses_ament
 
 _PURE = frozenset(
@@ -38,12 +38,22 @@ class PythonPackageFound(Rule):
         Example(
             "pure Python",
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:14",
+                    "'launch_ros' is Python alone and has no CMake files: CMake stops",
+                ),
+            ),
         ),
         Example(
             "a key of rosdep",
             {"CMakeLists.txt": _LISTS.format("python3-numpy")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:14",
+                    "'python3-numpy' is Python alone and has no CMake files: CMake stops",
+                ),
+            ),
         ),
     )
 

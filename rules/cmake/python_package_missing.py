@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
 
 _LISTS = "project(talker)\nament_python_install_package({})\n"
 
@@ -29,13 +29,24 @@ class PythonPackageMissing(Rule):
         Example(
             "no __init__.py",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/node.py": ""},
-            at=("talker/__init__.py:1",),
+            reports=(
+                Report(
+                    "talker/__init__.py:1:1",
+                    "missing, but CMakeLists.txt, line 2 installs talker/: CMake stops",
+                    fix="create talker/__init__.py",
+                ),
+            ),
             fixed={"talker/__init__.py": ""},
         ),
         Example(
             "no directory",
             {"CMakeLists.txt": _LISTS.format("talkers"), "talker/__init__.py": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:30",
+                    "the Python package folder talkers/ does not exist: CMake stops",
+                ),
+            ),
         ),
     )
 

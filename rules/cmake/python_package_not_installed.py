@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake_facts import has_unknown_commands
 
 _LISTS = "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n{}ament_package()\n"
@@ -42,7 +42,14 @@ class PythonPackageNotInstalled(Rule):
         Example(
             "not installed",
             {**_FILES, "CMakeLists.txt": _LISTS.format("")},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "talker/ is not installed, but talker/node.py:1 imports it; call "
+                    "ament_python_install_package(${PROJECT_NAME})",
+                    fix="install the modules",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format(f"{_CALL}\n")},
         ),
     )

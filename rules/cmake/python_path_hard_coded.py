@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _LISTS = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
 
@@ -28,7 +28,13 @@ class PythonPathHardCoded(Rule):
         Example(
             "a version",
             {"CMakeLists.txt": _LISTS.format("lib/python3.8/site-packages")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:38",
+                    "installs Python modules to lib/python3.8/site-packages, where only "
+                    "one Python looks",
+                ),
+            ),
         ),
     )
 

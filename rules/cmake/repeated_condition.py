@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 from scaffold.model.cmake_style import Finding
 
@@ -31,13 +31,29 @@ class RepeatedCondition(Rule):
         Example(
             "repeated",
             {"CMakeLists.txt": "if(TALKER)\nelse(TALKER)\nendif(TALKER)\n"},
-            at=("CMakeLists.txt:2", "CMakeLists.txt:3"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "else() repeats what opens its block; CMake ignores the words",
+                    fix="leave the parentheses empty",
+                ),
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "endif() repeats what opens its block; CMake ignores the words",
+                    fix="leave the parentheses empty",
+                ),
+            ),
             fixed={"CMakeLists.txt": "if(TALKER)\nelse()\nendif()\n"},
         ),
         Example(
             "two commands on one line",
             {"CMakeLists.txt": "if(TALKER)\nendif() set(LISTENER 1)\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "endif() repeats what opens its block; CMake ignores the words",
+                ),
+            ),
         ),
     )
 

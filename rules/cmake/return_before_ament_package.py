@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}install(FILES a DESTINATION b)\n"
 
@@ -38,7 +38,12 @@ class ReturnBeforeAmentPackage(Rule):
         Example(
             "in between",
             {"CMakeLists.txt": _LISTS.format("return()\n") + "ament_package()\n"},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "CMake reads no further than here: ament_package() of line 5 is not called",
+                ),
+            ),
         ),
     )
 

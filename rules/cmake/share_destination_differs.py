@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake import Install
 from scaffold.model.launch_files import DATA_DIRECTORIES
 
@@ -32,13 +32,25 @@ class ShareDestinationDiffers(Rule):
         Example(
             "without the package",
             {"CMakeLists.txt": _LISTS.format("share"), **_FILES},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:38",
+                    "installs to share/; `ros2 launch` and launch files look in share/talker/",
+                    fix="install to share/${PROJECT_NAME}",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format(_WANTED)},
         ),
         Example(
             "with the programs",
             {"CMakeLists.txt": _LISTS.format("lib/${PROJECT_NAME}"), **_FILES},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:38",
+                    "installs to lib/talker/; `ros2 launch` and launch files look in share/talker/",
+                    fix="install to share/${PROJECT_NAME}",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format(_WANTED)},
         ),
     )

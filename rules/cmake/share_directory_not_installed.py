@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.cmake_facts import installs_directory
 from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, is_named, launch_files
 
@@ -25,6 +25,7 @@ class ShareDirectoryNotInstalled(Rule):
 
     code = "CM018"
     name = "share-directory-not-installed"
+    other_severities = {Severity.WARNING: "nothing in the package names the directory"}
     examples = (
         Example(
             "installed",
@@ -42,7 +43,17 @@ class ShareDirectoryNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "config/talker.yaml": "",
             },
-            at=("CMakeLists.txt:3", "CMakeLists.txt:3"),
+            reports=(
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "config/ is not installed, so config/talker.yaml is not found at run time",
+                    severity=Severity.WARNING,
+                ),
+                Report(
+                    "CMakeLists.txt:3:1",
+                    "launch/ is not installed, so launch/talk.launch.py is not found at run time",
+                ),
+            ),
         ),
     )
 
@@ -64,6 +75,6 @@ class ShareDirectoryNotInstalled(Rule):
             if named or installs_directory(package, directory) is not False:
                 continue
             message = f"{directory}/ is not installed, so {path} is not found at run time"
-            found = self.report(calls[-1].name_location, message)
-            wanted = directory == "launch" or is_named(package, directory)
-            yield found if wanted else found._replace(severity=Severity.WARNING)
+            is_used = directory == "launch" or is_named(package, directory)
+            severity = Severity.ERROR if is_used else Severity.WARNING
+            yield self.report(calls[-1].name_location, message, severity=severity)

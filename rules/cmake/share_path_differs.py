@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model.launch_files import DATA_DIRECTORIES
 
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
@@ -44,13 +44,26 @@ class SharePathDiffers(Rule):
         Example(
             "dropped",
             {**_FILES, "CMakeLists.txt": _LISTS.format("config/", "")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "what is in config/ lands in share/talker/, not in share/talker/config/",
+                    fix="keep config/ once",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("config", "")},
         ),
         Example(
             "doubled",
             {**_FILES, "CMakeLists.txt": _LISTS.format("config", "/config")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "what is in config/ lands in share/talker/config/config/, not in "
+                    "share/talker/config/",
+                    fix="keep config/ once",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("config/", "/config")},
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake import Install
 
 _LISTS = (
@@ -45,12 +45,22 @@ class SharePatternEmpty(Rule):
         Example(
             "another ending",
             {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "the patterns leave nothing of config/, for instance config/talker.yaml",
+                ),
+            ),
         ),
         Example(
             "all left out",
             {"CMakeLists.txt": _LISTS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:19",
+                    "the patterns leave nothing of config/, for instance config/talker.yaml",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.left_out import is_left_out
 from scaffold.model.near import nearest
 
@@ -44,7 +44,12 @@ class SourceFileMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:23",
+                    "there is no file src/a.cpp: CMake stops; src/b.cpp is near",
+                ),
+            ),
         ),
     )
 

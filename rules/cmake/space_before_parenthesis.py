@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 
@@ -26,7 +26,13 @@ class SpaceBeforeParenthesis(Rule):
         Example(
             "after if",
             {"CMakeLists.txt": "if (A)\nendif()\n"},
-            at=("CMakeLists.txt:1",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:1:3",
+                    'a blank stands between "if" and its "("',
+                    fix="remove the blank",
+                ),
+            ),
             fixed={"CMakeLists.txt": "if(A)\nendif()\n"},
         ),
     )

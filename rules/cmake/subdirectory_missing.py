@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.left_out import is_left_out
 
 _LISTS = "project(talker)\nadd_subdirectory({})\n"
@@ -35,11 +35,24 @@ class SubdirectoryMissing(Rule):
                 ".gitmodules": '[submodule "json"]\n  path = lib/json\n',
             },
         ),
-        Example("not there", {"CMakeLists.txt": _LISTS.format("src")}, at=("CMakeLists.txt:2",)),
+        Example(
+            "not there",
+            {"CMakeLists.txt": _LISTS.format("src")},
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:18",
+                    "adds the directory src/, which does not exist: CMake stops",
+                ),
+            ),
+        ),
         Example(
             "without a CMakeLists.txt",
             {"CMakeLists.txt": _LISTS.format("src"), "src/talker.py": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:18", "adds src/, which has no CMakeLists.txt: CMake stops"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 from scaffold.model.cmake_style import Finding
 
@@ -27,13 +27,17 @@ class TabInCmake(Rule):
         Example(
             "tabs",
             {"CMakeLists.txt": "if(A)\n\tset(B\t1)\nendif()\n"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1", "a tab: ament_lint_cmake wants blanks", fix="write blanks"
+                ),
+            ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\n"},
         ),
         Example(
             "in a string: write \\t",
             {"CMakeLists.txt": 'set(B "a\tb")\n'},
-            at=("CMakeLists.txt:1",),
+            reports=(Report("CMakeLists.txt:1:9", "a tab: ament_lint_cmake wants blanks"),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import has_unknown_commands
 
 _LISTS = (
@@ -30,7 +30,9 @@ class TargetNotInstalled(Rule):
     examples = (
         Example("both", {"CMakeLists.txt": _LISTS.format("listen ")}),
         Example(
-            "one is forgotten", {"CMakeLists.txt": _LISTS.format("")}, at=("CMakeLists.txt:4",)
+            "one is forgotten",
+            {"CMakeLists.txt": _LISTS.format("")},
+            reports=(Report("CMakeLists.txt:4:16", "'listen' is built, but not installed"),),
         ),
     )
 

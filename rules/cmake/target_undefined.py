@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import has_unknown_commands
 from scaffold.model.cmake_targets import TAKING_TARGETS, defined_targets, targets_named_once
 from scaffold.model.near import nearest
@@ -29,7 +29,11 @@ class TargetUndefined(Rule):
     examples = (
         Example("defined", {"CMakeLists.txt": _LISTS.format("talk")}),
         Example(
-            "not defined", {"CMakeLists.txt": _LISTS.format("talks")}, at=("CMakeLists.txt:3",)
+            "not defined",
+            {"CMakeLists.txt": _LISTS.format("talks")},
+            reports=(
+                Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
+            ),
         ),
         Example(
             "Python scripts are no targets",
@@ -38,7 +42,10 @@ class TargetUndefined(Rule):
                 "install(TARGETS talk listen DESTINATION lib/${PROJECT_NAME})\n",
                 "talker/talk.py": "",
             },
-            at=("CMakeLists.txt:2", "CMakeLists.txt:2"),
+            reports=(
+                Report("CMakeLists.txt:2:17", "nothing defines the target 'talk': CMake stops"),
+                Report("CMakeLists.txt:2:22", "nothing defines the target 'listen': CMake stops"),
+            ),
         ),
         Example(
             "of a command that nobody here knows",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 TEST_PACKAGES = (
     "ament_lint_auto",
@@ -49,7 +49,13 @@ class TestPackageUnguarded(Rule):
         Example(
             "not guarded",
             {"package.xml": _MANIFEST, "CMakeLists.txt": f"project(talker)\n{_FIND}"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:14",
+                    "'ament_lint_auto' is a test dependency, but found outside of "
+                    "if(BUILD_TESTING)",
+                ),
+            ),
         ),
     )
 

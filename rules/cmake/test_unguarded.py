@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 COMMANDS = (
     "ament_add_gmock",
@@ -38,7 +38,12 @@ class TestUnguarded(Rule):
         Example(
             "not guarded",
             {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "ament_add_pytest_test() stands outside of if(BUILD_TESTING)",
+                ),
+            ),
         ),
     )
 

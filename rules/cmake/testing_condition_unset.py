@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 _TESTS = ("ament_lint_auto_find_test_dependencies", "ament_add_pytest_test", "ament_add_gtest")
 _LISTS = (
@@ -30,7 +30,14 @@ class TestingConditionUnset(Rule):
         Example(
             "that of catkin",
             {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:4",
+                    "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
+                    "BUILD_TESTING is meant",
+                    fix="write BUILD_TESTING",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import cmake_style
 
 
@@ -26,13 +26,17 @@ class TrailingSpaceInCmake(Rule):
         Example(
             "behind a command, a comment, and alone",
             {"CMakeLists.txt": "project(talker) \n  \n# A talker.\t\n"},
-            at=("CMakeLists.txt:1", "CMakeLists.txt:2", "CMakeLists.txt:3"),
+            reports=(
+                Report("CMakeLists.txt:1:16", "the line ends in blanks", fix="remove the blanks"),
+                Report("CMakeLists.txt:2:1", "the line ends in blanks", fix="remove the blanks"),
+                Report("CMakeLists.txt:3:12", "the line ends in blanks", fix="remove the blanks"),
+            ),
             fixed={"CMakeLists.txt": "project(talker)\n\n# A talker.\n"},
         ),
         Example(
             "in a string",
             {"cmake/text.cmake": 'set(TEXT "one \ntwo")\n'},
-            at=("cmake/text.cmake:1",),
+            reports=(Report("cmake/text.cmake:1:14", "the line ends in blanks"),),
         ),
     )
 

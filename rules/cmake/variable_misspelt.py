@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.cmake import CMakeLists
 from scaffold.model.cmake_parser import Argument
 
@@ -39,7 +39,13 @@ class VariableMisspelt(Rule):
         Example(
             "in lower case",
             {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:34",
+                    "nothing sets project_name: it is empty; ${PROJECT_NAME} is meant",
+                    fix="write PROJECT_NAME",
+                ),
+            ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_parser import Argument
 
 _LISTS = (
@@ -32,7 +32,9 @@ class VariableUnclosed(Rule):
         Example(
             "not closed",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME"), "talker/node.py": ""},
-            at=("CMakeLists.txt:3",),
+            reports=(
+                Report("CMakeLists.txt:3:15", "lib/${PROJECT_NAME: a } is missing, CMake stops"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 
 _ACTIONS = frozenset(
@@ -44,16 +44,33 @@ class ActionMadeWrongly(Rule):
     name = "action-made-wrongly"
     examples = (
         Example("right", _launch(*_RIGHT)),
-        Example("no list", _launch(_RIGHT[0], "[GroupAction(node)]"), at=("launch/a.launch.py:8",)),
         Example(
-            "several arguments", _launch(_RIGHT[0], "node, node"), at=("launch/a.launch.py:8",)
+            "no list",
+            _launch(_RIGHT[0], "[GroupAction(node)]"),
+            reports=(Report("launch/a.launch.py:8:43", "one Node: write a list of it"),),
+        ),
+        Example(
+            "several arguments",
+            _launch(_RIGHT[0], "node, node"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:12",
+                    "LaunchDescription takes one list of actions: put them in [...]",
+                ),
+            ),
         ),
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing behind it"),
+            ),
         ),
-        Example("no program", _launch("name='node'", "[node]"), at=("launch/a.launch.py:7",)),
+        Example(
+            "no program",
+            _launch("name='node'", "[node]"),
+            reports=(Report("launch/a.launch.py:7:12", "Node needs executable=...: TypeError"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

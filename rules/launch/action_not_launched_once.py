@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_entities import HANDLERS, Entity, entities
 from scaffold.model.launch_py import NODES, LaunchFile
 
@@ -40,12 +40,22 @@ class ActionNotLaunchedOnce(Rule):
         Example(
             "again in the handler",
             {"launch/a.launch.py": _LAUNCH.format("first, second, ")},
-            at=("launch/a.launch.py:10",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:59",
+                    "second is launched twice: here, and in the LaunchDescription",
+                ),
+            ),
         ),
         Example(
             "watched, but not launched",
             {"launch/a.launch.py": _LAUNCH.format("")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:13",
+                    "a handler watches first, which is in no list: it is never launched",
+                ),
+            ),
         ),
     )
 

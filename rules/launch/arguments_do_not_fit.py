@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.launch_signatures import signature
 
@@ -39,12 +39,19 @@ class ArgumentsDoNotFit(Rule):
         Example(
             "two parts instead of a list",
             {"launch/a.launch.py": _LAUNCH.format("'a', 'b'", "period")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:12",
+                    "PathJoinSubstitution takes one list of parts: put them in [...]",
+                ),
+            ),
         ),
         Example(
             "no period",
             {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "cancel_on_shutdown")},
-            at=("launch/a.launch.py:10",),
+            reports=(
+                Report("launch/a.launch.py:10:31", "TimerAction needs period=...: TypeError"),
+            ),
         ),
     )
 

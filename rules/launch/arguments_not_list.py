@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _LAUNCH = (
@@ -33,13 +33,25 @@ class ArgumentsNotList(Rule):
         Example(
             "a string",
             {"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:61",
+                    "arguments is one string, which launch takes apart letter by letter",
+                    fix="split it",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'.split()")},
         ),
         Example(
             "for ROS",
             {"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:65",
+                    "ros_arguments is one string, which launch takes apart letter by letter",
+                    fix="split it",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'.split()")},
         ),
     )

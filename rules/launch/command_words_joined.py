@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 
 _PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
@@ -40,11 +40,25 @@ class CommandWordsJoined(Rule):
     name = "command-words-joined"
     examples = (
         Example("a space", _launch("['xacro ', 'a.urdf']")),
-        Example("no space", _launch("['xacro', 'a']"), at=("launch/a.launch.py:7",)),
+        Example(
+            "no space",
+            _launch("['xacro', 'a']"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:12",
+                    "parts of a command are joined without spaces: write 'xacro '",
+                ),
+            ),
+        ),
         Example(
             "a program that is looked for",
             _launch("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:12",
+                    "parts of a command are joined without spaces: write ' ' behind it",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_expressions import failure
 from scaffold.model.launch_py import LaunchCall, LaunchFile
 
@@ -54,17 +54,33 @@ class ConditionUnusable(Rule):
         Example(
             "a value of Python",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
-            at=("launch/a.launch.py:12",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:65",
+                    "Python decides not before the LaunchConfiguration has a value: "
+                    "write NotSubstitution",
+                ),
+            ),
         ),
         Example(
             "the name of the argument",
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
-            at=("launch/a.launch.py:12",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:65",
+                    "'use' is neither true nor false: LaunchConfiguration('use') is meant",
+                ),
+            ),
         ),
         Example(
             "an expression without quotes",
             {"launch/a.launch.py": _LAUNCH.format("true", "PythonExpression(['not ', use])")},
-            at=("launch/a.launch.py:12",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:65",
+                    "with the defaults this is 'not true': the name 'true' is not defined",
+                ),
+            ),
         ),
     )
 

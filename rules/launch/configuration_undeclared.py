@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_configurations import may_be_set_elsewhere, set_names
 from scaffold.model.launch_py import LaunchCall, LaunchFile
 
@@ -69,7 +69,16 @@ class ConfigurationUndeclared(Rule):
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
-            at=("launch/a.launch.py:9", "launch/b.launch.py:10"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:9:56",
+                    "nothing sets the launch configuration 'node'; declared here is nothing",
+                ),
+                Report(
+                    "launch/b.launch.py:10:56",
+                    "nothing sets the launch configuration 'nod'; declared here is node",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_configurations import may_be_set_elsewhere
 from scaffold.model.launch_order import later_declarations, steps
 from scaffold.model.launch_py import LaunchFile
@@ -38,7 +38,13 @@ class DeclaredTooLate(Rule):
         Example(
             "behind",
             {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:12",
+                    "'name' is declared behind its use: the Node of line 9 reads it "
+                    "before it has a value",
+                ),
+            ),
         ),
         Example(
             "behind a function",
@@ -49,7 +55,13 @@ class DeclaredTooLate(Rule):
                 + "\n\ndef set_up(context):\n"
                 "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
             },
-            at=("launch/a.launch.py:14",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:14:12",
+                    "'name' is declared behind its use: the OpaqueFunction of line 10 "
+                    "reads it before it has a value",
+                ),
+            ),
         ),
         Example(
             "added behind",
@@ -57,7 +69,13 @@ class DeclaredTooLate(Rule):
                 "launch/a.launch.py": _LAUNCH.format("node").replace("return", "launch =")
                 + f"    launch.add_action({_DECLARED})\n    return launch\n"
             },
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:12",
+                    "'name' is declared behind its use: the Node of line 9 reads it "
+                    "before it has a value",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import FUNCTION, NODES, LaunchFile
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
@@ -51,12 +51,23 @@ class DescriptionIncomplete(Rule):
                     "context", "Node(package='talker', executable='node')", ""
                 )
             },
-            at=("launch/a.launch.py:5", "launch/a.launch.py:8"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:5:5",
+                    "`ros2 launch` calls generate_launch_description without arguments: TypeError",
+                ),
+                Report("launch/a.launch.py:8:5", "this Node is in no list: it is never executed"),
+            ),
         ),
         Example(
             "what add_action returns",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
-            at=("launch/a.launch.py:9",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:9:5",
+                    "add_action() returns nothing: return the LaunchDescription",
+                ),
+            ),
         ),
     )
 

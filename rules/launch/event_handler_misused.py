@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_entities import CALLBACKS, HANDLERS, function_of
 from scaffold.model.launch_py import LaunchCall, LaunchFile
 from scaffold.model.launch_signatures import ACTIONS
@@ -53,7 +53,24 @@ class EventHandlerMisused(Rule):
         Example(
             "no argument, an action, a timer, a list",
             {"launch/a.launch.py": _LAUNCH.format("", "Shutdown", "timer", "[handler]")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (9, 15, 15, 16)),),
+            reports=(
+                Report(
+                    "launch/a.launch.py:9:29",
+                    "this is the action Shutdown, and EmitEvent takes an event of launch.events",
+                ),
+                Report(
+                    "launch/a.launch.py:15:43",
+                    "OnProcessExit watches processes, and TimerAction starts none of its own",
+                ),
+                Report(
+                    "launch/a.launch.py:15:58",
+                    "launch calls on_exit with event and context: TypeError",
+                ),
+                Report(
+                    "launch/a.launch.py:16:59",
+                    "RegisterEventHandler takes one handler, not a list of them",
+                ),
+            ),
         ),
     )
 

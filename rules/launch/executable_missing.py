@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_uses import package_uses
 from scaffold.model.package_programs import programs_of
 
@@ -42,7 +42,12 @@ class ExecutableMissing(Rule):
         Example(
             "the module's name",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:43",
+                    "talker has no program 'talk.py' (it has: talk); 'talk' is meant",
+                ),
+            ),
         ),
         Example(
             "in another package of the workspace, in XML and in YAML",
@@ -51,7 +56,16 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            at=("launch/a.launch.xml:2", "launch/b.launch.yaml:4"),
+            reports=(
+                Report(
+                    "launch/a.launch.xml:2:28",
+                    "talker has no program 'tlk' (it has: talk); 'talk' is meant",
+                ),
+                Report(
+                    "launch/b.launch.yaml:4:11",
+                    "talker has no program 'tlk' (it has: talk); 'talk' is meant",
+                ),
+            ),
             neighbours={"talker": _FILES},
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import Import
 
 _NAMES: Mapping[str, str] = {
@@ -68,7 +68,16 @@ class ImportFromWrongModule(Rule):
         Example(
             "wrong, and misspelt",
             {"launch/a.launch.py": _LAUNCH.format("launch.actions", "TimerActions")},
-            at=("launch/a.launch.py:1", "launch/a.launch.py:2"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:1:28",
+                    "launch.actions has no 'Node'; launch_ros.actions has",
+                ),
+                Report(
+                    "launch/a.launch.py:2:28",
+                    "launch.actions has no 'TimerActions'; 'TimerAction' is meant",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_includes import given_arguments
 from scaffold.model.launch_py import LaunchFile
 
@@ -43,11 +43,48 @@ class IncludeArgumentUnusable(Rule):
     name = "include-argument-unusable"
     examples = (
         Example("pairs", _launch("{'a': 'b'}.items()")),
-        Example("a number", _launch("{'a': 3}.items()"), at=("launch/a.launch.py:13",)),
-        Example("a number in a list", _launch("[('a', ['b', 1])]"), at=("launch/a.launch.py:13",)),
-        Example("a set", _launch("{'a', 'b'}"), at=("launch/a.launch.py:13",)),
-        Example("not called", _launch("{'a': 'b'}.items"), at=("launch/a.launch.py:13",)),
-        Example("a list of texts", _launch("['a', 'b']"), at=("launch/a.launch.py:13",)),
+        Example(
+            "a number",
+            _launch("{'a': 3}.items()"),
+            reports=(
+                Report("launch/a.launch.py:13:36", "'a' gets 3, which is no text: write '3'"),
+            ),
+        ),
+        Example(
+            "a number in a list",
+            _launch("[('a', ['b', 1])]"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:13:37",
+                    "'a' gets a list with a number, which launch cannot join",
+                ),
+            ),
+        ),
+        Example(
+            "a set",
+            _launch("{'a', 'b'}"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:13:30",
+                    "this is a set: launch takes pairs, {...}.items() or [('name', 'value')]",
+                ),
+            ),
+        ),
+        Example(
+            "not called",
+            _launch("{'a': 'b'}.items"),
+            reports=(Report("launch/a.launch.py:13:30", "items is not called: write .items()"),),
+        ),
+        Example(
+            "a list of texts",
+            _launch("['a', 'b']"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:13:30",
+                    "these are no pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_includes import Included, given_arguments, included
 from scaffold.model.launch_py import LaunchCall, LaunchFile
 
@@ -57,14 +57,29 @@ class IncludeDoesNotFit(Rule):
         Example(
             "required, but not given",
             _files("b.launch.py", "{}"),
-            at=("launch/a.launch.py:11",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:11:9",
+                    "launch/b.launch.py requires the argument 'robot_name', which is "
+                    "not given here",
+                ),
+            ),
         ),
         Example(
             "misspelt",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
-            at=("launch/a.launch.py:13",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:13:31",
+                    "launch/b.launch.py has no argument 'robot_nam'; 'robot_name' is meant",
+                ),
+            ),
         ),
-        Example("itself", _files("a.launch.py", "{}"), at=("launch/a.launch.py:11",)),
+        Example(
+            "itself",
+            _files("a.launch.py", "{}"),
+            reports=(Report("launch/a.launch.py:11:9", "this file includes itself, without end"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

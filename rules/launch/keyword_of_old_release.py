@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _OLD = {
@@ -49,7 +49,18 @@ class KeywordOfOldRelease(Rule):
         Example(
             "of Eloquent",
             {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
-            at=("launch/a.launch.py:7", "launch/a.launch.py:7"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:32",
+                    "Node has no node_executable; it is executable now",
+                    fix="write executable",
+                ),
+                Report(
+                    "launch/a.launch.py:7:56",
+                    "Node has no node_name; it is name now",
+                    fix="write name",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format("executable", "name")},
         ),
     )

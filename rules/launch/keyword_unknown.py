@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.launch_signatures import signature
 
@@ -37,7 +37,12 @@ class KeywordUnknown(Rule):
         Example(
             "of another class",
             {"launch/a.launch.py": _LAUNCH.format("default")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:39",
+                    "DeclareLaunchArgument has no argument 'default'; 'default_value' is meant",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 
 _LAUNCH = (
@@ -34,7 +34,13 @@ class LaunchArgumentsNotPairs(Rule):
         Example(
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': '2'}")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:69",
+                    "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                    fix="add .items()",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format("{'rate': '2'}.items()")},
         ),
     )

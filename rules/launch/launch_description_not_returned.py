@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile, returns
 
 _LAUNCH = (
@@ -36,7 +36,13 @@ class LaunchDescriptionNotReturned(Rule):
         Example(
             "made, but not returned",
             {"launch/a.launch.py": _LAUNCH + "    LaunchDescription([node])\n"},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:5",
+                    "the LaunchDescription is made, but generate_launch_description returns None",
+                    fix="return it",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
         ),
         Example(
@@ -46,7 +52,16 @@ class LaunchDescriptionNotReturned(Rule):
                 "launch/b.launch.py": _LAUNCH
                 + "    if node:\n        return LaunchDescription([node])\n",
             },
-            at=("launch/a.launch.py:7", "launch/b.launch.py:5"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:5",
+                    "generate_launch_description returns a list, not a LaunchDescription",
+                ),
+                Report(
+                    "launch/b.launch.py:5:5",
+                    "generate_launch_description on some way returns None, not a LaunchDescription",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.launch_py import FUNCTION, LaunchFile
 
 _LAUNCH = (
@@ -29,7 +29,17 @@ class LaunchFileEnding(Rule):
     severity = Severity.WARNING
     examples = (
         Example("both endings", {"launch/a.launch.py": _LAUNCH, "launch/b_launch.py": _LAUNCH}),
-        Example("neither", {"launch/talk.py": _LAUNCH}, at=("launch/talk.py:1",)),
+        Example(
+            "neither",
+            {"launch/talk.py": _LAUNCH},
+            reports=(
+                Report(
+                    "launch/talk.py:1:1",
+                    "defines generate_launch_description, but `ros2 launch` lists only "
+                    "names that end with launch.py, not talk.py",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

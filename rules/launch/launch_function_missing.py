@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_py import FUNCTION, LaunchFile
 
 _LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
@@ -29,13 +29,26 @@ class LaunchFunctionMissing(Rule):
         Example(
             "misspelt",
             {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
-            at=("launch/a.launch.py:4",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:4:5",
+                    "`ros2 launch` calls generate_launch_description, not "
+                    "generate_launch_descriptions",
+                    fix="write generate_launch_description",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
         ),
         Example(
             "not there",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
-            at=("launch/a.launch.py:1",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:1:1",
+                    "`ros2 launch` calls generate_launch_description, which this file "
+                    "does not define",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
@@ -38,7 +38,13 @@ class LaunchNameInvalid(Rule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            at=("launch/a.launch.py:7", "launch/a.launch.py:7"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:56",
+                    "ROS 2 refuses the node name 'my/talker': letters, digits and _ only",
+                ),
+                Report("launch/a.launch.py:7:79", "ROS 2 refuses the namespace 'robot-1'"),
+            ),
         ),
     )
 

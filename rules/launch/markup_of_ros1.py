@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model import xml_tree
 from scaffold.model.xml_tree import Element
 
@@ -45,7 +45,10 @@ class MarkupOfRos1(Rule):
         Example(
             "of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            at=("launch/a.launch.xml:2", "launch/a.launch.xml:2"),
+            reports=(
+                Report("launch/a.launch.xml:2:28", "type of <node> is of ROS 1; ROS 2 has exec"),
+                Report("launch/a.launch.xml:2:40", "$(arg ...) is of ROS 1; ROS 2 has $(var name)"),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_nodes import StartedNode, consumers
 from scaffold.model.parameter_files import ParameterFile, parameter_file
 from scaffold.model.share_files import share_of
@@ -45,7 +45,13 @@ class NamespaceNotInFile(Rule):
         Example(
             "the name alone",
             {**_FILES, "config/demo.yaml": _FILE.format("talker")},
-            at=("launch/a.launch.py:10",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:74",
+                    "the node runs as /left/talker, but config/demo.yaml:1 is for "
+                    "/talker: it is skipped",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_nodes import started_nodes
 
 _LAUNCH = (
@@ -46,7 +46,10 @@ class NodeNameRepeated(Rule):
                     ", namespace='left'", "eye", ", namespace='/left'"
                 ),
             },
-            at=("launch/a.launch.py:8", "launch/b.launch.py:8"),
+            reports=(
+                Report("launch/a.launch.py:8:48", "the node of line 7 is called /eye too"),
+                Report("launch/b.launch.py:8:48", "the node of line 7 is called /left/eye too"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_entities import entities, what_it_is
 from scaffold.model.launch_py import NODES, LaunchFile
 
@@ -48,12 +48,38 @@ class NotAnAction(Rule):
         Example(
             "a list, a substitution, a handler",
             {"launch/a.launch.py": _LAUNCH.format("[node],\n name,\n handler")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (12, 13, 14)),),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:31",
+                    "this is a list, and LaunchDescription takes actions: write * in front of it",
+                ),
+                Report(
+                    "launch/a.launch.py:13:2",
+                    "this is a LaunchConfiguration, and LaunchDescription takes actions",
+                ),
+                Report(
+                    "launch/a.launch.py:14:2",
+                    "this is the handler OnProcessExit, and LaunchDescription takes "
+                    "actions: put it into RegisterEventHandler(...)",
+                ),
+            ),
         ),
         Example(
             "a text, a class, None",
             {"launch/a.launch.py": _LAUNCH.format("'node',\n Node,\n None")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (12, 13, 14)),),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:31",
+                    "this is a text, and LaunchDescription takes actions",
+                ),
+                Report(
+                    "launch/a.launch.py:13:2",
+                    "this is a class, and LaunchDescription takes actions: call it",
+                ),
+                Report(
+                    "launch/a.launch.py:14:2", "this is None, and LaunchDescription takes actions"
+                ),
+            ),
         ),
     )
 

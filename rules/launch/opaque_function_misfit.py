@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.call_fit import misfit_of_context
 from scaffold.model.launch_entities import function_of
 from scaffold.model.launch_py import LaunchCall, LaunchFile
@@ -47,14 +47,45 @@ class OpaqueFunctionMisfit(Rule):
                 ),
             },
         ),
-        Example("no context", _launch("", ""), at=("launch/a.launch.py:10",)),
-        Example("what nothing gives", _launch("context, a", ""), at=("launch/a.launch.py:10",)),
+        Example(
+            "no context",
+            _launch("", ""),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:55",
+                    "set_up takes no arguments; it is given the context: TypeError",
+                ),
+            ),
+        ),
+        Example(
+            "what nothing gives",
+            _launch("context, a", ""),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:55",
+                    "set_up takes 'a', which args=[...] does not give: TypeError",
+                ),
+            ),
+        ),
         Example(
             "a text for the list of arguments",
             _launch("context, a", ", args='fast'"),
-            at=("launch/a.launch.py:10",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:55",
+                    "set_up gets a text letter by letter: args=... is a list",
+                ),
+            ),
         ),
-        Example("called", _launch("", "()"), at=("launch/a.launch.py:10",)),
+        Example(
+            "called",
+            _launch("", "()"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:31", "set_up() is called here: pass the function itself"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_entities import function_of
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.launch_signatures import ACTIONS
@@ -37,12 +37,19 @@ class OpaqueFunctionReturnsNoList(Rule):
         Example(
             "one action",
             {"launch/a.launch.py": _LAUNCH.format("node")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report("launch/a.launch.py:8:5", "set_up returns one Node, not a list: TypeError"),
+            ),
         ),
         Example(
             "a description",
             {"launch/a.launch.py": _LAUNCH.format("LaunchDescription([node])")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:5",
+                    "set_up returns one LaunchDescription, not a list: TypeError",
+                ),
+            ),
         ),
     )
 

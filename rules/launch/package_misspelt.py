@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.identity import other_name
 from scaffold.model.launch_uses import Use, meant_package, package_uses
 
@@ -52,7 +52,23 @@ class PackageMisspelt(Rule):
                 "launch/b.launch.py": _LAUNCH.format("demo", "talk"),
                 "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
             },
-            at=("launch/a.launch.py:7", "launch/b.launch.py:7", "launch/c.launch.xml:2"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:22",
+                    "no package 'talker_dmeo' is known; 'talker_demo' is meant: this package",
+                    unsafe_fix="write talker_demo",
+                ),
+                Report(
+                    "launch/b.launch.py:7:22",
+                    "no package 'demo' is known; 'talker_demo' is meant: it has the program 'talk'",
+                    unsafe_fix="write talker_demo",
+                ),
+                Report(
+                    "launch/c.launch.xml:2:14",
+                    "no package 'rivz2' is known; 'rviz2' is meant: a package of ROS",
+                    unsafe_fix="write rviz2",
+                ),
+            ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("talker_demo", "listen"),
                 "launch/b.launch.py": _LAUNCH.format("talker_demo", "talk"),

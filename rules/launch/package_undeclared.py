@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model.launch_uses import exists, meant_package, package_uses
 from scaffold.model.needs import declared
 
@@ -47,7 +47,14 @@ class PackageUndeclared(Rule):
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/a.launch.py": _LAUNCH,
             },
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "launch/a.launch.py:8 starts a node of 'rviz2', which no dependency "
+                    "here provides; add <exec_depend>rviz2</exec_depend>",
+                    fix="declare rviz2",
+                ),
+            ),
             fixed={
                 "package.xml": _MANIFEST.format(
                     "  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_nodes import consumers
 
 _LAUNCH = (
@@ -35,9 +35,31 @@ class ParameterRefusedByLaunch(Rule):
     name = "parameter-refused-by-launch"
     examples = (
         Example("values of one type", _launch("[1, 2]")),
-        Example("nothing", _launch("None"), at=("launch/a.launch.py:7",)),
-        Example("an empty list", _launch("[]"), at=("launch/a.launch.py:7",)),
-        Example("a mixed list", _launch("[1, 'a']"), at=("launch/a.launch.py:7",)),
+        Example(
+            "nothing",
+            _launch("None"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:61",
+                    "the parameter 'a' is None, which is no value of a parameter",
+                ),
+            ),
+        ),
+        Example(
+            "an empty list",
+            _launch("[]"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:61",
+                    "the parameter 'a' is an empty list, whose type nobody knows",
+                ),
+            ),
+        ),
+        Example(
+            "a mixed list",
+            _launch("[1, 'a']"),
+            reports=(Report("launch/a.launch.py:7:61", "the parameter 'a' mixes types in a list"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _LAUNCH = (
@@ -34,7 +34,13 @@ class ParametersNotList(Rule):
         Example(
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': 2.0}")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "parameters is a dictionary; Node takes a list alone",
+                    fix="make it a list",
+                ),
+            ),
             fixed={"launch/a.launch.py": _LAUNCH.format("[{'rate': 2.0}]")},
         ),
         Example(
@@ -43,7 +49,18 @@ class ParametersNotList(Rule):
                 "launch/a.launch.py": _LAUNCH.format("'talker.yaml'"),
                 "launch/b.launch.py": _LAUNCH.format("({'rate': 2.0},)"),
             },
-            at=("launch/a.launch.py:7", "launch/b.launch.py:7"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "parameters is a single value; Node takes a list alone",
+                    fix="make it a list",
+                ),
+                Report(
+                    "launch/b.launch.py:7:62",
+                    "parameters is a tuple; Node takes a list alone",
+                    fix="make it a list",
+                ),
+            ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("['talker.yaml']"),
                 "launch/b.launch.py": _LAUNCH.format("[*({'rate': 2.0},)]"),

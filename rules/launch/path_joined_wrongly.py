@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import SHARE, LaunchFile
 from scaffold.model.values import PathValue
 
@@ -37,7 +37,12 @@ class PathJoinedWrongly(Rule):
         Example(
             "a slash too many",
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
-            at=("launch/a.launch.py:6",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:6:28",
+                    "'/config' begins with a slash, which drops all in front of it",
+                ),
+            ),
         ),
         Example(
             "no slash in a list",
@@ -48,12 +53,22 @@ class PathJoinedWrongly(Rule):
                     "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
                 )
             },
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:46",
+                    "parts are joined as they are: a slash is missing in front of this",
+                ),
+            ),
         ),
         Example(
             "no slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
-            at=("launch/a.launch.py:6",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:6:8",
+                    "a slash is missing between the share directory and 'config/a.yaml'",
+                ),
+            ),
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Rule
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
 from scaffold.model.launch_markup import markup_files
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_py import LaunchFile
@@ -48,11 +48,26 @@ class PathOfAuthor(Rule):
                 "launch/c.launch.xml": "<launch>\n"
                 '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
             },
-            at=(
-                "launch/a.launch.py:7",
-                "launch/b.launch.py:7",
-                "launch/c.launch.xml:2",
-                "launch/d.launch.py:7",
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:63",
+                    "'/home/me/ros2_ws/src/talker/talker.yaml' exists on one machine "
+                    "only; build it from the share directory",
+                ),
+                Report(
+                    "launch/b.launch.py:7:63",
+                    "'/ros2_ws/src/talker/talker.yaml' exists on one machine only; "
+                    "build it from the share directory",
+                ),
+                Report(
+                    "launch/c.launch.xml:2:28",
+                    "'/home/me/map.yaml' exists on one machine only; build it from the "
+                    "share directory",
+                ),
+                Report(
+                    "launch/d.launch.py:7:63",
+                    "'config/talker.yaml' is looked for where `ros2 launch` is started, not here",
+                ),
             ),
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _LAUNCH = (
@@ -34,10 +34,38 @@ class RemappingsNotPairs(Rule):
     name = "remappings-not-pairs"
     examples = (
         Example("pairs", _launch("[('a', 'b')]")),
-        Example("a dictionary", _launch("{'a': 'b'}"), at=("launch/a.launch.py:7",)),
-        Example("one pair", _launch("('a', 'b')"), at=("launch/a.launch.py:7",)),
-        Example("texts", _launch("['a:=b']"), at=("launch/a.launch.py:7",)),
-        Example("three parts", _launch("[('a', 'b', 'c')]"), at=("launch/a.launch.py:7",)),
+        Example(
+            "a dictionary",
+            _launch("{'a': 'b'}"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "remappings are a list of pairs, [('from', 'to')], not a dictionary",
+                ),
+            ),
+        ),
+        Example(
+            "one pair",
+            _launch("('a', 'b')"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "this is one pair: remappings are a list of pairs, [('from', 'to')]",
+                ),
+            ),
+        ),
+        Example(
+            "texts",
+            _launch("['a:=b']"),
+            reports=(Report("launch/a.launch.py:7:62", "'a:=b' is no pair ('from', 'to')"),),
+        ),
+        Example(
+            "three parts",
+            _launch("[('a', 'b', 'c')]"),
+            reports=(
+                Report("launch/a.launch.py:7:62", "a remapping is a pair, and this has 3 parts"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_paths import paths_of, why_missing
 
 _LAUNCH = (
@@ -84,7 +84,23 @@ class SharePathMissing(Rule):
                 "launch/b.launch.py": _LAUNCH.format("'talker.yaml'"),
                 "launch/c.launch.py": _LAUNCH.format("'config', 'other.json'"),
             },
-            at=("launch/a.launch.py:12", "launch/b.launch.py:12", "launch/c.launch.py:12"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:26",
+                    "share/talker/config/talk.yaml is not there: talker has no such "
+                    "file; config/talker.yaml is",
+                ),
+                Report(
+                    "launch/b.launch.py:12:26",
+                    "share/talker/talker.yaml is not there: it is installed as "
+                    "share/talker/config/talker.yaml",
+                ),
+                Report(
+                    "launch/c.launch.py:12:26",
+                    "share/talker/config/other.json is not there: setup.py of talker "
+                    "does not install config/other.json",
+                ),
+            ),
         ),
     )
 

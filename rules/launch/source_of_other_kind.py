@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 
 _ENDINGS: Mapping[str, tuple[str, ...]] = {
@@ -42,7 +42,13 @@ class SourceOfOtherKind(Rule):
         Example(
             "XML for Python",
             {"launch/a.launch.py": _LAUNCH.format("b.launch.xml")},
-            at=("launch/a.launch.py:11",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:11:34",
+                    "PythonLaunchDescriptionSource cannot read b.launch.xml: write "
+                    "AnyLaunchDescriptionSource",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.launch_text_uses import text_uses
 
@@ -54,17 +54,44 @@ class SubstitutionUsedAsText(Rule):
         Example(
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
-            at=("launch/a.launch.py:10", "launch/a.launch.py:12"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:30",
+                    "a LaunchConfiguration has no text yet for os.path.join(): it is "
+                    "filled in when actions run",
+                ),
+                Report(
+                    "launch/a.launch.py:12:74",
+                    "a LaunchConfiguration has no text yet to be added to: it is filled "
+                    "in when actions run",
+                ),
+            ),
         ),
         Example(
             "filled into a text, a choice of Python",
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
-            at=("launch/a.launch.py:10", "launch/a.launch.py:12"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:21",
+                    "a LaunchConfiguration has no text yet to be filled in: it is "
+                    "filled in when actions run",
+                ),
+                Report(
+                    "launch/a.launch.py:12:81",
+                    "a LaunchConfiguration has no text yet to decide by: it is always true",
+                ),
+            ),
         ),
         Example(
             "in an f-string",
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
-            at=("launch/a.launch.py:12",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:74",
+                    "a LaunchConfiguration has no text yet in an f-string: it is filled "
+                    "in when actions run",
+                ),
+            ),
         ),
     )
 

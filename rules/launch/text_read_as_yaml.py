@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.declared_parameters import declared_by
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_values import value_given
@@ -55,7 +55,13 @@ class TextReadAsYaml(Rule):
         Example(
             "read as YAML",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("text")},
-            at=("launch/a.launch.py:12",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:12:70",
+                    "text is a string, and launch reads a value such as 42 or on as "
+                    "YAML: wrap it in ParameterValue(..., value_type=str)",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import LaunchFile
 from scaffold.model.launch_text_uses import truth_tests
 
@@ -44,12 +44,17 @@ class TextTakenForTruth(Rule):
         Example(
             "its truth",
             {"launch/a.launch.py": _LAUNCH.format("use", "false")},
-            at=("launch/a.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:18",
+                    "this is a text such as 'false', which is always true for Python",
+                ),
+            ),
         ),
         Example(
             "compared with a truth value",
             {"launch/a.launch.py": _LAUNCH.format("use == True", "false")},
-            at=("launch/a.launch.py:8",),
+            reports=(Report("launch/a.launch.py:8:18", "this is a text, which never equals True"),),
         ),
     )
 

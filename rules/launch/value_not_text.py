@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 from scaffold.model.launch_signatures import ACTIONS
 
@@ -61,12 +61,20 @@ class ValueNotText(Rule):
         Example(
             "a number, an action, a number in the environment",
             {"launch/a.launch.py": _LAUNCH.format("3", "name", "3")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (10, 11, 11)),),
+            reports=(
+                Report("launch/a.launch.py:10:21", "this is no text: write '3'"),
+                Report(
+                    "launch/a.launch.py:11:48",
+                    "this is the action DeclareLaunchArgument, not a value: write "
+                    "LaunchConfiguration('name')",
+                ),
+                Report("launch/a.launch.py:11:78", "this is no text: write '3'"),
+            ),
         ),
         Example(
             "a number among texts",
             {"launch/a.launch.py": _LAUNCH.format("['a', 3]", "'n'", "'3'")},
-            at=("launch/a.launch.py:10",),
+            reports=(Report("launch/a.launch.py:10:27", "this is no text: write '3'"),),
         ),
     )
 

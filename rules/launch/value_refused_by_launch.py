@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 from scaffold.model.values import is_known
 
@@ -44,12 +44,27 @@ class ValueRefusedByLaunch(Rule):
         Example(
             "refused",
             {"launch/a.launch.py": _LAUNCH.format("fst", "'ls -l'", "1")},
-            at=(*(f"launch/a.launch.py:{line}" for line in (9, 10, 11)),),
+            reports=(
+                Report("launch/a.launch.py:9:68", "the default 'fst' is none of them"),
+                Report(
+                    "launch/a.launch.py:10:28",
+                    "launch goes through a text letter by letter: write a list of words",
+                ),
+                Report(
+                    "launch/a.launch.py:11:28",
+                    "launch takes no whole number as a period: write 1.0",
+                ),
+            ),
         ),
         Example(
             "two words in one",
             {"launch/a.launch.py": _LAUNCH.format("fast", "['ls -l']", "1.0")},
-            at=("launch/a.launch.py:10",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:10:28",
+                    "this is one word, so a program 'ls -l' is looked for: write a list of words",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
 
 _OUTPUTS = frozenset({"screen", "log", "both", "own_log", "full"})
@@ -45,7 +45,12 @@ class ValueUnusable(Rule):
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            at=("launch/a.launch.py:8", "launch/a.launch.py:9"),
+            reports=(
+                Report(
+                    "launch/a.launch.py:8:53", "a default is text, and this is a float: write '2.0'"
+                ),
+                Report("launch/a.launch.py:9:61", "an argument is text: write '3'"),
+            ),
         ),
     )
 

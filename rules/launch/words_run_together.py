@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_py import NODES, LaunchFile
 
 _LISTS = ("arguments", "ros_arguments", "cmd")
@@ -47,17 +47,32 @@ class WordsRunTogether(Rule):
         Example(
             "a missing comma",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "Python joins this to '--ros-args-r': a comma is missing between the texts",
+                ),
+            ),
         ),
         Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:85",
+                    "launch joins the parts of a prefix as they are: a space is missing",
+                ),
+            ),
         ),
         Example(
             "three in one",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
-            at=("launch/a.launch.py:7",),
+            reports=(
+                Report(
+                    "launch/a.launch.py:7:62",
+                    "this is one argument with spaces in it: write one text for each word",
+                ),
+            ),
         ),
     )
 

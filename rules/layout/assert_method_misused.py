@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import is_test_case, methods, test_modules
 
@@ -48,12 +48,22 @@ class AssertMethodMisused(Rule):
         Example(
             "gone",
             {"test/test_text.py": _TEST.format("assertEquals")},
-            at=("test/test_text.py:6",),
+            reports=(
+                Report(
+                    "test/test_text.py:6:9",
+                    "assertEquals is gone in Python 3.12; assertEqual is meant",
+                ),
+            ),
         ),
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
-            at=("test/test_text.py:6",),
+            reports=(
+                Report(
+                    "test/test_text.py:6:9",
+                    "assertTrue takes one value, the second is a message; compare them",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import test_functions, test_modules
 
@@ -32,12 +32,21 @@ class AssertionAlwaysTrue(Rule):
         Example(
             "a function",
             {"test/test_text.py": _TEST.format("ready")},
-            at=("test/test_text.py:6",),
+            reports=(
+                Report(
+                    "test/test_text.py:6:5", "ready is a function, which is always true: call it"
+                ),
+            ),
         ),
         Example(
             "a text beside a comparison",
             {"test/test_text.py": _TEST.format("ready() == 'a' or 'b'")},
-            at=("test/test_text.py:6",),
+            reports=(
+                Report(
+                    "test/test_text.py:6:5",
+                    "one side of this `or` is always true: compare with it as well",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import test_functions, test_modules
 
@@ -43,7 +43,16 @@ class AssertionWithoutEffect(Rule):
                     "    1 == ready()\n    pytest.raises(ValueError)\n"
                 )
             },
-            at=("test/test_text.py:9", "test/test_text.py:10"),
+            reports=(
+                Report(
+                    "test/test_text.py:9:5",
+                    "nothing looks at this comparison: write assert in front of it",
+                ),
+                Report(
+                    "test/test_text.py:10:5",
+                    "nothing is called here: write `with pytest.raises(...):`",
+                ),
+            ),
         ),
         Example(
             "an error that is dropped",
@@ -52,7 +61,12 @@ class AssertionWithoutEffect(Rule):
                     "    try:\n        assert ready()\n    except Exception:\n        pass\n"
                 )
             },
-            at=("test/test_text.py:11",),
+            reports=(
+                Report(
+                    "test/test_text.py:11:5",
+                    "this drops the AssertionError: the test passes all the same",
+                ),
+            ),
         ),
     )
 

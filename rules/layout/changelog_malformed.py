@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _TITLE = "^^^^^^^^^^^^^^^^^^^^^^\nChangelog for talker\n^^^^^^^^^^^^^^^^^^^^^^\n\n"
 _HEADING = r"(?:forthcoming|v?\d+\.\d+\.\d+(?:\s*\(.*\))?)"
@@ -37,7 +37,12 @@ class ChangelogMalformed(Rule):
         Example(
             "a word before the version",
             {"CHANGELOG.rst": f"{_TITLE}Release 0.1\n-----------\n* first\n"},
-            at=("CHANGELOG.rst:5",),
+            reports=(
+                Report(
+                    "CHANGELOG.rst:5:1",
+                    "the section 'Release 0.1' is no version such as 1.2.3 (2026-11-21)",
+                ),
+            ),
         ),
     )
 

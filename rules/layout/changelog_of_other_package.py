@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _TITLE = r"^Changelog for package\s+(\S+)"
 _TEXT = (
@@ -37,7 +37,11 @@ class ChangelogOfOtherPackage(Rule):
         Example(
             "of another one",
             {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
-            at=("CHANGELOG.rst:2",),
+            reports=(
+                Report(
+                    "CHANGELOG.rst:2:23", "the changelog is of 'other', the package is 'talker'"
+                ),
+            ),
         ),
     )
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _HEADING = r"v?(\d+\.\d+\.\d+)(?:\s*\(.*\))?"
 _TITLE = "^^^^^^^^^^^^^^^^^^^^^^\nChangelog for talker\n^^^^^^^^^^^^^^^^^^^^^^\n\n"
@@ -44,7 +44,12 @@ class ChangelogWithoutVersion(Rule):
         Example(
             "raised by hand",
             {"package.xml": _MANIFEST.format("0.2.0"), "CHANGELOG.rst": _TITLE + _SECTION},
-            at=("CHANGELOG.rst:5",),
+            reports=(
+                Report(
+                    "CHANGELOG.rst:5:1",
+                    "no section for 0.2.0, the version in package.xml, line 2; the newest is 0.1.0",
+                ),
+            ),
         ),
     )
 

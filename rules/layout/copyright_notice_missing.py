@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 APACHE = """\
 # Copyright 2026 Example Robotics
@@ -48,6 +48,7 @@ class CopyrightNoticeMissing(Rule):
 
     code = "LY020"
     name = "copyright-notice-missing"
+    other_severities = {Severity.INFO: "no test of the package runs ament_copyright on the file"}
     examples = (
         Example(
             "all have one", {"a/talker.py": f"{APACHE}\n{BARE}", "test/test_copyright.py": TEST}
@@ -56,12 +57,28 @@ class CopyrightNoticeMissing(Rule):
         Example(
             "without",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": TEST},
-            at=("a/one.py:1", "a/two.py:1"),
+            reports=(
+                Report(
+                    "a/one.py:1:1",
+                    "no copyright notice in the first comment of this file: ament_copyright fails",
+                ),
+                Report(
+                    "a/two.py:1:1",
+                    "no copyright notice in the first comment of this file: ament_copyright fails",
+                ),
+            ),
         ),
         Example(
             "without, where nobody looks: advice, once",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": SKIPPED},
-            at=("a/one.py:1",),
+            reports=(
+                Report(
+                    "a/one.py:1:1",
+                    "no copyright notice here and in 1 more: ament_copyright would "
+                    "fail, but test/test_copyright.py is skipped",
+                    severity=Severity.INFO,
+                ),
+            ),
         ),
     )
 
@@ -87,4 +104,4 @@ class CopyrightNoticeMissing(Rule):
                 else "no copyright notice"
             )
             message = f"{said}: ament_copyright would fail, but {why}"
-            yield self.report(passed_over[0], message)._replace(severity=Severity.INFO)
+            yield self.report(passed_over[0], message, severity=Severity.INFO)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.test_files import Fixture, arguments, fixtures, own_fixtures
 
 _SCOPES = ("function", "class", "module", "package", "session")
@@ -36,17 +36,31 @@ class FixtureMadeWrongly(Rule):
         Example(
             "a scope that does not exist",
             {"test/test_text.py": _TEST.format("modul", "")},
-            at=("test/test_text.py:9",),
+            reports=(
+                Report(
+                    "test/test_text.py:9:2",
+                    "there is no scope 'modul', but function, class, module, package, session",
+                ),
+            ),
         ),
         Example(
             "a wider scope than that of what it takes",
             {"test/test_text.py": _TEST.format("module", "")},
-            at=("test/test_text.py:9",),
+            reports=(
+                Report(
+                    "test/test_text.py:9:2",
+                    "the scope is 'module', and it takes word of scope 'function'",
+                ),
+            ),
         ),
         Example(
             "two values",
             {"test/test_text.py": _TEST.format("function", "    yield 'b'\n")},
-            at=("test/test_text.py:9",),
+            reports=(
+                Report(
+                    "test/test_text.py:9:2", "the fixture text yields twice: pytest takes one value"
+                ),
+            ),
         ),
     )
 

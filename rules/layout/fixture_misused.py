@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import (
     LAUNCH,
@@ -48,17 +48,28 @@ class FixtureMisused(Rule):
         Example(
             "called",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
-            at=("test/test_text.py:10",),
+            reports=(
+                Report(
+                    "test/test_text.py:10:12",
+                    "text is a fixture: take it as an argument instead of calling it",
+                ),
+            ),
         ),
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            at=("test/test_text.py:9",),
+            reports=(
+                Report("test/test_text.py:9:5", "there is no fixture 'txt'; 'text' is meant"),
+            ),
         ),
         Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
-            at=("test/test_text.py:10",),
+            reports=(
+                Report(
+                    "test/test_text.py:10:12", "the fixture text returns nothing, so this is None"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 MARKERS = {
     "COLCON_IGNORE": "colcon",
@@ -32,7 +32,12 @@ class IgnoredByColcon(Rule):
         Example(
             "a marker left over from an experiment",
             {"package.xml": "<package/>\n", "COLCON_IGNORE": ""},
-            at=("COLCON_IGNORE:1",),
+            reports=(
+                Report(
+                    "COLCON_IGNORE:1:1",
+                    "COLCON_IGNORE hides the package from colcon: it is never built",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.returns import is_generator, may_end, returned
 from scaffold.model.test_files import LAUNCH, is_test_case, marks, may_start, methods
@@ -49,17 +49,39 @@ class LaunchTestMisused(Rule):
         Example(
             "never ready",
             {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
-            at=("test/test_talker.py:9",),
+            reports=(
+                Report(
+                    "test/test_talker.py:9:5",
+                    "generate_test_description has no ReadyToTest() in its list: "
+                    "launch_testing refuses it",
+                ),
+            ),
         ),
         Example(
             "no mark",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", *_RIGHT[1:])},
-            at=("test/test_talker.py:8",),
+            reports=(
+                Report(
+                    "test/test_talker.py:8:5",
+                    "@pytest.mark.launch_test is missing: pytest does not start what "
+                    "generate_test_description describes",
+                ),
+            ),
         ),
         Example(
             "nothing returned, no TestCase",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", "", _RIGHT[2], "object")},
-            at=("test/test_talker.py:8", "test/test_talker.py:12"),
+            reports=(
+                Report(
+                    "test/test_talker.py:8:5",
+                    "generate_test_description returns nothing: launch_testing needs a "
+                    "LaunchDescription",
+                ),
+                Report(
+                    "test/test_talker.py:12:7",
+                    "launch_testing does not run TestTalker: it is no TestCase",
+                ),
+            ),
         ),
     )
 

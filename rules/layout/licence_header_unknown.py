@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 MIT = """\
 # Copyright 2026 Example Robotics
@@ -39,19 +39,44 @@ class LicenceHeaderUnknown(Rule):
 
     code = "LY021"
     name = "licence-header-unknown"
+    other_severities = {Severity.INFO: "no test of the package runs ament_copyright on the file"}
     examples = (
         Example("known", {"a/talker.py": MIT, "test/test_copyright.py": TEST}),
         Example(
             "one word is different",
             {"a/talker.py": MIT.replace("license", "licence"), "test/test_copyright.py": TEST},
-            at=("a/talker.py:1",),
+            reports=(
+                Report(
+                    "a/talker.py:1:3",
+                    '"Use of this source code …" begins the header of no licence that '
+                    "is known: ament_copyright fails",
+                ),
+            ),
         ),
         Example(
             "an SPDX line, behind a first line",
             {"a/talker.py": f"#!/usr/bin/env python3\n{SPDX}", "test/test_copyright.py": TEST},
-            at=("a/talker.py:2",),
+            reports=(
+                Report(
+                    "a/talker.py:2:3",
+                    "an SPDX line stands below the notice, not the header of a licence: "
+                    "ament_copyright fails",
+                ),
+            ),
         ),
-        Example("nobody looks", {"a/one.py": SPDX, "a/two.py": SPDX}, at=("a/one.py:1",)),
+        Example(
+            "nobody looks",
+            {"a/one.py": SPDX, "a/two.py": SPDX},
+            reports=(
+                Report(
+                    "a/one.py:1:3",
+                    "an SPDX line stands below the notice, not the header of a licence "
+                    "(and 1 more files have no known header): ament_copyright would "
+                    "fail, but no test of this package runs it",
+                    severity=Severity.INFO,
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -71,7 +96,7 @@ class LicenceHeaderUnknown(Rule):
             number = len(passed_over) - 1
             more = f" (and {number} more files have no known header)" if number else ""
             message = f"{_reason(passed_over[0].text)}{more}: ament_copyright would fail, but {why}"
-            yield self.report(passed_over[0], message)._replace(severity=Severity.INFO)
+            yield self.report(passed_over[0], message, severity=Severity.INFO)
 
 
 def _reason(text: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.test_files import keywords, marks, test_functions, test_modules
 
 _MEANT = {
@@ -42,7 +42,12 @@ class MarkMisused(Rule):
         Example(
             "misspelt",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
-            at=("test/test_text.py:4",),
+            reports=(
+                Report(
+                    "test/test_text.py:4:2",
+                    "pytest has no mark 'parameterize'; 'parametrize' is meant",
+                ),
+            ),
         ),
         Example(
             "no reason",
@@ -50,7 +55,12 @@ class MarkMisused(Rule):
                 "test/test_text.py": "import pytest\n\n\n@pytest.mark.skipif(True)\n"
                 "def test_one():\n    pass\n"
             },
-            at=("test/test_text.py:4",),
+            reports=(
+                Report(
+                    "test/test_text.py:4:2",
+                    "a condition that is no text needs reason='...': pytest stops here",
+                ),
+            ),
         ),
     )
 

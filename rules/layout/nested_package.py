@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
 """Directories of code of others."""
@@ -36,7 +36,12 @@ class NestedPackage(Rule):
         Example(
             "a package of messages inside the package that uses them",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
-            at=("robot_msgs/package.xml:1",),
+            reports=(
+                Report(
+                    "robot_msgs/package.xml:1:1",
+                    "lies inside the package 'the package above it': colcon never builds it",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import TestFunction, arguments, made_name, node_tests, test_functions
 
@@ -42,7 +42,16 @@ class NodeTestMisused(Rule):
         Example(
             "no init, nothing spins",
             {"test/test_node.py": _TEST.format("pass", "pass")},
-            at=("test/test_node.py:8", "test/test_node.py:10"),
+            reports=(
+                Report(
+                    "test/test_node.py:8:12",
+                    "nothing calls rclpy.init() before this node is made: NotInitializedException",
+                ),
+                Report(
+                    "test/test_node.py:10:5",
+                    "nothing spins in this test, so the callback is never called",
+                ),
+            ),
         ),
         Example(
             "initialized again",
@@ -50,7 +59,12 @@ class NodeTestMisused(Rule):
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
                 "def test_two():\n    rclpy.init()\n"
             },
-            at=("test/test_node.py:9",),
+            reports=(
+                Report(
+                    "test/test_node.py:9:5",
+                    "the test of line 5 calls init() as well, and nothing shuts down",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import keywords, marks, test_functions, test_modules
 
@@ -33,9 +33,17 @@ class ParametrizeValuesDiffer(Rule):
         Example(
             "one too many",
             {"test/test_text.py": _TEST.format("[('a', 1), ('b', 1, 2)]")},
-            at=("test/test_text.py:4",),
+            reports=(
+                Report("test/test_text.py:4:2", "there are 2 names, and ('b', 1, 2) has 3 values"),
+            ),
         ),
-        Example("none", {"test/test_text.py": _TEST.format("[]")}, at=("test/test_text.py:4",)),
+        Example(
+            "none",
+            {"test/test_text.py": _TEST.format("[]")},
+            reports=(
+                Report("test/test_text.py:4:2", "there are no values: pytest skips the test"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

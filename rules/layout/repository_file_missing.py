@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 TEST = """\
 # Copyright 2026 Example Robotics
@@ -61,14 +61,49 @@ class RepositoryFileMissing(Rule):
 
     code = "LY022"
     name = "repository-file-missing"
+    other_severities = {Severity.INFO: "no test of the package runs ament_copyright"}
     examples = (
         Example("no repository", {"package.xml": "<package/>\n", "test/test_copyright.py": TEST}),
         Example("both", {**FILES, "LICENSE": MIT, "CONTRIBUTING.md": CONTRIBUTING}),
-        Example("none", FILES, at=("CONTRIBUTING.md:1", "LICENSE:1")),
+        Example(
+            "none",
+            FILES,
+            reports=(
+                Report(
+                    "CONTRIBUTING.md:1:1",
+                    "the repository has no CONTRIBUTING.md: ament_copyright fails",
+                ),
+                Report("LICENSE:1:1", "the repository has no LICENSE: ament_copyright fails"),
+            ),
+        ),
+        Example(
+            "none, and no test that looks for them",
+            {path: text for path, text in FILES.items() if path != "test/test_copyright.py"},
+            reports=(
+                Report(
+                    "CONTRIBUTING.md:1:1",
+                    "the repository has no CONTRIBUTING.md: ament_copyright would fail, "
+                    "but no test of this package runs it",
+                    severity=Severity.INFO,
+                ),
+                Report(
+                    "LICENSE:1:1",
+                    "the repository has no LICENSE: ament_copyright would fail, but no "
+                    "test of this package runs it",
+                    severity=Severity.INFO,
+                ),
+            ),
+        ),
         Example(
             "words of one's own",
             {**FILES, "LICENSE": MIT, "CONTRIBUTING.md": "Please do.\n"},
-            at=("CONTRIBUTING.md:1",),
+            reports=(
+                Report(
+                    "CONTRIBUTING.md:1:1",
+                    "CONTRIBUTING.md is not, word for word, the text that goes with a "
+                    "known licence: ament_copyright fails",
+                ),
+            ),
         ),
     )
 
@@ -86,7 +121,7 @@ class RepositoryFileMissing(Rule):
             elif wrong:
                 message = f"{wrong}: ament_copyright would fail, but {use.why_not}"
                 at = package.start_of(name)
-                yield self.report(at, message)._replace(severity=Severity.INFO)
+                yield self.report(at, message, severity=Severity.INFO)
 
 
 def _is_repository(package: Package) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model.python_module import Import
 from scaffold.model.setup_py import FindPackages
 from scaffold.model.values import UNKNOWN
@@ -46,7 +46,14 @@ class SubpackageWithoutInit(Rule):
         Example(
             "without",
             _FILES,
-            at=("talker/text/__init__.py:1",),
+            reports=(
+                Report(
+                    "talker/text/__init__.py:1:1",
+                    "missing: talker/node.py:1 imports from talker/text/, which is not "
+                    "installed without it",
+                    fix="create talker/text/__init__.py",
+                ),
+            ),
             fixed={"talker/text/__init__.py": ""},
         ),
     )

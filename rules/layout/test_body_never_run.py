@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.test_files import (
@@ -38,12 +38,21 @@ class TestBodyNeverRun(Rule):
         Example(
             "a coroutine",
             {"test/test_text.py": _TEST.format("async ", "assert True")},
-            at=("test/test_text.py:1",),
+            reports=(
+                Report(
+                    "test/test_text.py:1:11",
+                    "test_text is a coroutine: pytest does not run it by itself",
+                ),
+            ),
         ),
         Example(
             "a generator",
             {"test/test_text.py": _TEST.format("", "yield 1")},
-            at=("test/test_text.py:1",),
+            reports=(
+                Report(
+                    "test/test_text.py:1:5", "test_text yields: pytest does not run such a test"
+                ),
+            ),
         ),
     )
 

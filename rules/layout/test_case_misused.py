@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.test_files import LAUNCH, arguments, is_test_case, marks, methods, test_modules
@@ -48,12 +48,23 @@ class TestCaseMisused(Rule):
         Example(
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
-            at=("test/test_text.py:5", "test/test_text.py:8"),
+            reports=(
+                Report("test/test_text.py:5:9", "unittest never calls set_up; setUp is meant"),
+                Report(
+                    "test/test_text.py:8:9",
+                    "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
+                ),
+            ),
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
-            at=("test/test_text.py:5",),
+            reports=(
+                Report(
+                    "test/test_text.py:5:9",
+                    "pytest calls setUp in a TestCase only; here it is setup_method",
+                ),
+            ),
         ),
     )
 

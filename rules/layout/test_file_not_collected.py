@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
 
 DIRECTORIES = ("test/", "tests/")
 
@@ -35,7 +35,12 @@ class TestFileNotCollected(Rule):
         Example(
             "a name that pytest passes over",
             {"setup.py": "", "test/talker_tests.py": "def test_talk():\n    pass\n"},
-            at=("test/talker_tests.py:1",),
+            reports=(
+                Report(
+                    "test/talker_tests.py:1:1",
+                    "test_talk() never runs: pytest collects test_*.py and *_test.py only",
+                ),
+            ),
         ),
     )
 

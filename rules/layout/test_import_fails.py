@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import Import, PythonModule
 from scaffold.model.test_files import test_modules
 
@@ -41,7 +41,13 @@ class TestImportFails(Rule):
                 "test/test_b.py": _TEST.format("from test.helpers import make"),
                 **_HELPER,
             },
-            at=("test/test_a.py:1", "test/test_b.py:1"),
+            reports=(
+                Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
+                Report(
+                    "test/test_b.py:1:1",
+                    "test is a package of Python: write `from helpers import ...`",
+                ),
+            ),
         ),
         Example(
             "the directory is a package",
@@ -51,7 +57,11 @@ class TestImportFails(Rule):
                 "test/test_a.py": _TEST.format("from helpers import make"),
                 **_HELPER,
             },
-            at=("test/test_a.py:1",),
+            reports=(
+                Report(
+                    "test/test_a.py:1:1", "test/ is a package: write `from .helpers import ...`"
+                ),
+            ),
         ),
     )
 

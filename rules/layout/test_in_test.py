@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import test_functions, test_modules
 
@@ -32,7 +32,12 @@ class TestInTest(Rule):
         Example(
             "a function that nothing calls",
             {"test/test_text.py": _TEST.format(_MORE)},
-            at=("test/test_text.py:8",),
+            reports=(
+                Report(
+                    "test/test_text.py:8:5",
+                    "test_more stands in test_text: pytest does not collect it",
+                ),
+            ),
         ),
     )
 

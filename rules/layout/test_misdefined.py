@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.errors import ViewError
 from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
@@ -42,7 +42,13 @@ class TestMisdefined(Rule):
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n    def test_all():\n        assert True\n"
             },
-            at=("test/test_text.py:5", "test/test_text.py:9"),
+            reports=(
+                Report(
+                    "test/test_text.py:5:30",
+                    "test_text takes no argument 'number': pytest stops here",
+                ),
+                Report("test/test_text.py:9:9", "test_all is a method without self: TypeError"),
+            ),
         ),
         Example(
             "a name that a fixture takes",
@@ -54,7 +60,12 @@ class TestMisdefined(Rule):
         Example(
             "the section of setup.cfg",
             {"setup.py": "", "setup.cfg": "[pytest]\nxfail_strict = true\n"},
-            at=("setup.cfg:1",),
+            reports=(
+                Report(
+                    "setup.cfg:1:2",
+                    "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 from scaffold.model.test_files import made_name, node_tests, test_functions
 
@@ -44,12 +44,23 @@ class TestNeverEnds(Rule):
                     "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
                 )
             },
-            at=("test/test_node.py:9",),
+            reports=(
+                Report(
+                    "test/test_node.py:9:5",
+                    "call() waits for an answer while nothing spins: use call_async, "
+                    "and spin until it is done",
+                ),
+            ),
         ),
         Example(
             "for ever",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
-            at=("test/test_node.py:8",),
+            reports=(
+                Report(
+                    "test/test_node.py:8:5",
+                    "nothing ends this: the test waits forever; use spin_once with timeout_sec",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
 from scaffold.model.test_files import (
@@ -46,12 +46,22 @@ class TestNeverRun(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format(_CHECK)},
-            at=("test/test_text.py:5",),
+            reports=(
+                Report(
+                    "test/test_text.py:5:5",
+                    "pytest does not run check: its name does not begin with test",
+                ),
+            ),
         ),
         Example(
             "a class of another name",
             {"test/test_text.py": _TEST.format(_CLASS)},
-            at=("test/test_text.py:5",),
+            reports=(
+                Report(
+                    "test/test_text.py:5:7",
+                    "pytest does not run TextTests: its name does not begin with Test",
+                ),
+            ),
         ),
     )
 

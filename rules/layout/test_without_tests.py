@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.python_module import PythonModule
 
 _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
@@ -30,7 +30,12 @@ class TestWithoutTests(Rule):
         Example(
             "another name",
             {"test/test_text.py": "def check_text():\n    assert True\n"},
-            at=("test/test_text.py:1",),
+            reports=(
+                Report(
+                    "test/test_text.py:1:1",
+                    "pytest collects no test here: names begin with test_ or Test",
+                ),
+            ),
         ),
         Example(
             "a class with a constructor",
@@ -39,12 +44,21 @@ class TestWithoutTests(Rule):
                 "    def __init__(self):\n        self.n = 1\n\n"
                 "    def test_text(self):\n        assert self.n\n"
             },
-            at=("test/test_text.py:1",),
+            reports=(
+                Report(
+                    "test/test_text.py:1:7",
+                    "pytest does not collect TestText: it has a constructor",
+                ),
+            ),
         ),
         Example(
             "a comparison that is returned",
             {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
-            at=("test/test_text.py:2",),
+            reports=(
+                Report(
+                    "test/test_text.py:2:5", "what a test returns is not looked at: write assert"
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.message_types import MessageTypes
 
@@ -48,7 +48,18 @@ class AnswerNotUnwrapped(Rule):
         Example(
             "read at once",
             {"sender.py": _NODE.format("", "")},
-            at=("sender.py:16", "sender.py:24"),
+            reports=(
+                Report(
+                    "sender.py:16:21",
+                    "this holds the feedback and the goal_id, but no 'sequence': read "
+                    ".feedback.sequence",
+                ),
+                Report(
+                    "sender.py:24:21",
+                    "this holds the result and the status, but no 'sequence': read "
+                    ".result.sequence",
+                ),
+            ),
         ),
     )
 

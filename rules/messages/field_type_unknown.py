@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import interface_files
 from scaffold.model.interface_values import FieldType
 from scaffold.model.interfaces import Definitions, nearest_word
@@ -42,7 +42,18 @@ class FieldTypeUnknown(Rule):
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
                 "msg/Beat.msg": "Header header\ngeometry_msgs/Pont point\n",
             },
-            at=("msg/Beat.msg:1", "msg/Beat.msg:2"),
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:1",
+                    "my_msgs/Header: my_msgs has no message 'Header'; did you mean "
+                    "'std_msgs/Header'?",
+                ),
+                Report(
+                    "msg/Beat.msg:2:1",
+                    "geometry_msgs/Pont: geometry_msgs has no message 'Pont'; did you "
+                    "mean 'Point'?",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 
 _FIELDS = ("frame_id", "child_frame_id")
@@ -39,7 +39,23 @@ class FrameWithSlash(Rule):
         Example(
             "with a slash",
             {"node.py": _CODE.format("'/map'", '"/base"', "'/map'")},
-            at=("node.py:5", "node.py:6", "node.py:7"),
+            reports=(
+                Report(
+                    "node.py:5:37",
+                    "the frame '/map' starts with a '/', which tf2 refuses",
+                    fix="remove the slash",
+                ),
+                Report(
+                    "node.py:6:44",
+                    "the frame '/base' starts with a '/', which tf2 refuses",
+                    fix="remove the slash",
+                ),
+                Report(
+                    "node.py:7:28",
+                    "the frame '/map' starts with a '/', which tf2 refuses",
+                    fix="remove the slash",
+                ),
+            ),
             fixed={"node.py": _CODE.format("'map'", '"base"', "'map'")},
         ),
     )

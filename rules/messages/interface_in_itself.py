@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import interface_files
 from scaffold.model.source import Location
 
@@ -42,7 +42,7 @@ class InterfaceInItself(Rule):
                 "msg/Node.msg": "int32 id\nmy_msgs/Node[] children\n",
                 "msg/Tree.msg": "Node root\n",
             },
-            at=("msg/Node.msg:2",),
+            reports=(Report("msg/Node.msg:2:1", "Node holds itself: the build stops"),),
         ),
         Example(
             "each other",
@@ -52,7 +52,14 @@ class InterfaceInItself(Rule):
                 "msg/Node.msg": "Tree tree\n",
                 "msg/Tree.msg": "Node[] nodes\n",
             },
-            at=("msg/Node.msg:1", "msg/Tree.msg:1"),
+            reports=(
+                Report(
+                    "msg/Node.msg:1:1", "Node holds Tree, which holds Node in turn: the build stops"
+                ),
+                Report(
+                    "msg/Tree.msg:1:1", "Tree holds Node, which holds Tree in turn: the build stops"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import problems
 from scaffold.model.interface_syntax import ProblemKind
 
@@ -51,13 +51,31 @@ class InterfaceMalformed(Rule):
                 "std_msgs/msg/String text\n",
                 "srv/Add.srv": "int32 a\n",
             },
-            at=(
-                "msg/Beat.msg:1",
-                "msg/Beat.msg:2",
-                "msg/Beat.msg:3",
-                "msg/Beat.msg:4",
-                "msg/Beat.msg:5",
-                "srv/Add.srv:1",
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:1",
+                    "'int' is no type: neither a primitive one nor the name of an "
+                    "interface, which starts with a capital and has only letters and "
+                    "digits",
+                ),
+                Report("msg/Beat.msg:2:13", "'256' is outside of 'uint8', which holds 0 to 255"),
+                Report(
+                    "msg/Beat.msg:3:3",
+                    "the line is indented: rosidl wants the type in the first column",
+                ),
+                Report(
+                    "msg/Beat.msg:4:1",
+                    "the size of the array 'int32[0]' is no whole number above 0, as in "
+                    "'[3]', or '[<=3]' for at most three elements",
+                ),
+                Report(
+                    "msg/Beat.msg:5:1",
+                    "in a definition the type 'std_msgs/msg/String' is written 'std_msgs/String'",
+                ),
+                Report(
+                    "srv/Add.srv:1:1",
+                    "a .srv file has 1 line '---' between request, response; this one has 0",
+                ),
             ),
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interfaces import KINDS, Definitions, nearest_word
 from scaffold.model.message_types import MessageTypes, interfaces_named
 
@@ -46,7 +46,23 @@ class InterfaceUnknown(Rule):
                 "from std_msgs.msgs import Bool\n\n"
                 "message = std_msgs.msg.Sting()\n",
             },
-            at=("talker.py:2", "talker.py:3", "talker.py:4", "talker.py:5", "talker.py:7"),
+            reports=(
+                Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
+                Report(
+                    "talker.py:3:26",
+                    "std_msgs.msg has no 'Twist'; did you mean geometry_msgs/msg/Twist?",
+                ),
+                Report(
+                    "talker.py:4:26",
+                    "std_msgs.srv has no 'Empty'; did you mean std_msgs/msg/Empty or "
+                    "std_srvs/srv/Empty?",
+                ),
+                Report(
+                    "talker.py:5:27",
+                    "std_msgs has no module 'msgs'; its interfaces are in std_msgs.msg",
+                ),
+                Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
+            ),
         ),
         Example(
             "without the module, beside what the package really has",
@@ -56,12 +72,17 @@ class InterfaceUnknown(Rule):
                 "from std_srvs import Trigger\n"
                 "from sensor_msgs_py import point_cloud2\n",
             },
-            at=("talker.py:2", "talker.py:3"),
+            reports=(
+                Report("talker.py:2:22", "'Bool' is in std_msgs.msg, not in std_msgs: ImportError"),
+                Report(
+                    "talker.py:3:22", "'Trigger' is in std_srvs.srv, not in std_srvs: ImportError"
+                ),
+            ),
         ),
         Example(
             "of a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            at=("talker.py:1",),
+            reports=(Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),),
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",

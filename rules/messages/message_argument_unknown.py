@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interfaces import nearest_word
 from scaffold.model.message_types import MessageClass, MessageTypes
 
@@ -29,8 +29,28 @@ class MessageArgumentUnknown(Rule):
     examples = (
         Example("a field", {"talker.py": _PREFIX.format("data='hello'")}),
         Example("nobody knows which", {"talker.py": _PREFIX.format("**fields, check_fields=True")}),
-        Example("misspelt", {"talker.py": _PREFIX.format("dta='hello'")}, at=("talker.py:3",)),
-        Example("without a keyword", {"talker.py": _PREFIX.format("'hello'")}, at=("talker.py:3",)),
+        Example(
+            "misspelt",
+            {"talker.py": _PREFIX.format("dta='hello'")},
+            reports=(
+                Report(
+                    "talker.py:3:18",
+                    "std_msgs/msg/String has no field 'dta', so this value is dropped "
+                    "without a word; did you mean 'data'? (definition: std_msgs 5.3.6 "
+                    "of ROS 2 Jazzy)",
+                ),
+            ),
+        ),
+        Example(
+            "without a keyword",
+            {"talker.py": _PREFIX.format("'hello'")},
+            reports=(
+                Report(
+                    "talker.py:3:18",
+                    "std_msgs/msg/String takes its fields as keywords only, as in data=...",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

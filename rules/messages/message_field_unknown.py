@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_for_ros1
 from scaffold.model.interfaces import nearest_word
 from scaffold.model.message_types import PARTS, MessageClass, MessageTypes
@@ -52,7 +52,15 @@ class MessageFieldUnknown(Rule):
             },
         ),
         Example(
-            "read in a callback", {"listener.py": _NODE.format("text")}, at=("listener.py:11",)
+            "read in a callback",
+            {"listener.py": _NODE.format("text")},
+            reports=(
+                Report(
+                    "listener.py:11:36",
+                    "std_msgs/msg/String has no field or constant 'text'; it has data "
+                    "(definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
+                ),
+            ),
         ),
         Example(
             "set, nested, of a response, a constant; what is reassigned is not judged",
@@ -71,7 +79,30 @@ class MessageFieldUnknown(Rule):
                 "    mixed = other\n"
                 "    mixed.anything = 1\n",
             },
-            at=("talker.py:9", "talker.py:10", "talker.py:12", "talker.py:12"),
+            reports=(
+                Report(
+                    "talker.py:9:18",
+                    "geometry_msgs/msg/Vector3 has no field or constant 'yaw'; it has "
+                    "x, y, z (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
+                ),
+                Report(
+                    "talker.py:10:11",
+                    "geometry_msgs/msg/Twist has no field or constant 'speed'; it has "
+                    "linear, angular (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
+                ),
+                Report(
+                    "talker.py:12:12",
+                    "std_srvs/srv/SetBool.Response has no field or constant 'succes'; "
+                    "did you mean 'success'? (definition: std_srvs 5.3.6 of ROS 2 "
+                    "Jazzy)",
+                ),
+                Report(
+                    "talker.py:12:38",
+                    "diagnostic_msgs/msg/DiagnosticStatus has no field or constant "
+                    "'OKAY'; did you mean 'OK'? (definition: diagnostic_msgs 5.3.6 of "
+                    "ROS 2 Jazzy)",
+                ),
+            ),
         ),
     )
 

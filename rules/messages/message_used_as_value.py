@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_for_ros1, is_harmless
 from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.message_types import MessageTypes
@@ -46,7 +46,27 @@ class MessageUsedAsValue(Rule):
         Example(
             "as a dict, as a list",
             {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
-            at=("listener.py:12", "listener.py:15", "listener.py:15", "listener.py:15"),
+            reports=(
+                Report(
+                    "listener.py:12:32",
+                    "a std_msgs/msg/String cannot be indexed: TypeError; a field of it is meant",
+                ),
+                Report(
+                    "listener.py:15:16",
+                    "a std_msgs/msg/Float32MultiArray has no length: TypeError; a field "
+                    "of it is meant",
+                ),
+                Report(
+                    "listener.py:15:26",
+                    "a std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; a "
+                    "field of it is meant",
+                ),
+                Report(
+                    "listener.py:15:34",
+                    "a std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; a "
+                    "field of it is meant",
+                ),
+            ),
         ),
         Example(
             "a field of a text, a field called, a message gone through",
@@ -55,7 +75,20 @@ class MessageUsedAsValue(Rule):
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
                 )
             },
-            at=("listener.py:12", "listener.py:15", "listener.py:15"),
+            reports=(
+                Report(
+                    "listener.py:12:32", "msg.data is a str, which has no 'data': AttributeError"
+                ),
+                Report(
+                    "listener.py:15:16",
+                    "msg.layout.data_offset is a field, no method: leave () out",
+                ),
+                Report(
+                    "listener.py:15:54",
+                    "a std_msgs/msg/Float32MultiArray is no list: TypeError; a field of "
+                    "it is meant",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_entities import Endpoint, Publisher
 from scaffold.model.topics import is_private, is_remapped, one_sided
 
@@ -45,7 +45,13 @@ class PrivateTopicDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            at=("b.py:8",),
+            reports=(
+                Report(
+                    "b.py:8:42",
+                    "nobody publishes 'chatter'; a.py:8 publishes '~/chatter', and ~ "
+                    "stands for the name of its node",
+                ),
+            ),
         ),
         Example(
             "private to the node that listens",
@@ -53,7 +59,13 @@ class PrivateTopicDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
             },
-            at=("b.py:8",),
+            reports=(
+                Report(
+                    "b.py:8:42",
+                    "nobody publishes '~/chatter'; a.py:8 publishes 'chatter', and ~ "
+                    "stands for the name of its node",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import Client, Endpoint, Publisher
 
@@ -48,17 +48,45 @@ class PublishedTypeDiffers(Rule):
         Example(
             "another message, the response of a service",
             {"talker.py": _NODE.format("Bool(data=True)", "Trigger.Response()")},
-            at=("talker.py:13", "talker.py:14"),
+            reports=(
+                Report(
+                    "talker.py:13:26",
+                    "sends std_msgs/msg/Bool, but the publisher made in line 9 takes "
+                    "std_msgs/msg/String: TypeError",
+                ),
+                Report(
+                    "talker.py:14:32",
+                    "sends std_srvs/srv/Trigger.Response, but the client made in line "
+                    "10 takes std_srvs/srv/Trigger.Request: TypeError",
+                ),
+            ),
         ),
         Example(
             "the text alone, the class",
             {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
-            at=("talker.py:13", "talker.py:14"),
+            reports=(
+                Report(
+                    "talker.py:13:26",
+                    "sends a str, but the publisher made in line 9 takes "
+                    "std_msgs/msg/String: TypeError",
+                ),
+                Report(
+                    "talker.py:14:32",
+                    "sends the class std_srvs/srv/Trigger.Request, but the client made "
+                    "in line 10 takes std_srvs/srv/Trigger.Request: TypeError",
+                ),
+            ),
         ),
         Example(
             "the class of the service",
             {"talker.py": _NODE.format("String()", "Trigger")},
-            at=("talker.py:14",),
+            reports=(
+                Report(
+                    "talker.py:14:32",
+                    "sends the class std_srvs/srv/Trigger, but the client made in line "
+                    "10 takes std_srvs/srv/Trigger.Request: TypeError",
+                ),
+            ),
         ),
     )
 

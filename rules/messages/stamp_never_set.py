@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.message_stamps import unstamped
 from scaffold.model.message_types import MessageTypes
 
@@ -46,7 +46,17 @@ class StampNeverSet(Rule):
                 )
             },
         ),
-        Example("never set", {"talker.py": _NODE.format("")}, at=("talker.py:11",)),
+        Example(
+            "never set",
+            {"talker.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "talker.py:11:19",
+                    "sensor_msgs/msg/Temperature is published in line 13 with a stamp "
+                    "of zero: nothing sets header.stamp",
+                ),
+            ),
+        ),
         Example(
             "perhaps set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),

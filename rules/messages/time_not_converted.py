@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.message_values import rclpy_time
 
@@ -38,7 +38,20 @@ class TimeNotConverted(Rule):
         Example(
             "the clock's own time; a stamp of a header is a message whatever it belongs to",
             {"talker.py": _CODE.format("", "")},
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:8:32",
+                    "stamp is a builtin_interfaces/msg/Time, but this is rclpy's own "
+                    "Time: AttributeError when it is published; append .to_msg()",
+                    fix="convert it with .to_msg()",
+                ),
+                Report(
+                    "talker.py:9:30",
+                    "header.stamp is a builtin_interfaces/msg/Time, but this is rclpy's "
+                    "own Time: AttributeError when it is published; append .to_msg()",
+                    fix="convert it with .to_msg()",
+                ),
+            ),
             fixed={"talker.py": _CODE.format(".to_msg()", ".to_msg()")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_entities import Endpoint
 from scaffold.model.topics import one_sided
 
@@ -46,7 +46,7 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
             },
-            at=("b.py:8",),
+            reports=(Report("b.py:8:42", "nobody publishes 'chater'; a.py:8 publishes 'chatter'"),),
         ),
     )
 

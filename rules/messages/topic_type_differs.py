@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import Endpoint
 from scaffold.model.topics import services_of, topics_of
@@ -45,7 +45,18 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
             },
-            at=("a.py:9", "b.py:9"),
+            reports=(
+                Report(
+                    "a.py:9:31",
+                    "'chatter' is std_msgs/msg/String here, but std_msgs/msg/Bool in "
+                    "b.py:9: they do not connect",
+                ),
+                Report(
+                    "b.py:9:34",
+                    "'chatter' is std_msgs/msg/Bool here, but std_msgs/msg/String in "
+                    "a.py:9: they do not connect",
+                ),
+            ),
         ),
         Example(
             "two types of a service",
@@ -53,7 +64,18 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
                 "b.py": _NODE.format("client(Empty, 'reset')"),
             },
-            at=("a.py:9", "b.py:9"),
+            reports=(
+                Report(
+                    "a.py:9:29",
+                    "'reset' is std_srvs/srv/Trigger here, but std_srvs/srv/Empty in "
+                    "b.py:9: they do not connect",
+                ),
+                Report(
+                    "b.py:9:28",
+                    "'reset' is std_srvs/srv/Empty here, but std_srvs/srv/Trigger in "
+                    "a.py:9: they do not connect",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import Import, PythonModule
 
 _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
@@ -33,7 +33,18 @@ class CircularImport(Rule):
                 "talker/text.py": "from talker.node import NODE\n\nTEXT = ''\n",
                 "talker/node.py": "from talker.text import TEXT\n\nNODE = 1\n",
             },
-            at=("talker/node.py:1", "talker/text.py:1"),
+            reports=(
+                Report(
+                    "talker/node.py:1:1",
+                    "talker/text.py:1 imports from this module in turn: ImportError, "
+                    "whichever comes first",
+                ),
+                Report(
+                    "talker/text.py:1:1",
+                    "talker/node.py:1 imports from this module in turn: ImportError, "
+                    "whichever comes first",
+                ),
+            ),
         ),
     )
 

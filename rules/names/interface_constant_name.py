@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import problems
 from scaffold.model.interface_syntax import ProblemKind
 
@@ -38,10 +38,20 @@ class InterfaceConstantName(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n",
             },
-            at=(
-                "msg/Beat.msg:1",
-                "msg/Beat.msg:2",
-                "msg/Beat.msg:3",
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:7",
+                    "the '=' makes this line a constant, and 'max' is no name of one: "
+                    "rosidl wants capitals, digits and single underscores, a letter "
+                    "first, as in 'MAX'",
+                ),
+                Report(
+                    "msg/Beat.msg:2:7",
+                    "the '=' makes this line a constant, and 'count' is no name of one: "
+                    "rosidl wants capitals, digits and single underscores, a letter "
+                    "first, as in 'COUNT'",
+                ),
+                Report("msg/Beat.msg:3:8", "a bound is written without blanks, as in 'string<=10'"),
             ),
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import problems
 from scaffold.model.interface_syntax import ProblemKind
 
@@ -38,9 +38,17 @@ class InterfaceFieldName(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n",
             },
-            at=(
-                "msg/Beat.msg:2",
-                "msg/Beat.msg:3",
+            reports=(
+                Report(
+                    "msg/Beat.msg:2:9",
+                    "'maxSpeed' is no field name: rosidl wants lower-case letters, "
+                    "digits and single underscores, a letter first, as in 'max_speed'",
+                ),
+                Report(
+                    "msg/Beat.msg:3:7",
+                    "'next_' is no field name: rosidl wants lower-case letters, digits "
+                    "and single underscores, a letter first, as in 'next'",
+                ),
             ),
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import problems
 from scaffold.model.interface_syntax import ProblemKind
 
@@ -37,9 +37,9 @@ class InterfaceNameRepeated(Rule):
                 "CMakeLists.txt": _LISTS,
                 "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n",
             },
-            at=(
-                "srv/Add.srv:2",
-                "srv/Add.srv:5",
+            reports=(
+                Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
+                Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
             ),
         ),
     )

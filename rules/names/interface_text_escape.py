@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.generated_code import escape_problem
 from scaffold.model.interface_files import interface_files
 
@@ -40,7 +40,13 @@ class InterfaceTextEscape(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "# C:\\users\nint32 count  # of C:\\data\\\n# all \\\nint8 code\n",
             },
-            at=("msg/Beat.msg:1", "msg/Beat.msg:2", "msg/Beat.msg:3"),
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:1", "rosidl cannot read the comment: truncated \\uXXXX escape"
+                ),
+                Report("msg/Beat.msg:2:14", "rosidl cannot read the comment: \\ at end of string"),
+                Report("msg/Beat.msg:3:1", "rosidl cannot read the comment: \\ at end of string"),
+            ),
         ),
         Example(
             "a line end, a constant",
@@ -48,7 +54,15 @@ class InterfaceTextEscape(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": 'int8 code  # ends with \\n\nstring HOME="C:\\users"\n',
             },
-            at=("msg/Beat.msg:1", "msg/Beat.msg:2"),
+            reports=(
+                Report(
+                    "msg/Beat.msg:1:12",
+                    "rosidl cannot read the comment: its \\n ends the line in the middle of a text",
+                ),
+                Report(
+                    "msg/Beat.msg:2:1", "rosidl cannot read the value: truncated \\uXXXX escape"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.interface_files import problems
 from scaffold.model.interface_syntax import ProblemKind
 
@@ -40,7 +40,13 @@ class InterfaceTypeName(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/my_beat.msg": "int32 count\n",
             },
-            at=("msg/my_beat.msg:1",),
+            reports=(
+                Report(
+                    "msg/my_beat.msg:1:1",
+                    "the file name 'my_beat' is no type name: rosidl wants letters and "
+                    "digits only, a capital first, as in 'MyBeat.msg'",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _MODULES = {
     "copy": "copy.copy",
@@ -34,7 +34,9 @@ class ModuleCalled(Rule):
         Example(
             "the module",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
-            at=("setup.py:3",),
+            reports=(
+                Report("setup.py:3:9", "'glob' is a module here: TypeError; glob.glob() is meant"),
+            ),
         ),
     )
 

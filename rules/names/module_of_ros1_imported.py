@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _NEW = {
     "actionlib": "rclpy.action",
@@ -38,7 +38,7 @@ class ModuleOfRos1Imported(Rule):
         Example(
             "of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
-            at=("talker/node.py:2",),
+            reports=(Report("talker/node.py:2:1", "'rospy' is of ROS 1: ROS 2 has rclpy"),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.ros_names import topic_problem
 
 _NODE = (
@@ -31,7 +31,13 @@ class NameWithDoubleUnderscore(Rule):
     severity = Severity.WARNING
     examples = (
         Example("one", {"talker.py": _NODE.format("front_scan")}),
-        Example("two", {"talker.py": _NODE.format("front__scan")}, at=("talker.py:8",)),
+        Example(
+            "two",
+            {"talker.py": _NODE.format("front__scan")},
+            reports=(
+                Report("talker.py:8:39", "the name 'front__scan' has two underscores in a row"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.ros_names import namespace_problem, node_problem
 
 _NODE = (
@@ -31,12 +31,23 @@ class NodeNameInvalid(Rule):
     examples = (
         Example("accepted", {"talker.py": _NODE.format("'talker', namespace='left/arm'")}),
         Example(
-            "a namespace in it", {"talker.py": _NODE.format("'left/talker'")}, at=("talker.py:6",)
+            "a namespace in it",
+            {"talker.py": _NODE.format("'left/talker'")},
+            reports=(
+                Report(
+                    "talker.py:6:26",
+                    "ROS 2 refuses the node name 'left/talker': '/' is not allowed",
+                ),
+            ),
         ),
         Example(
             "a namespace with a dash",
             {"talker.py": _NODE.format("'talker', namespace='left-arm'")},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:26", "ROS 2 refuses the namespace 'left-arm': '-' is not allowed"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.near import nearest
 from scaffold.model.own_modules import (
     absolute_name,
@@ -54,12 +54,22 @@ class OwnImportMissing(Rule):
         Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
-            at=("talker/node.py:1",),
+            reports=(
+                Report(
+                    "talker/node.py:1:1",
+                    "the package has no module 'talker.texts'; 'talker.text' is meant",
+                ),
+            ),
         ),
         Example(
             "no such function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
-            at=("talker/node.py:1",),
+            reports=(
+                Report(
+                    "talker/node.py:1:19",
+                    "talker/text.py has no 'makes': ImportError; it has 'make'",
+                ),
+            ),
         ),
         Example(
             "without the package, with its directory",
@@ -67,7 +77,17 @@ class OwnImportMissing(Rule):
                 **_FILES,
                 "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
             },
-            at=("talker/node.py:1", "talker/node.py:2"),
+            reports=(
+                Report(
+                    "talker/node.py:1:1",
+                    "no module 'text' is installed: ModuleNotFoundError; 'talker.text' is meant",
+                ),
+                Report(
+                    "talker/node.py:2:1",
+                    "no module 'src.talker.text' is installed: ModuleNotFoundError; "
+                    "'talker.text' is meant",
+                ),
+            ),
         ),
     )
 

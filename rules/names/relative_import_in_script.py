@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.cmake_facts import programs
 
 _LISTS = (
@@ -33,7 +33,12 @@ class RelativeImportInScript(Rule):
         Example(
             "relative",
             {**_FILES, "talker/node.py": "from .text import TEXT\n"},
-            at=("talker/node.py:1",),
+            reports=(
+                Report(
+                    "talker/node.py:1:1",
+                    "installed as a program, it has no package to import from: ImportError",
+                ),
+            ),
         ),
     )
 

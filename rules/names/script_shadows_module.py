@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.cmake_facts import programs
 from scaffold.model.known import ROS_PACKAGES
 
@@ -32,7 +32,12 @@ class ScriptShadowsModule(Rule):
         Example(
             "of the standard library",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
-            at=("CMakeLists.txt:2",),
+            reports=(
+                Report(
+                    "CMakeLists.txt:2:18",
+                    "logging.py hides the module 'logging' from every program beside it",
+                ),
+            ),
         ),
     )
 

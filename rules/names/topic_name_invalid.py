@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_asked_about
 from scaffold.model.ros_names import topic_problem
 
@@ -50,8 +50,22 @@ class TopicNameInvalid(Rule):
                 )
             },
         ),
-        Example("a dash", {"talker.py": _NODE.format("front-scan")}, at=("talker.py:8",)),
-        Example("a digit first", {"talker.py": _NODE.format("scan/2d")}, at=("talker.py:8",)),
+        Example(
+            "a dash",
+            {"talker.py": _NODE.format("front-scan")},
+            reports=(
+                Report("talker.py:8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+            ),
+        ),
+        Example(
+            "a digit first",
+            {"talker.py": _NODE.format("scan/2d")},
+            reports=(
+                Report(
+                    "talker.py:8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import ActionServer
 from scaffold.model.returns import is_generator, may_end, returned
@@ -50,7 +50,18 @@ class ActionCallbackResult(Rule):
         Example(
             "a bool, nothing",
             {"server.py": _NODE.format("return True", "")},
-            at=("server.py:13", "server.py:15"),
+            reports=(
+                Report(
+                    "server.py:13:9",
+                    "returns True, not a GoalResponse for the action server made in "
+                    "line 9: it counts as a refusal",
+                ),
+                Report(
+                    "server.py:15:9",
+                    "work does not return the result for the action server made in line "
+                    "9: AssertionError",
+                ),
+            ),
         ),
         Example(
             "the answer to another question, the feedback",
@@ -59,7 +70,18 @@ class ActionCallbackResult(Rule):
                     "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
                 )
             },
-            at=("server.py:13", "server.py:17"),
+            reports=(
+                Report(
+                    "server.py:13:9",
+                    "returns a CancelResponse, not a GoalResponse for the action server "
+                    "made in line 9: it counts as a refusal",
+                ),
+                Report(
+                    "server.py:17:9",
+                    "returns example_interfaces/action/Fibonacci.Feedback, not the "
+                    "result for the action server made in line 9: AssertionError",
+                ),
+            ),
         ),
     )
 

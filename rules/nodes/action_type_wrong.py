@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import ActionClient
 from scaffold.model.nodes import NodeFacts
@@ -43,12 +43,18 @@ class ActionTypeWrong(Rule):
         Example(
             "no node",
             {"sender.py": _NODE.format("Fibonacci", _GOAL)},
-            at=("sender.py:9",),
+            reports=(
+                Report(
+                    "sender.py:9:36", "Fibonacci is no node: the node comes first, then the type"
+                ),
+            ),
         ),
         Example(
             "a part of the action",
             {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
-            at=("sender.py:9",),
+            reports=(
+                Report("sender.py:9:42", "this is a part of an action; the type is Fibonacci"),
+            ),
         ),
         Example(
             "a number, the class of goals, the result",
@@ -57,7 +63,25 @@ class ActionTypeWrong(Rule):
                 + "        self.client.send_goal(Fibonacci.Goal)\n"
                 + "        self.client.send_goal(Fibonacci.Result())\n"
             },
-            at=("sender.py:12", "sender.py:13", "sender.py:14"),
+            reports=(
+                Report(
+                    "sender.py:12:37",
+                    "sends a int; the client made in line 9 takes "
+                    "example_interfaces/action/Fibonacci.Goal: TypeError",
+                ),
+                Report(
+                    "sender.py:13:31",
+                    "sends the class example_interfaces/action/Fibonacci.Goal; the "
+                    "client made in line 9 takes "
+                    "example_interfaces/action/Fibonacci.Goal: TypeError",
+                ),
+                Report(
+                    "sender.py:14:31",
+                    "sends example_interfaces/action/Fibonacci.Result; the client made "
+                    "in line 9 takes example_interfaces/action/Fibonacci.Goal: "
+                    "TypeError",
+                ),
+            ),
         ),
     )
 

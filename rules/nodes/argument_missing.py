@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
 
@@ -62,7 +62,10 @@ class ArgumentMissing(Rule):
         Example(
             "a callback, a node",
             {"talker.py": _NODE.format("0.1", "")},
-            at=("talker.py:8", "talker.py:13"),
+            reports=(
+                Report("talker.py:8:9", "create_timer() needs callback as well: TypeError"),
+                Report("talker.py:13:5", "spin() needs node as well: TypeError"),
+            ),
         ),
         Example(
             "what an action server does",
@@ -72,7 +75,9 @@ class ArgumentMissing(Rule):
                     "self.create_timer(0.1, print)", "ActionServer(self, Count, 'count')"
                 )
             },
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:9", "ActionServer() needs execute_callback as well: TypeError"),
+            ),
         ),
     )
 

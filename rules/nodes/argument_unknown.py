@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_signatures import Excess, excess_arguments
 
@@ -43,13 +43,33 @@ class ArgumentUnknown(Rule):
         Example(
             "by position",
             {"server.py": _CODE.format("", "", "", ", 0.1")},
-            at=("server.py:16", "server.py:17"),
+            reports=(
+                Report(
+                    "server.py:16:16",
+                    "rclpy.init() takes no positional arguments: TypeError; by name: "
+                    "args, context, domain_id, signal_handler_options",
+                    fix="give it as args=",
+                ),
+                Report(
+                    "server.py:17:31",
+                    "rclpy.spin_once() takes at most 1 positional argument: TypeError; "
+                    "by name: executor, timeout_sec",
+                    fix="give it as timeout_sec=",
+                ),
+            ),
             fixed={"server.py": _RIGHT},
         ),
         Example(
             "a depth for a service, and a keyword of ROS 1",
             {"server.py": _CODE.format(", 10", ", oneshot=True", "args=", "")},
-            at=("server.py:11", "server.py:12"),
+            reports=(
+                Report(
+                    "server.py:11:54",
+                    "create_service() takes at most 3 positional arguments: TypeError; "
+                    "by name: callback_group, qos_profile",
+                ),
+                Report("server.py:12:47", "create_timer() has no argument 'oneshot': TypeError"),
+            ),
         ),
         Example(
             "of clients and publishers",
@@ -59,12 +79,19 @@ class ArgumentUnknown(Rule):
                     "self.create_client(Trigger, 'a').wait_for_service(timeout=1.0)",
                 )
             },
-            at=("server.py:12",),
+            reports=(
+                Report(
+                    "server.py:12:67",
+                    "wait_for_service() has no argument 'timeout', but 'timeout_sec': TypeError",
+                ),
+            ),
         ),
         Example(
             "a message for what returns the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
-            at=("server.py:10",),
+            reports=(
+                Report("server.py:10:25", "get_logger() takes no positional arguments: TypeError"),
+            ),
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Argument, Client, Endpoint, Entity, Parameter, Service
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import UNKNOWN, kind_of
@@ -54,12 +54,27 @@ class ArgumentUnusable(Rule):
         Example(
             "an object, a text, two types",
             {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
-            at=("talker.py:8", "talker.py:9", "talker.py:10"),
+            reports=(
+                Report(
+                    "talker.py:8:31", "this is an object, not its class: remove the parentheses"
+                ),
+                Report("talker.py:9:32", "a callback is a function, and this is a str: TypeError"),
+                Report(
+                    "talker.py:10:41",
+                    "the values of a parameter have one type, and these are float, int: TypeError",
+                ),
+            ),
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
-            at=("talker.py:10",),
+            reports=(
+                Report(
+                    "talker.py:10:41",
+                    "a parameter holds no dictionary: TypeError; declare one parameter "
+                    "for each key",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.node_entities import Endpoint, Entity, Timer
 from scaffold.model.nodes import NodeFacts
 
@@ -39,7 +39,18 @@ class ArgumentsSwapped(Rule):
         Example(
             "swapped",
             {"talker.py": _NODE.format("'chatter', String", "self.tick, 0.5")},
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:8:31",
+                    "the type comes first, then the name 'chatter'",
+                    fix="swap the arguments",
+                ),
+                Report(
+                    "talker.py:9:27",
+                    "create_timer() wants the period in seconds first, then the callback",
+                    fix="swap the arguments",
+                ),
+            ),
             fixed={"talker.py": _NODE.format("String, 'chatter'", "0.5, self.tick")},
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 AWAITED = ("asyncio.sleep", "asyncio.wait", "asyncio.wait_for", "asyncio.gather")
 _NODE = (
@@ -35,7 +35,16 @@ class AsyncioInCallback(Rule):
     examples = (
         Example("a future of rclpy", {"talker.py": _NODE.format("self.client.call_async(None)")}),
         Example("none at all", {"talker.py": _NODE.format("asyncio.sleep(0)")}),
-        Example("asyncio", {"talker.py": _NODE.format("asyncio.sleep(0.1)")}, at=("talker.py:12",)),
+        Example(
+            "asyncio",
+            {"talker.py": _NODE.format("asyncio.sleep(0.1)")},
+            reports=(
+                Report(
+                    "talker.py:12:9",
+                    "asyncio.sleep() needs an event loop of asyncio, which rclpy does not run",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

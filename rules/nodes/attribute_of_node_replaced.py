@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.scopes import FunctionNode
 
@@ -46,14 +46,23 @@ class AttributeOfNodeReplaced(Rule):
     name = "attribute-of-node-replaced"
     examples = (
         Example("a name of its own", {"talker.py": _NODE.format("my_publishers")}),
-        Example("a property", {"talker.py": _NODE.format("publishers")}, at=("talker.py:7",)),
+        Example(
+            "a property",
+            {"talker.py": _NODE.format("publishers")},
+            reports=(Report("talker.py:7:9", "Node has 'publishers' itself, which this replaces"),),
+        ),
         Example(
             "what Node keeps, and a method",
             {
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
-            at=("talker.py:7", "talker.py:9"),
+            reports=(
+                Report("talker.py:7:9", "Node has '_timers' itself, which this replaces"),
+                Report(
+                    "talker.py:9:9", "rclpy itself uses timers of Node, which this method replaces"
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
 from scaffold.model.node_attributes import (
@@ -68,7 +68,17 @@ class AttributeOfNodeUnknown(Rule):
         Example(
             "misspelt",
             {"talker.py": _NODE.format("on_tick", "publisher")},
-            at=("talker.py:9", "talker.py:12"),
+            reports=(
+                Report(
+                    "talker.py:9:32",
+                    "neither Talker nor rclpy's Node has 'on_tick': AttributeError",
+                ),
+                Report(
+                    "talker.py:12:9",
+                    "neither Talker nor rclpy's Node has 'publisher'; 'publishers' is "
+                    "meant: AttributeError",
+                ),
+            ),
         ),
     )
 

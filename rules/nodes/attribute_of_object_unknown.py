@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of, has, known_names
@@ -46,7 +46,9 @@ class AttributeOfObjectUnknown(Rule):
         Example(
             "unknown",
             {"talker.py": _NODE.format("send")},
-            at=("talker.py:11",),
+            reports=(
+                Report("talker.py:11:9", "a Publisher of rclpy has no 'send': AttributeError"),
+            ),
         ),
     )
 

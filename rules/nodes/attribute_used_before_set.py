@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
@@ -36,7 +36,11 @@ class AttributeUsedBeforeSet(Rule):
     name = "attribute-used-before-set"
     examples = (
         Example("set first", {"talker.py": _NODE.format(_MAKE + _USE)}),
-        Example("used first", {"talker.py": _NODE.format(_USE + _MAKE)}, at=("talker.py:8",)),
+        Example(
+            "used first",
+            {"talker.py": _NODE.format(_USE + _MAKE)},
+            reports=(Report("talker.py:8:9", "self.pub is set in line 9 only: AttributeError"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

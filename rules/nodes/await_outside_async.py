@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -30,7 +30,11 @@ class AwaitOutsideAsync(Rule):
     name = "await-outside-async"
     examples = (
         Example("async", {"caller.py": _NODE.format("async ")}),
-        Example("not async", {"caller.py": _NODE.format("")}, at=("caller.py:6",)),
+        Example(
+            "not async",
+            {"caller.py": _NODE.format("")},
+            reports=(Report("caller.py:6:9", "'await' outside of an async function: SyntaxError"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_waits import has_more_threads, in_callbacks, in_constructors
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
@@ -53,7 +53,12 @@ class CallInCallback(Rule):
         Example(
             "a call",
             {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
-            at=("caller.py:12",),
+            reports=(
+                Report(
+                    "caller.py:12:9",
+                    "waits for a service in the callback ask: the answer cannot come meanwhile",
+                ),
+            ),
         ),
         Example(
             "an action",
@@ -63,7 +68,13 @@ class CallInCallback(Rule):
                     "        ActionClient(self, Count, 'count').send_goal(Count.Goal())\n"
                 )
             },
-            at=("caller.py:13",),
+            reports=(
+                Report(
+                    "caller.py:13:9",
+                    "waits for the result of an action in the callback ask: the answer "
+                    "cannot come meanwhile",
+                ),
+            ),
         ),
         Example(
             "a loop",
@@ -73,7 +84,13 @@ class CallInCallback(Rule):
                     "        while not future.done():\n            pass\n"
                 )
             },
-            at=("caller.py:13",),
+            reports=(
+                Report(
+                    "caller.py:13:9",
+                    "loops until a future is done in the callback ask: the answer "
+                    "cannot come meanwhile",
+                ),
+            ),
         ),
     )
 

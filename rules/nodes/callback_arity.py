@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_callbacks import numbers_taken
 from scaffold.model.node_entities import (
     ActionServer,
@@ -65,10 +65,22 @@ class CallbackArity(Rule):
         Example(
             "no future, one parameter too many",
             {"listener.py": _ASKING.format("", "", ", future, other")},
-            at=("listener.py:10", "listener.py:11"),
+            reports=(
+                Report("listener.py:10:34", "one takes 0 arguments; a future gives it itself"),
+                Report("listener.py:11:34", "two takes 3 arguments; a future gives it itself"),
+            ),
         ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
-        Example("nothing", {"listener.py": _NODE.format("")}, at=("listener.py:8",)),
+        Example(
+            "nothing",
+            {"listener.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "listener.py:8:53",
+                    "hear takes 0 arguments; a subscription gives it the message",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

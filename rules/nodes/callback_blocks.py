@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_waits import has_more_threads, in_callbacks
 from scaffold.model.nodes import NodeFacts
 
@@ -45,13 +45,36 @@ class CallbackBlocks(Rule):
     examples = (
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
         Example("so short that it does no harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
-        Example("a sleep", {"talker.py": _NODE.format("time.sleep(1.0)")}, at=("talker.py:12",)),
+        Example(
+            "a sleep",
+            {"talker.py": _NODE.format("time.sleep(1.0)")},
+            reports=(
+                Report(
+                    "talker.py:12:9",
+                    "time.sleep(1) holds up the callback tick, and with it all others of the node",
+                ),
+            ),
+        ),
         Example(
             "a server",
             {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
-            at=("talker.py:13",),
+            reports=(
+                Report(
+                    "talker.py:13:9",
+                    "requests.get() holds up the callback tick, and with it all others of the node",
+                ),
+            ),
         ),
-        Example("a question", {"talker.py": _NODE.format("input()")}, at=("talker.py:12",)),
+        Example(
+            "a question",
+            {"talker.py": _NODE.format("input()")},
+            reports=(
+                Report(
+                    "talker.py:12:9",
+                    "input() holds up the callback tick, and with it all others of the node",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

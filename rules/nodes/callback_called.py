@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -35,7 +35,13 @@ class CallbackCalled(Rule):
         Example(
             "called",
             {"talker.py": _NODE.format("self.tick()")},
-            at=("talker.py:7",),
+            reports=(
+                Report(
+                    "talker.py:7:32",
+                    "self.tick() is called here, and what it returns becomes the callback",
+                    fix="pass it",
+                ),
+            ),
             fixed={"talker.py": _NODE.format("self.tick")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import Parameter
 from scaffold.model.parameter_objects import is_of_node
@@ -37,13 +37,39 @@ class DefaultOutOfRange(Rule):
     examples = (
         Example("in the range", {"talker.py": _NODE.format("", "0.55")}),
         Example("on a step", {"talker.py": _NODE.format(", step=0.1", "0.7")}),
-        Example("too much", {"talker.py": _NODE.format("", "5.0")}, at=("talker.py:10",)),
+        Example(
+            "too much",
+            {"talker.py": _NODE.format("", "5.0")},
+            reports=(
+                Report(
+                    "talker.py:10:40",
+                    "the default 5.0 is not in the range of the descriptor, 0.0 to 1.0: "
+                    "the node dies",
+                ),
+            ),
+        ),
         Example(
             "between two steps",
             {"talker.py": _NODE.format(", step=0.1", "0.25")},
-            at=("talker.py:10",),
+            reports=(
+                Report(
+                    "talker.py:10:40",
+                    "the default 0.25 is not in the range of the descriptor, 0.0 to 1.0 "
+                    "in steps of 0.1: the node dies",
+                ),
+            ),
         ),
-        Example("an integer", {"talker.py": _NODE.format("", "1")}, at=("talker.py:10",)),
+        Example(
+            "an integer",
+            {"talker.py": _NODE.format("", "1")},
+            reports=(
+                Report(
+                    "talker.py:10:40",
+                    "the default 1 is an integer, so the descriptor's range of doubles "
+                    "holds for nothing; it takes integer_range",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

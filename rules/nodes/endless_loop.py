@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_waits import Executed, has_more_threads, in_callbacks, in_constructors
 from scaffold.model.nodes import NodeFacts
 
@@ -37,7 +37,16 @@ class EndlessLoop(Rule):
         Example(
             "a timer", {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n")}
         ),
-        Example("a loop", {"talker.py": _NODE.format(_LOOP)}, at=("talker.py:8",)),
+        Example(
+            "a loop",
+            {"talker.py": _NODE.format(_LOOP)},
+            reports=(
+                Report(
+                    "talker.py:8:9",
+                    "this loop never ends, and the constructor of Talker never returns",
+                ),
+            ),
+        ),
         Example(
             "a loop that ends",
             {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))},

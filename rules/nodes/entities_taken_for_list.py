@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
@@ -50,10 +50,31 @@ class EntitiesTakenForList(Rule):
         Example(
             "added to",
             _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:9",
+                    "Node has publishers itself, which gives a generator: AttributeError",
+                ),
+            ),
         ),
-        Example("by name", _files("self.clients['a'] = None"), at=("talker.py:8",)),
-        Example("counted", _files("print(len(self.timers))"), at=("talker.py:8",)),
+        Example(
+            "by name",
+            _files("self.clients['a'] = None"),
+            reports=(
+                Report(
+                    "talker.py:8:9", "Node has clients itself, which gives a generator: TypeError"
+                ),
+            ),
+        ),
+        Example(
+            "counted",
+            _files("print(len(self.timers))"),
+            reports=(
+                Report(
+                    "talker.py:8:19", "Node has timers itself, which gives a generator: TypeError"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.executors import used_of_executor
 from scaffold.model.nodes import NodeFacts
 
@@ -42,10 +42,32 @@ class ExecutorMisused(Rule):
         Example(
             "a class",
             {"talker.py": _NODE.format(_ADD.replace("node)", "Talker)") + _SPIN)},
-            at=("talker.py:16",),
+            reports=(
+                Report(
+                    "talker.py:16:23", "this adds the class Talker: make a node of it, Talker()"
+                ),
+            ),
         ),
-        Example("no node", {"talker.py": _NODE.format(_SPIN)}, at=("talker.py:16",)),
-        Example("not spun", {"talker.py": _NODE.format(_ADD)}, at=("talker.py:15",)),
+        Example(
+            "no node",
+            {"talker.py": _NODE.format(_SPIN)},
+            reports=(
+                Report(
+                    "talker.py:16:5",
+                    "this executor has no node: nothing is ever called; add_node() first",
+                ),
+            ),
+        ),
+        Example(
+            "not spun",
+            {"talker.py": _NODE.format(_ADD)},
+            reports=(
+                Report(
+                    "talker.py:15:16",
+                    "nothing spins this executor: the callbacks of its nodes never run",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.parameter_objects import FIELDS
 from scaffold.model.rclpy_names import PARAMETER, class_of
@@ -32,7 +32,16 @@ class FieldOfPlainValue(Rule):
     name = "field-of-plain-value"
     examples = (
         Example("of the message", {"talker.py": _NODE.format(".get_parameter_value()")}),
-        Example("of the value", {"talker.py": _NODE.format(".value")}, at=("talker.py:8",)),
+        Example(
+            "of the value",
+            {"talker.py": _NODE.format(".value")},
+            reports=(
+                Report(
+                    "talker.py:8:21",
+                    "value is the value already, without double_value: AttributeError",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.values import PathValue
 
 _READERS = frozenset(
@@ -37,12 +37,20 @@ class FileOfAuthor(Rule):
         Example(
             "of a user",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
-            at=("talker.py:5",),
+            reports=(
+                Report("talker.py:5:15", "/home/dev/ws/words.txt is on the author's machine only"),
+            ),
         ),
         Example(
             "relative",
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
-            at=("talker.py:5",),
+            reports=(
+                Report(
+                    "talker.py:5:15",
+                    "config/words.txt is looked for where `ros2 run` is called, not in "
+                    "the package; use get_package_share_directory()",
+                ),
+            ),
         ),
         Example(
             "by its name alone; what is written may be anywhere",
@@ -50,7 +58,13 @@ class FileOfAuthor(Rule):
                 "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
                 "config/words.txt": "",
             },
-            at=("talker.py:5",),
+            reports=(
+                Report(
+                    "talker.py:5:15",
+                    "words.txt is looked for where `ros2 run` is called, not in the "
+                    "package; use get_package_share_directory()",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.scopes import FunctionNode
@@ -42,12 +42,14 @@ class FutureReadTooEarly(Rule):
             {"caller.py": _NODE.format("future.add_done_callback(self.answer)")},
         ),
         Example(
-            "at once", {"caller.py": _NODE.format("return future.result()")}, at=("caller.py:7",)
+            "at once",
+            {"caller.py": _NODE.format("return future.result()")},
+            reports=(Report("caller.py:7:16", "future is not done here: its result is None"),),
         ),
         Example(
             "by the callback, called at once",
             {"caller.py": _NODE.format("self.answer(future)")},
-            at=("caller.py:7",),
+            reports=(Report("caller.py:7:9", "future is not done here: its result is None"),),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import ActionServer
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.scopes import FunctionNode
@@ -44,7 +44,17 @@ class GoalNeverSucceeds(Rule):
         Example("it succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
         Example("it fails", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
         Example("others end it", {"server.py": _NODE.format("        self.end(goal_handle)\n")}),
-        Example("nothing is said", {"server.py": _NODE.format("")}, at=("server.py:15",)),
+        Example(
+            "nothing is said",
+            {"server.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "server.py:15:9",
+                    "the result is returned without succeed(): the goals of the action "
+                    "server made in line 9 end as aborted",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.rclpy_names import PLACES
 
 
@@ -22,7 +22,11 @@ class ImportFromRclpy(Rule):
     name = "import-from-rclpy"
     examples = (
         Example("from its module", {"talker.py": "from rclpy.node import Node\n"}),
-        Example("from the top", {"talker.py": "from rclpy import Node\n"}, at=("talker.py:1",)),
+        Example(
+            "from the top",
+            {"talker.py": "from rclpy import Node\n"},
+            reports=(Report("talker.py:1:19", "rclpy has no 'Node'; import it from rclpy.node"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

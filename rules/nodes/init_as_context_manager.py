@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
 _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
@@ -25,7 +25,16 @@ class InitAsContextManager(Rule):
     name = "init-as-context-manager"
     examples = (
         Example("a plain call", {"talker.py": _PLAIN}),
-        Example("a with statement", {"talker.py": _WITH}, at=("talker.py:5",)),
+        Example(
+            "a with statement",
+            {"talker.py": _WITH},
+            reports=(
+                Report(
+                    "talker.py:5:10",
+                    "rclpy.init() of Jazzy is no context manager: the node never starts",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.init_use import calls_others, late_init, may_init
 from scaffold.model.program_starts import Run, files_of, run_of, starts_of
 
@@ -50,7 +50,12 @@ class InitMissing(Rule):
         Example(
             "never",
             {**_FILES, "demo/talker.py": _NODE.format("    node = Talker()\n" + _SPIN)},
-            at=("demo/talker.py:12",),
+            reports=(
+                Report(
+                    "demo/talker.py:12:12",
+                    "nothing calls rclpy.init() before Talker is made: NotInitializedException",
+                ),
+            ),
         ),
         Example(
             "too late",
@@ -58,7 +63,12 @@ class InitMissing(Rule):
                 **_FILES,
                 "demo/talker.py": _NODE.format("    node = Talker()\n    rclpy.init()\n" + _SPIN),
             },
-            at=("demo/talker.py:12",),
+            reports=(
+                Report(
+                    "demo/talker.py:12:12",
+                    "Talker is made before rclpy.init() in line 13: NotInitializedException",
+                ),
+            ),
         ),
     )
 

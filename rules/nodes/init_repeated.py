@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import RclpyCall
 from scaffold.model.nodes import NodeFacts
 
@@ -31,7 +31,11 @@ class InitRepeated(Rule):
             "again after a shutdown",
             {"talker.py": _MAIN.format("    rclpy.shutdown()\n    rclpy.init()\n")},
         ),
-        Example("twice", {"talker.py": _MAIN.format("    rclpy.init()\n")}, at=("talker.py:6",)),
+        Example(
+            "twice",
+            {"talker.py": _MAIN.format("    rclpy.init()\n")},
+            reports=(Report("talker.py:6:5", "rclpy.init() was called in line 5 already"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
 
@@ -28,7 +28,13 @@ class InitWithoutArguments(Rule):
         Example(
             "an empty list",
             {"talker.py": _MAIN.format("args=[]")},
-            at=("talker.py:5",),
+            reports=(
+                Report(
+                    "talker.py:5:21",
+                    "an empty list replaces the command line: --ros-args have no effect",
+                    fix="hand on the arguments",
+                ),
+            ),
             fixed={"talker.py": _MAIN.format("args=args")},
         ),
     )

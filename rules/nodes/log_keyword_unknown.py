@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.loggers import is_of_rclpy
 from scaffold.model.nodes import NodeFacts
 
@@ -43,9 +43,34 @@ class LogKeywordUnknown(Rule):
                 + "\n    def get_logger(self):\n        return self.log\n"
             },
         ),
-        Example("unknown", {"talker.py": _NODE.format("text, throttle=1.0")}, at=("talker.py:6",)),
-        Example("no f", {"talker.py": _NODE.format("'heard {text}'")}, at=("talker.py:6",)),
-        Example("a number", {"talker.py": _NODE.format("'heard ' + 1")}, at=("talker.py:6",)),
+        Example(
+            "unknown",
+            {"talker.py": _NODE.format("text, throttle=1.0")},
+            reports=(
+                Report(
+                    "talker.py:6:38",
+                    "a logger has no option 'throttle'; 'throttle_duration_sec' is "
+                    "meant: TypeError",
+                ),
+            ),
+        ),
+        Example(
+            "no f",
+            {"talker.py": _NODE.format("'heard {text}'")},
+            reports=(
+                Report(
+                    "talker.py:6:32",
+                    "{text} is not filled in: the f in front of the text is missing",
+                ),
+            ),
+        ),
+        Example(
+            "a number",
+            {"talker.py": _NODE.format("'heard ' + 1")},
+            reports=(
+                Report("talker.py:6:32", "text and a number are added: TypeError; write f'...'"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

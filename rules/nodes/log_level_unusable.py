@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.loggers import is_of_rclpy
 from scaffold.model.nodes import NodeFacts
@@ -50,9 +50,25 @@ class LogLevelUnusable(Rule):
         Example(
             "a text",
             {"talker.py": _NODE.format("'debug'")},
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:8:37",
+                    "a level is a LoggingSeverity, and 'debug' is none: ValueError",
+                ),
+                Report(
+                    "talker.py:9:36",
+                    "a level is a LoggingSeverity, and 'debug' is none: ValueError",
+                ),
+            ),
         ),
-        Example("a number", {"talker.py": _NODE.format("1")}, at=("talker.py:8", "talker.py:9")),
+        Example(
+            "a number",
+            {"talker.py": _NODE.format("1")},
+            reports=(
+                Report("talker.py:8:37", "a level is a LoggingSeverity, and 1 is none: ValueError"),
+                Report("talker.py:9:36", "a level is a LoggingSeverity, and 1 is none: ValueError"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

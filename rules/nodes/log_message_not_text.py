@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.loggers import is_of_rclpy
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import UNKNOWN
@@ -43,7 +43,13 @@ class LogMessageNotText(Rule):
         Example(
             "a number",
             {"talker.py": _NODE.format("42")},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:32",
+                    "a logger wants text, and this is none: TypeError",
+                    fix="convert it to text",
+                ),
+            ),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
     )

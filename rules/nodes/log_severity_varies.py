@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
@@ -34,7 +34,16 @@ class LogSeverityVaries(Rule):
     name = "log-severity-varies"
     examples = (
         Example("a call for each", {"talker.py": _NODE.format(_BRANCHES)}),
-        Example("a choice of methods", {"talker.py": _NODE.format(_CHOICE)}, at=("talker.py:6",)),
+        Example(
+            "a choice of methods",
+            {"talker.py": _NODE.format(_CHOICE)},
+            reports=(
+                Report(
+                    "talker.py:6:15",
+                    "this log statement has two severities: rclpy raises ValueError",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 
 _NODE = (
@@ -40,7 +40,13 @@ class LoopVariableInLambda(Rule):
         Example(
             "late",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
-            at=("listener.py:9",),
+            reports=(
+                Report(
+                    "listener.py:9:52",
+                    "name is read when the callback runs: it is the last of the loop, "
+                    "in all callbacks",
+                ),
+            ),
         ),
     )
 

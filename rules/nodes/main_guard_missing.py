@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
 from scaffold.model.cmake_facts import programs
 from scaffold.model.python_module import PythonModule
 
@@ -31,7 +31,13 @@ class MainGuardMissing(Rule):
         Example(
             "never called",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _MAIN},
-            at=("talker/node.py:5",),
+            reports=(
+                Report(
+                    "talker/node.py:5:5",
+                    "installed as a program, but nothing calls main()",
+                    fix="call main()",
+                ),
+            ),
             fixed={"talker/node.py": _MAIN + _GUARD},
         ),
         Example(
@@ -41,7 +47,13 @@ class MainGuardMissing(Rule):
                 "talker/node.py": _MAIN + _GUARD.replace("__main__", "main"),
                 "talker/other.py": _MAIN + _GUARD.replace("main()", "main"),
             },
-            at=("talker/node.py:9", "talker/other.py:10"),
+            reports=(
+                Report(
+                    "talker/node.py:9:4",
+                    "'main' is nobody's name, so main() is not called: '__main__'",
+                ),
+                Report("talker/other.py:10:5", "main is named here, not called: main()"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, class_of, is_method
 
@@ -44,7 +44,18 @@ class MethodNotCalled(Rule):
         Example(
             "not called: for what it gives, as conditions, as a statement",
             {"talker.py": _NODE.format("", "", "", "", "")},
-            at=("talker.py:10", "talker.py:11", "talker.py:11", "talker.py:13", "talker.py:14"),
+            reports=(
+                Report("talker.py:10:22", "get_clock is a method: call it, get_clock()"),
+                Report(
+                    "talker.py:11:15",
+                    "rclpy.ok is a function, which is always true: call it, rclpy.ok()",
+                ),
+                Report(
+                    "talker.py:11:32", "service_is_ready is a method: call it, service_is_ready()"
+                ),
+                Report("talker.py:13:9", "destroy_node is a method: call it, destroy_node()"),
+                Report("talker.py:14:9", "rclpy.shutdown is a function: call it"),
+            ),
         ),
     )
 

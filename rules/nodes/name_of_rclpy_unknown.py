@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.python_module import Import, PythonModule
 from scaffold.model.rclpy_names import PLACES, first_unknown, known_names
@@ -40,12 +40,23 @@ class NameOfRclpyUnknown(Rule):
         Example(
             "a module and an import",
             {"talker.py": "from rclpy.nodes import Node\nfrom rclpy.qos import Reliability\n"},
-            at=("talker.py:1", "talker.py:2"),
+            reports=(
+                Report("talker.py:1:1", "rclpy has no 'nodes'; 'node' is meant: ImportError"),
+                Report(
+                    "talker.py:2:23",
+                    "rclpy.qos has no 'Reliability'; 'ReliabilityPolicy' is meant: ImportError",
+                ),
+            ),
         ),
         Example(
             "a function and a member",
             {"talker.py": _CODE.format("qos", "ReliabilityPolicy", "initialize", "SURE")},
-            at=("talker.py:4", "talker.py:5"),
+            reports=(
+                Report("talker.py:4:1", "rclpy has no 'initialize': AttributeError"),
+                Report(
+                    "talker.py:5:7", "rclpy.qos.ReliabilityPolicy has no 'SURE': AttributeError"
+                ),
+            ),
         ),
     )
 

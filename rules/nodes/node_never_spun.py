@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import RclpyCall
 from scaffold.model.node_owners import NodeOwner
 from scaffold.model.nodes import NodeFacts
@@ -41,8 +41,20 @@ class NodeNeverSpun(Rule):
     name = "node-never-spun"
     examples = (
         Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
-        Example("never", {"talker.py": _NODE.format("")}, at=("talker.py:16",)),
-        Example("asleep", {"talker.py": _NODE.format("    time.sleep(9)\n")}, at=("talker.py:16",)),
+        Example(
+            "never",
+            {"talker.py": _NODE.format("")},
+            reports=(
+                Report("talker.py:16:12", "nothing spins this Talker: its callbacks never run"),
+            ),
+        ),
+        Example(
+            "asleep",
+            {"talker.py": _NODE.format("    time.sleep(9)\n")},
+            reports=(
+                Report("talker.py:16:12", "nothing spins this Talker: its callbacks never run"),
+            ),
+        ),
         Example(
             "in a loop",
             {"talker.py": _NODE.format("    while rclpy.ok():\n        rclpy.spin_once(node)\n")},
@@ -56,7 +68,14 @@ class NodeNeverSpun(Rule):
             },
         ),
         Example(
-            "once", {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")}, at=("talker.py:17",)
+            "once",
+            {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
+            reports=(
+                Report(
+                    "talker.py:17:5",
+                    "spin_once() runs one callback at most, and no loop is around it",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import NODE, has
@@ -39,22 +39,34 @@ class NodeNotConstructed(Rule):
         Example(
             "without a name",
             {"talker.py": _NODE.format("__init__", _INIT.replace("'talker'", ""))},
-            at=("talker.py:6",),
+            reports=(Report("talker.py:6:9", "Node.__init__() is given no name: TypeError"),),
         ),
         Example(
             "without parentheses",
             {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "super"))},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:9",
+                    "super is called without parentheses: write super().__init__(...)",
+                ),
+            ),
         ),
         Example(
             "too late",
             {"talker.py": _NODE.format("__init__", "") + _INIT},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:9",
+                    "self.create_timer is used before Node.__init__ in line 7: AttributeError",
+                ),
+            ),
         ),
         Example(
             "misspelt",
             {"talker.py": _NODE.format("_init_", _INIT)},
-            at=("talker.py:5",),
+            reports=(
+                Report("talker.py:5:9", "_init_ is no constructor: Python calls __init__ only"),
+            ),
         ),
     )
 

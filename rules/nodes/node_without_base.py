@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 
 _CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
@@ -37,8 +37,24 @@ class NodeWithoutBase(Rule):
             "a part of nodes, which another class takes in",
             {"talker.py": _NODE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
         ),
-        Example("none", {"talker.py": _NODE.format("")}, at=("talker.py:4",)),
-        Example("any object", {"talker.py": _NODE.format("(object)")}, at=("talker.py:4",)),
+        Example(
+            "none",
+            {"talker.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "talker.py:4:7", "Talker uses methods of Node, but does not inherit from it"
+                ),
+            ),
+        ),
+        Example(
+            "any object",
+            {"talker.py": _NODE.format("(object)")},
+            reports=(
+                Report(
+                    "talker.py:4:7", "Talker uses methods of Node, but does not inherit from it"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
 
@@ -44,12 +44,24 @@ class NumberForDuration(Rule):
         Example(
             "numbers",
             {"talker.py": _NODE.format("1.0", "5.0")},
-            at=("talker.py:8", "talker.py:11"),
+            reports=(
+                Report(
+                    "talker.py:8:22", "a Time and a number: TypeError; use Duration(seconds=...)"
+                ),
+                Report(
+                    "talker.py:11:16",
+                    "a Duration and a number cannot be compared: write Duration(seconds=...)",
+                ),
+            ),
         ),
         Example(
             "a duration by position",
             {"talker.py": _NODE.format("Duration(1.0)", "Duration(seconds=5.0)")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:47", "Duration() takes keywords only: seconds=..., nanoseconds=..."
+                ),
+            ),
         ),
     )
 

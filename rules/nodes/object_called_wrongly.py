@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of, has, is_method
 
@@ -55,7 +55,18 @@ class ObjectCalledWrongly(Rule):
         Example(
             "all wrong",
             {"talker.py": _NODE.format("()", "Trigger()", "self.done()", "")},
-            at=("talker.py:10", "talker.py:13", "talker.py:13", "talker.py:16"),
+            reports=(
+                Report(
+                    "talker.py:10:55",
+                    "qos_profile_sensor_data is a profile, no function: leave the parentheses out",
+                ),
+                Report("talker.py:13:9", "done() is called here: pass the function itself"),
+                Report(
+                    "talker.py:13:32",
+                    "Trigger itself cannot be made: NotImplementedError; write Trigger.Request()",
+                ),
+                Report("talker.py:16:9", "a Publisher cannot be called itself: TypeError"),
+            ),
         ),
         Example(
             "a class of a module that is called action",
@@ -68,7 +79,11 @@ class ObjectCalledWrongly(Rule):
         Example(
             "a value of an object",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
-            at=("talker.py:12",),
+            reports=(
+                Report(
+                    "talker.py:12:22", "nanoseconds is a value, no method: TypeError; leave () out"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.publish_rate import publish_calls
 
@@ -37,7 +37,17 @@ class OneShotVolatile(Rule):
     severity = Severity.WARNING
     examples = (
         Example("kept", {"server.py": _NODE.format(_LATCHED)}),
-        Example("lost", {"server.py": _NODE.format("1")}, at=("server.py:11",)),
+        Example(
+            "lost",
+            {"server.py": _NODE.format("1")},
+            reports=(
+                Report(
+                    "server.py:11:9",
+                    "the only message on 'map' is published in the constructor, as "
+                    "volatile: before any subscriber is found",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.call_fit import misfit
 from scaffold.model.called_function import called_function
 from scaffold.model.handlers import is_harmless
@@ -47,16 +47,28 @@ class OwnCallUnfit(Rule):
                 "talker/node.py": "import rclpy\n\nfrom talker.text import make\n\n"
                 "rclpy.init()\nprint(make('a', 1))\nprint(make('a'))\n",
             },
-            at=("talker/node.py:7",),
+            reports=(Report("talker/node.py:7:7", "make() needs count as well: TypeError"),),
         ),
         Example(
             "a constructor",
             {"talker.py": _NODE.format("'a'") + "\n\nTALKER = Talker('talker')\n"},
-            at=("talker.py:16",),
+            reports=(Report("talker.py:16:10", "Talker() takes no arguments, not 1: TypeError"),),
         ),
-        Example("nothing", {"talker.py": _NODE.format("")}, at=("talker.py:9",)),
-        Example("too much", {"talker.py": _NODE.format("'a', 2, 3")}, at=("talker.py:9",)),
-        Example("another name", {"talker.py": _NODE.format("txt='a'")}, at=("talker.py:9",)),
+        Example(
+            "nothing",
+            {"talker.py": _NODE.format("")},
+            reports=(Report("talker.py:9:9", "talk() needs text as well: TypeError"),),
+        ),
+        Example(
+            "too much",
+            {"talker.py": _NODE.format("'a', 2, 3")},
+            reports=(Report("talker.py:9:9", "talk() takes 2 arguments, not 3: TypeError"),),
+        ),
+        Example(
+            "another name",
+            {"talker.py": _NODE.format("txt='a'")},
+            reports=(Report("talker.py:9:9", "talk() has no argument 'txt': TypeError"),),
+        ),
         Example(
             "replaced in a class that inherits, or by hand",
             {

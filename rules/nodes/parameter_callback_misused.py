@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import CALLBACKS, callback_arguments
@@ -44,12 +44,19 @@ class ParameterCallbackMisused(Rule):
         Example(
             "called",
             {"talker.py": _NODE.format("self.on_set([])", "[0]")},
-            at=("talker.py:9",),
+            reports=(
+                Report(
+                    "talker.py:9:45",
+                    "self.on_set([]) is called here: pass it without (): TypeError",
+                ),
+            ),
         ),
         Example(
             "a text",
             {"talker.py": _NODE.format("'on_set'", "[0]")},
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:45", "a callback is a function, and this is a text: TypeError"),
+            ),
         ),
         Example(
             "the list itself; a dictionary",
@@ -57,7 +64,16 @@ class ParameterCallbackMisused(Rule):
                 "one.py": _NODE.format("self.on_set", ""),
                 "two.py": _NODE.format("self.on_set", "['rate']"),
             },
-            at=("one.py:12", "two.py:12"),
+            reports=(
+                Report(
+                    "one.py:12:21",
+                    "parameters is a list of parameters, and has no value: AttributeError",
+                ),
+                Report(
+                    "two.py:12:21",
+                    "parameters is a list of parameters, no dictionary: 'rate' is no place in it",
+                ),
+            ),
         ),
     )
 

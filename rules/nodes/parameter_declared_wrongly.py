@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.descriptors import DESCRIPTOR, message_made
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import Parameter
@@ -43,7 +43,13 @@ class ParameterDeclaredWrongly(Rule):
         Example(
             "a text; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report("talker.py:8:45", "a ParameterDescriptor belongs here, not 'Hz': TypeError"),
+                Report(
+                    "talker.py:9:38",
+                    "a parameter is name, default and descriptor, not 4 values: TypeError",
+                ),
+            ),
         ),
         Example(
             "a range that is no list; the class",
@@ -54,7 +60,17 @@ class ParameterDeclaredWrongly(Rule):
                     ", ParameterDescriptor",
                 )
             },
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:8:45",
+                    "floating_point_range is a list of one range, and this is a range "
+                    "alone: TypeError",
+                ),
+                Report(
+                    "talker.py:9:55",
+                    "this is the class ParameterDescriptor: make an object of it: TypeError",
+                ),
+            ),
         ),
         Example(
             "a class that is no node",
@@ -64,7 +80,13 @@ class ParameterDeclaredWrongly(Rule):
                 "        self.declare_parameter('topic', 'what to wait for', 'chatter')\n"
             },
         ),
-        Example("a number", {"talker.py": _NODE.format("1.0", "None", "")}, at=("talker.py:8",)),
+        Example(
+            "a number",
+            {"talker.py": _NODE.format("1.0", "None", "")},
+            reports=(
+                Report("talker.py:8:32", "the name of a parameter is text, not 1.0: TypeError"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Parameter
 
 _NODE = (
@@ -31,8 +31,22 @@ class ParameterDefaultMissing(Rule):
     name = "parameter-default-missing"
     examples = (
         Example("with", {"talker.py": _NODE.format("'rate', 2.0")}),
-        Example("without", {"talker.py": _NODE.format("'rate'")}, at=("talker.py:7",)),
-        Example("an empty list", {"talker.py": _NODE.format("'names', []")}, at=("talker.py:7",)),
+        Example(
+            "without",
+            {"talker.py": _NODE.format("'rate'")},
+            reports=(
+                Report("talker.py:7:32", "parameter 'rate' has no default: its value is None"),
+            ),
+        ),
+        Example(
+            "an empty list",
+            {"talker.py": _NODE.format("'names', []")},
+            reports=(
+                Report(
+                    "talker.py:7:32", "parameter 'names': an empty list is a list of bytes to rclpy"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import Parameter
 from scaffold.model.nodes import NodeFacts
@@ -48,12 +48,31 @@ class ParameterDefaultUnusable(Rule):
         Example(
             "nothing",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
-            at=("talker.py:9", "talker.py:10"),
+            reports=(
+                Report(
+                    "talker.py:9:40",
+                    "parameter 'rate' has no default: write one, or a Parameter.Type: ValueError",
+                ),
+                Report(
+                    "talker.py:10:47",
+                    "parameter 'mode' has no default: write one, or a Parameter.Type: ValueError",
+                ),
+            ),
         ),
         Example(
             "a class; a number in place of a type",
             {"talker.py": _NODE.format("float", "", "ParameterType.PARAMETER_STRING")},
-            at=("talker.py:9", "talker.py:10"),
+            reports=(
+                Report(
+                    "talker.py:9:40",
+                    "this is the class float: the type is Parameter.Type.DOUBLE: TypeError",
+                ),
+                Report(
+                    "talker.py:10:47",
+                    "this is a number, so the parameter is an integer; the type is "
+                    "Parameter.Type.STRING",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import FIELDS, is_listed_parameter, name_asked, parameter_read
@@ -58,13 +58,25 @@ class ParameterFieldDiffers(Rule):
         Example(
             "another field",
             {"talker.py": _NODE.format("integer_value")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:23",
+                    "'period' is declared as double, so integer_value stays empty",
+                    unsafe_fix="read the field of its type",
+                ),
+            ),
             fixed={"talker.py": _NODE.format("double_value")},
         ),
         Example(
             "through variables",
             {"talker.py": _VARIABLES.format("string_value")},
-            at=("talker.py:9",),
+            reports=(
+                Report(
+                    "talker.py:9:23",
+                    "'period' is declared as double, so string_value stays empty",
+                    unsafe_fix="read the field of its type",
+                ),
+            ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
         ),
     )

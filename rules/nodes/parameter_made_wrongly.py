@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import PARAMETER
 from scaffold.model.values import UNKNOWN
@@ -50,7 +50,10 @@ class ParameterMadeWrongly(Rule):
         Example(
             "no pairs, a type alone",
             {"talker.py": _NODE.format("'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]")},
-            at=("talker.py:8", "talker.py:9"),
+            reports=(
+                Report("talker.py:8:38", "each parameter is a pair ('name', default): TypeError"),
+                Report("talker.py:9:45", "a type needs a value of it: ValueError"),
+            ),
         ),
         Example(
             "a value in place of the type, another type",
@@ -60,7 +63,15 @@ class ParameterMadeWrongly(Rule):
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
                 )
             },
-            at=("talker.py:9", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:9:48", "the second argument is the type: write value=... for a value"
+                ),
+                Report(
+                    "talker.py:9:95",
+                    "the type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import ParameterRead
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_values import stands_for_value
@@ -37,16 +37,35 @@ class ParameterMessageUsed(Rule):
     name = "parameter-message-used"
     examples = (
         Example("a field", {"talker.py": _NODE.format(".double_value")}),
-        Example("computed with", {"talker.py": _NODE.format("")}, at=("talker.py:8",)),
+        Example(
+            "computed with",
+            {"talker.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "talker.py:8:24",
+                    "get_parameter_value() is a message: read a field such as double_value",
+                ),
+            ),
+        ),
         Example(
             "compared",
             {"talker.py": _NODE.format(" > 1.0").replace("1.0 / ", "")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:18",
+                    "get_parameter_value() is a message: read a field such as double_value",
+                ),
+            ),
         ),
         Example(
             "as a period",
             {"talker.py": _NODE.format("").replace("1.0 / ", "")},
-            at=("talker.py:9",),
+            reports=(
+                Report(
+                    "talker.py:9:27",
+                    "get_parameter_value() is a message: read a field such as double_value",
+                ),
+            ),
         ),
     )
 

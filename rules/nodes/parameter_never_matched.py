@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_alone, declared_by, has_always
 from scaffold.model.near import nearest
 from scaffold.model.node_owners import NodeClass
@@ -48,10 +48,21 @@ class ParameterNeverMatched(Rule):
     examples = (
         Example("declared", {"talker.py": _NODE.format("rate", "DOUBLE")}),
         Example(
-            "another name", {"talker.py": _NODE.format("rates", "DOUBLE")}, at=("talker.py:14",)
+            "another name",
+            {"talker.py": _NODE.format("rates", "DOUBLE")},
+            reports=(
+                Report(
+                    "talker.py:14:28",
+                    "the node declares no parameter 'rates'; 'rate' is meant: this is never true",
+                ),
+            ),
         ),
         Example(
-            "another type", {"talker.py": _NODE.format("rate", "INTEGER")}, at=("talker.py:14",)
+            "another type",
+            {"talker.py": _NODE.format("rate", "INTEGER")},
+            reports=(
+                Report("talker.py:14:52", "rate is declared as double, so it is never INTEGER"),
+            ),
         ),
     )
 

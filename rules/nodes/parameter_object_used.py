@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.parameter_values import objects_used
 
 _NODE = (
@@ -45,13 +45,35 @@ class ParameterObjectUsed(Rule):
         Example(
             "the object",
             {"talker.py": _NODE.format("")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:16",
+                    "this is the Parameter, used in line 9, and not its value; append .value",
+                    fix="take the value",
+                ),
+            ),
             fixed={"talker.py": _NODE.format(".value")},
         ),
         Example(
             "a condition, a comparison, a name",
             {"talker.py": _OTHERS.format("", "", "")},
-            at=("talker.py:7", "talker.py:8", "talker.py:9"),
+            reports=(
+                Report(
+                    "talker.py:7:17",
+                    "this is the Parameter, used in line 10, and not its value; append .value",
+                    fix="take the value",
+                ),
+                Report(
+                    "talker.py:8:12",
+                    "this is the Parameter and not its value; append .value",
+                    fix="take the value",
+                ),
+                Report(
+                    "talker.py:9:27",
+                    "this is the Parameter and not its value; append .value",
+                    fix="take the value",
+                ),
+            ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),
     )

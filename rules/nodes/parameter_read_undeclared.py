@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_alone, has_always
 from scaffold.model.handlers import is_harmless
 from scaffold.model.near import nearest
@@ -56,17 +56,36 @@ class ParameterReadUndeclared(Rule):
         Example(
             "another one declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:21",
+                    "parameter 'rate' is not declared; 'rates' is: ParameterNotDeclaredException",
+                ),
+            ),
         ),
         Example(
             "read in a list, set",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
-            at=("talker.py:9", "talker.py:10"),
+            reports=(
+                Report(
+                    "talker.py:9:46",
+                    "parameter 'rats' is not declared; 'rate' is: ParameterNotDeclaredException",
+                ),
+                Report(
+                    "talker.py:10:34",
+                    "parameter 'rates' is not declared; 'rate' is: ParameterNotDeclaredException",
+                ),
+            ),
         ),
         Example(
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
-            at=("talker.py:7",),
+            reports=(
+                Report(
+                    "talker.py:7:21",
+                    "parameter 'rate' is declared in line 8 only: after it is read",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -30,11 +30,20 @@ class ParameterRepeated(Rule):
     name = "parameter-repeated"
     examples = (
         Example("two parameters", {"talker.py": _NODE.format("period")}),
-        Example("one parameter twice", {"talker.py": _NODE.format("rate")}, at=("talker.py:8",)),
+        Example(
+            "one parameter twice",
+            {"talker.py": _NODE.format("rate")},
+            reports=(Report("talker.py:8:32", "parameter 'rate' is declared in line 7 already"),),
+        ),
         Example(
             "one of every node",
             {"talker.py": _NODE.format("use_sim_time")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:32",
+                    "every node declares use_sim_time: ParameterAlreadyDeclaredException",
+                ),
+            ),
         ),
     )
 

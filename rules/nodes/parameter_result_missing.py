@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Callback
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import CALLBACKS
@@ -61,17 +61,38 @@ class ParameterResultMissing(Rule):
         Example(
             "nothing, a bool, a refusal",
             {"talker.py": _NODE.format("parameters", _MIXED)},
-            at=("talker.py:10", "talker.py:12", "talker.py:14"),
+            reports=(
+                Report(
+                    "talker.py:10:9", "on_set does not return a SetParametersResult on every path"
+                ),
+                Report(
+                    "talker.py:12:13",
+                    "returns True, not a SetParametersResult: every change is refused",
+                ),
+                Report(
+                    "talker.py:14:13",
+                    "returns a SetParametersResult without successful=True: every "
+                    "change is refused",
+                ),
+            ),
         ),
         Example(
             "left as it is made",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
-            at=("talker.py:12",),
+            reports=(
+                Report(
+                    "talker.py:12:9",
+                    "returns a SetParametersResult without successful=True: every "
+                    "change is refused",
+                ),
+            ),
         ),
         Example(
             "no parameters",
             {"talker.py": _NODE.format("", _RIGHT)},
-            at=("talker.py:10",),
+            reports=(
+                Report("talker.py:10:9", "on_set takes 0 arguments; it is given the parameters"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import ParameterMade, parameters_set
@@ -37,13 +37,35 @@ class ParameterSetRefused(Rule):
     name = "parameter-set-refused"
     examples = (
         Example("held", {"talker.py": _NODE.format("", "Parameter.Type.DOUBLE, 2.0")}),
-        Example("another type", {"talker.py": _NODE.format("", "value=2")}, at=("talker.py:12",)),
+        Example(
+            "another type",
+            {"talker.py": _NODE.format("", "value=2")},
+            reports=(
+                Report(
+                    "talker.py:12:30",
+                    "rate (talker.py:9) is declared as double, and this is integer: it "
+                    "stays as it is",
+                ),
+            ),
+        ),
         Example(
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
-            at=("talker.py:12",),
+            reports=(
+                Report("talker.py:12:30", "rate (talker.py:9) is read-only, so it stays as it is"),
+            ),
         ),
-        Example("nothing", {"talker.py": _NODE.format("", "")}, at=("talker.py:12",)),
+        Example(
+            "nothing",
+            {"talker.py": _NODE.format("", "")},
+            reports=(
+                Report(
+                    "talker.py:12:30",
+                    "rate (talker.py:9) is declared as double, and this is nothing: it "
+                    "stays as it is",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

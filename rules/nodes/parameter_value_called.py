@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.parameter_objects import FIELDS
 from scaffold.model.rclpy_names import PARAMETER, class_of
@@ -34,11 +34,24 @@ class ParameterValueCalled(Rule):
     name = "parameter-value-called"
     examples = (
         Example("the value", {"talker.py": _NODE.format("value")}),
-        Example("called", {"talker.py": _NODE.format("value()")}, at=("talker.py:8",)),
+        Example(
+            "called",
+            {"talker.py": _NODE.format("value()")},
+            reports=(
+                Report(
+                    "talker.py:8:21", "value is no method of a parameter: leave the parentheses out"
+                ),
+            ),
+        ),
         Example(
             "a field of the message",
             {"talker.py": _NODE.format("get_parameter_value().double_value()")},
-            at=("talker.py:8",),
+            reports=(
+                Report(
+                    "talker.py:8:21",
+                    "double_value is a value, no method: leave the parentheses out",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_by
 from scaffold.model.handlers import is_harmless
 from scaffold.model.nodes import NodeFacts
@@ -47,7 +47,11 @@ class ParameterValueUnfit(Rule):
                 .replace(".value", ".value)")
             },
         ),
-        Example("a text", {"talker.py": _NODE.format("'2.0'")}, at=("talker.py:11",)),
+        Example(
+            "a text",
+            {"talker.py": _NODE.format("'2.0'")},
+            reports=(Report("talker.py:11:27", "rate is declared as string, and 1.0 is a number"),),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import PARAMETER, class_of
 
@@ -36,10 +36,23 @@ class ParametersSetWrongly(Rule):
         Example(
             "a parameter",
             {"talker.py": _NODE.format("Parameter('rate', value=2.0)")},
-            at=("talker.py:7",),
+            reports=(Report("talker.py:7:29", "parameters are set as a list: [Parameter(...)]"),),
         ),
-        Example("a dictionary", {"talker.py": _NODE.format("{'rate': 2.0}")}, at=("talker.py:7",)),
-        Example("pairs", {"talker.py": _NODE.format("[('rate', 2.0)]")}, at=("talker.py:7",)),
+        Example(
+            "a dictionary",
+            {"talker.py": _NODE.format("{'rate': 2.0}")},
+            reports=(Report("talker.py:7:29", "parameters are set as a list: [Parameter(...)]"),),
+        ),
+        Example(
+            "pairs",
+            {"talker.py": _NODE.format("[('rate', 2.0)]")},
+            reports=(
+                Report(
+                    "talker.py:7:30",
+                    "this is no Parameter: write Parameter('name', value=...): TypeError",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.message_values import Kinds
@@ -40,8 +40,24 @@ class PercentFormatUnfit(Rule):
     name = "percent-format-unfit"
     examples = (
         Example("one", {"listener.py": _NODE.format("100 %% heard: %5.1s")}),
-        Example("two", {"listener.py": _NODE.format("%d: %s")}, at=("listener.py:11",)),
-        Example("none", {"listener.py": _NODE.format("heard 5 %%")}, at=("listener.py:11",)),
+        Example(
+            "two",
+            {"listener.py": _NODE.format("%d: %s")},
+            reports=(
+                Report(
+                    "listener.py:11:32", "the text has 2 places for values and gets 1: TypeError"
+                ),
+            ),
+        ),
+        Example(
+            "none",
+            {"listener.py": _NODE.format("heard 5 %%")},
+            reports=(
+                Report(
+                    "listener.py:11:32", "the text has no place for values and gets 1: TypeError"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

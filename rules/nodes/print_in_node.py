@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.nodes import NodeFacts
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
@@ -37,7 +37,11 @@ class PrintInNode(Rule):
     severity = Severity.INFO
     examples = (
         Example("a log", {"talker.py": _NODE.format("self.get_logger().info")}),
-        Example("a print", {"talker.py": _NODE.format("print")}, at=("talker.py:6",)),
+        Example(
+            "a print",
+            {"talker.py": _NODE.format("print")},
+            reports=(Report("talker.py:6:9", "Talker prints instead of logging"),),
+        ),
         Example(
             "a tool for the command line",
             {"talker.py": "import argparse\n" + _NODE.format("print")},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.errors import ViewError
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import Unknown
@@ -45,7 +45,15 @@ class PublisherNeverUsed(Rule):
                 "other.py": "def talk(node, message):\n    node.chatter_pub.publish(message)\n",
             },
         ),
-        Example("never", {"talker.py": _NODE.format("pass")}, at=("talker.py:9",)),
+        Example(
+            "never",
+            {"talker.py": _NODE.format("pass")},
+            reports=(
+                Report(
+                    "talker.py:9:28", "nothing publishes with chatter_pub: 'chatter' stays silent"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

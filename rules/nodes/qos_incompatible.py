@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Endpoint, Publisher
 from scaffold.model.qos import conflict_of
 from scaffold.model.topics import topics_of
@@ -50,7 +50,18 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            at=("a.py:9", "b.py:9"),
+            reports=(
+                Report(
+                    "a.py:9:50",
+                    "the publisher of 'chatter' is BEST_EFFORT, but the subscription in "
+                    "b.py:9 wants RELIABLE: nothing arrives",
+                ),
+                Report(
+                    "b.py:9:60",
+                    "the subscription of 'chatter' wants RELIABLE, but the publisher in "
+                    "a.py:9 is BEST_EFFORT: nothing arrives",
+                ),
+            ),
         ),
         Example(
             "volatile for transient local",
@@ -58,7 +69,18 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format(f"subscription(String, 'chatter', print, {_LATCHED})"),
             },
-            at=("a.py:9", "b.py:9"),
+            reports=(
+                Report(
+                    "a.py:9:50",
+                    "the publisher of 'chatter' is VOLATILE, but the subscription in "
+                    "b.py:9 wants TRANSIENT_LOCAL: nothing arrives",
+                ),
+                Report(
+                    "b.py:9:60",
+                    "the subscription of 'chatter' wants TRANSIENT_LOCAL, but the "
+                    "publisher in a.py:9 is VOLATILE: nothing arrives",
+                ),
+            ),
         ),
     )
 

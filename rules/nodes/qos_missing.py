@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Publisher, Subscription
 
 _NODE = (
@@ -32,11 +32,21 @@ class QosMissing(Rule):
     name = "qos-missing"
     examples = (
         Example("a depth", {"talker.py": _NODE.format("", ", 10")}),
-        Example("nothing", {"talker.py": _NODE.format("", "")}, at=("talker.py:8",)),
+        Example(
+            "nothing",
+            {"talker.py": _NODE.format("", "")},
+            reports=(
+                Report(
+                    "talker.py:8:9", "create_publisher() wants a depth or a QoS profile as well"
+                ),
+            ),
+        ),
         Example(
             "a profile without a depth",
             {"talker.py": _NODE.format(_QOS, ", QoSProfile()")},
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:9", "a QoS profile that keeps the last messages needs a depth"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import Endpoint
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.values import kind_of
@@ -50,16 +50,33 @@ class QosUnusable(Rule):
                 )
             },
         ),
-        Example("a text", {"talker.py": _NODE.format("'10'")}, at=("talker.py:9",)),
+        Example(
+            "a text",
+            {"talker.py": _NODE.format("'10'")},
+            reports=(
+                Report(
+                    "talker.py:9:50",
+                    "a quality of service is a depth or a QoSProfile, not a str: TypeError",
+                ),
+            ),
+        ),
         Example(
             "a depth below nothing",
             {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:67", "a depth is at least 0, and this is -1: ValueError"),
+            ),
         ),
         Example(
             "a policy alone",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
-            at=("talker.py:9",),
+            reports=(
+                Report(
+                    "talker.py:9:50",
+                    "a policy alone is no profile: write QoSProfile(depth=10, "
+                    "...=DurabilityPolicy.TRANSIENT_LOCAL)",
+                ),
+            ),
         ),
         Example(
             "a policy of another kind",
@@ -68,7 +85,13 @@ class QosUnusable(Rule):
                     "QoSProfile(depth=1, reliability=DurabilityPolicy.TRANSIENT_LOCAL)"
                 )
             },
-            at=("talker.py:9",),
+            reports=(
+                Report(
+                    "talker.py:9:82",
+                    "reliability is a ReliabilityPolicy, and this is a "
+                    "DurabilityPolicy: another policy than is meant",
+                ),
+            ),
         ),
     )
 

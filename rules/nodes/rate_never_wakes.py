@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.single_thread import waits_alone
 
@@ -44,7 +44,16 @@ class RateNeverWakes(Rule):
     name = "rate-never-wakes"
     examples = (
         Example("spun in a thread", {**_FILES, "demo/talker.py": _NODE.format(_THREAD)}),
-        Example("nobody spins", {**_FILES, "demo/talker.py": _ALONE}, at=("demo/talker.py:9",)),
+        Example(
+            "nobody spins",
+            {**_FILES, "demo/talker.py": _ALONE},
+            reports=(
+                Report(
+                    "demo/talker.py:9:9",
+                    "this sleep never ends: the thread that would wake it is the one that waits",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.node_entities import Service
 from scaffold.model.returns import is_generator, may_end, returned, value_set_before
@@ -38,7 +38,17 @@ class ResponseNotReturned(Rule):
     name = "response-not-returned"
     examples = (
         Example("returned", {"server.py": _NODE.format("        return response\n")}),
-        Example("nothing", {"server.py": _NODE.format("")}, at=("server.py:10",)),
+        Example(
+            "nothing",
+            {"server.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "server.py:10:9",
+                    "report does not return the response; the service made in line 8 "
+                    "sends what is returned: TypeError",
+                ),
+            ),
+        ),
         Example(
             "on one path only, and something else",
             {
@@ -47,17 +57,40 @@ class ResponseNotReturned(Rule):
                     "        for _ in range(3):\n            return response\n"
                 )
             },
-            at=("server.py:10", "server.py:13"),
+            reports=(
+                Report(
+                    "server.py:10:9",
+                    "report does not return the response on every path; the service "
+                    "made in line 8 sends what is returned: TypeError",
+                ),
+                Report(
+                    "server.py:13:13",
+                    "returns a bool, not the response; the service made in line 8 sends "
+                    "what is returned: TypeError",
+                ),
+            ),
         ),
         Example(
             "a field of it",
             {"server.py": _NODE.format("        return response.success\n")},
-            at=("server.py:12",),
+            reports=(
+                Report(
+                    "server.py:12:9",
+                    "returns a field, response.success, not the response; the service "
+                    "made in line 8 sends what is returned: TypeError",
+                ),
+            ),
         ),
         Example(
             "the request",
             {"server.py": _NODE.format("        return Trigger.Request()\n")},
-            at=("server.py:12",),
+            reports=(
+                Report(
+                    "server.py:12:9",
+                    "returns std_srvs/srv/Trigger.Request, not the response; the "
+                    "service made in line 8 sends what is returned: TypeError",
+                ),
+            ),
         ),
         Example(
             "the class in place of the response",
@@ -66,7 +99,13 @@ class ResponseNotReturned(Rule):
                     "        response = Trigger.Response\n        return response\n"
                 )
             },
-            at=("server.py:13",),
+            reports=(
+                Report(
+                    "server.py:13:9",
+                    "returns the class std_srvs/srv/Trigger.Response, not the response; "
+                    "the service made in line 8 sends what is returned: TypeError",
+                ),
+            ),
         ),
     )
 

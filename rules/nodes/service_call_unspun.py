@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_waits import in_callbacks, in_constructors
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.single_thread import waits_alone
@@ -49,7 +49,13 @@ class ServiceCallUnspun(Rule):
         Example(
             "nobody spins",
             {**_FILES, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
-            at=("demo/caller.py:10",),
+            reports=(
+                Report(
+                    "demo/caller.py:10:5",
+                    "this call never ends: the thread that would take the answer is the "
+                    "one that waits",
+                ),
+            ),
         ),
     )
 

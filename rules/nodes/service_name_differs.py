@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_entities import Endpoint
 from scaffold.model.topics import is_private, is_remapped
 
@@ -39,8 +39,24 @@ class ServiceNameDiffers(Rule):
     severity = Severity.WARNING
     examples = (
         Example("one name", {"nodes.py": _NODE.format("report")}),
-        Example("a slip", {"nodes.py": _NODE.format("reports")}, at=("nodes.py:17",)),
-        Example("private on one side", {"nodes.py": _NODE.format("~/report")}, at=("nodes.py:17",)),
+        Example(
+            "a slip",
+            {"nodes.py": _NODE.format("reports")},
+            reports=(
+                Report("nodes.py:17:51", "nobody offers 'reports'; nodes.py:8 offers 'report'"),
+            ),
+        ),
+        Example(
+            "private on one side",
+            {"nodes.py": _NODE.format("~/report")},
+            reports=(
+                Report(
+                    "nodes.py:17:51",
+                    "nobody offers '~/report'; nodes.py:8 offers 'report': ~ stands for "
+                    "the name of each node itself",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

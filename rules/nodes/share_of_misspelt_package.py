@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_harmless
 from scaffold.model.identity import other_name
 from scaffold.model.launch_uses import Use, meant_package
@@ -47,7 +47,12 @@ class ShareOfMisspeltPackage(Rule):
         Example(
             "a letter is missing",
             {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("taker_py")},
-            at=("talker_py/node.py:8",),
+            reports=(
+                Report(
+                    "talker_py/node.py:8:53",
+                    "no package 'taker_py' is known; 'talker_py' is: this package",
+                ),
+            ),
         ),
     )
 

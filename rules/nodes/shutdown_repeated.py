@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 _MAIN = (
     "import rclpy\n\n\n"
@@ -32,7 +32,13 @@ class ShutdownRepeated(Rule):
         Example(
             "again",
             {"talker.py": _MAIN.format("shutdown")},
-            at=("talker.py:12",),
+            reports=(
+                Report(
+                    "talker.py:12:9",
+                    "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()",
+                    fix="write try_shutdown()",
+                ),
+            ),
             fixed={"talker.py": _MAIN.format("try_shutdown")},
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_entities import RclpyCall
 from scaffold.model.nodes import NodeFacts
 
@@ -43,7 +43,17 @@ class ShutdownUnhandled(Rule):
                 + _HANDLED.format("(KeyboardInterrupt, ExternalShutdownException)")
             },
         ),
-        Example("none is caught", {"talker.py": _IMPORTS + _BARE}, at=("talker.py:8",)),
+        Example(
+            "none is caught",
+            {"talker.py": _IMPORTS + _BARE},
+            reports=(
+                Report(
+                    "talker.py:8:5",
+                    "nothing catches KeyboardInterrupt (Ctrl-C) and "
+                    "ExternalShutdownException (SIGTERM)",
+                ),
+            ),
+        ),
         Example(
             "Ctrl-C has a handler of its own, and SIGTERM is caught",
             {
@@ -56,7 +66,9 @@ class ShutdownUnhandled(Rule):
         Example(
             "SIGTERM is forgotten",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:9", "nothing catches ExternalShutdownException (SIGTERM)"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_waits import in_callbacks
 
 MOST = 2
@@ -42,7 +42,13 @@ class SpinInCallback(Rule):
         Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
-            at=("caller.py:12",),
+            reports=(
+                Report(
+                    "caller.py:12:9",
+                    "rclpy.spin_until_future_complete(self) runs in the callback ask of "
+                    "this very node, which gets no callback after that",
+                ),
+            ),
         ),
     )
 

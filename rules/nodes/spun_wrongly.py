@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.executors import Shutdowns
 from scaffold.model.node_entities import RclpyCall
 from scaffold.model.nodes import NodeFacts
@@ -38,12 +38,18 @@ class SpunWrongly(Rule):
         Example(
             "a class",
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
-            at=("talker.py:14",),
+            reports=(
+                Report(
+                    "talker.py:14:5", "this spins the class Talker: make a node of it, Talker()"
+                ),
+            ),
         ),
         Example(
             "after shutdown",
             {"talker.py": _NODE.format("    rclpy.shutdown()\n    rclpy.spin(node)\n")},
-            at=("talker.py:15",),
+            reports=(
+                Report("talker.py:15:5", "rclpy is shut down in line 14 already: nothing is spun"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.rclpy_names import class_of
 
@@ -42,7 +42,16 @@ class StampComputedWith(Rule):
             "seconds of it",
             {"viewer.py": _NODE.format("msg.header.stamp").replace("stamp\n", "stamp.sec\n")},
         ),
-        Example("as it is", {"viewer.py": _NODE.format("msg.header.stamp")}, at=("viewer.py:12",)),
+        Example(
+            "as it is",
+            {"viewer.py": _NODE.format("msg.header.stamp")},
+            reports=(
+                Report(
+                    "viewer.py:12:15",
+                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                ),
+            ),
+        ),
         Example(
             "two of them, and a number",
             {
@@ -50,7 +59,16 @@ class StampComputedWith(Rule):
                 "        stamp = msg.header.stamp\n"
                 "        return stamp < other.header.stamp or stamp - 0.1\n"
             },
-            at=("viewer.py:17", "viewer.py:17"),
+            reports=(
+                Report(
+                    "viewer.py:17:16",
+                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                ),
+                Report(
+                    "viewer.py:17:46",
+                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                ),
+            ),
         ),
         Example(
             "a header of an own class",

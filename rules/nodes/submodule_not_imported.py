@@ -6,7 +6,7 @@ import ast
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.python_module import PythonModule
 
 SUBMODULES = frozenset(
@@ -43,7 +43,16 @@ class SubmoduleNotImported(Rule):
     name = "submodule-not-imported"
     examples = (
         Example("imported", {"talker.py": _NODE.format("import rclpy.node\n")}),
-        Example("not imported", {"talker.py": _NODE.format("")}, at=("talker.py:4",)),
+        Example(
+            "not imported",
+            {"talker.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "talker.py:4:14",
+                    "`import rclpy` does not load rclpy.node: AttributeError at this line",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 
@@ -40,21 +40,42 @@ class SuperInitMissing(Rule):
                 + "\n    def main(self):\n        super().__init__('talker')\n"
             },
         ),
-        Example("forgotten", {"talker.py": _NODE.format("self.count = 0")}, at=("talker.py:5",)),
+        Example(
+            "forgotten",
+            {"talker.py": _NODE.format("self.count = 0")},
+            reports=(
+                Report(
+                    "talker.py:5:9",
+                    "Talker.__init__() does not call super().__init__(): no node is made",
+                ),
+            ),
+        ),
         Example(
             "the one above Node",
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:9", "begins above Node, whose __init__ is left out; write super()"
+                ),
+            ),
         ),
         Example(
             "of no object",
             {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:9", "super() with a class alone is of no object; write super()"
+                ),
+            ),
         ),
         Example(
             "self twice",
             {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
-            at=("talker.py:6",),
+            reports=(
+                Report(
+                    "talker.py:6:9", "super() passes self already: the name of the node comes first"
+                ),
+            ),
         ),
     )
 

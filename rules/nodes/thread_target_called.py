@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
 
@@ -58,12 +58,18 @@ class ThreadTargetCalled(Rule):
         Example(
             "called, zero, dropped",
             {"talker.py": _NODE.format("()", "0.0", "")},
-            at=("talker.py:9", "talker.py:10", "talker.py:19"),
+            reports=(
+                Report("talker.py:9:33", "work() is called here: pass the function itself"),
+                Report("talker.py:10:27", "a period of 0 takes all of the processor"),
+                Report("talker.py:19:9", "ask() is a coroutine that nobody awaits: it never runs"),
+            ),
         ),
         Example(
             "one argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
-            at=("talker.py:9",),
+            reports=(
+                Report("talker.py:9:50", "(self) is no tuple: TypeError in the thread; (self,) is"),
+            ),
         ),
         Example(
             "spun at once",
@@ -71,7 +77,12 @@ class ThreadTargetCalled(Rule):
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
             },
-            at=("talker.py:10",),
+            reports=(
+                Report(
+                    "talker.py:10:33",
+                    "spins here, not in the thread: target=rclpy.spin, args=(node,)",
+                ),
+            ),
         ),
     )
 

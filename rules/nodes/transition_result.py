@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.node_owners import NodeClass
 from scaffold.model.nodes import NodeFacts
 from scaffold.model.returns import is_generator, may_end, returned
@@ -48,12 +48,25 @@ class TransitionResult(Rule):
         Example(
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
-            at=("talker.py:10",),
+            reports=(
+                Report(
+                    "talker.py:10:9",
+                    "on_configure returns nothing, not a TransitionCallbackReturn: "
+                    "AttributeError when the state changes",
+                ),
+            ),
         ),
         Example(
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
-            at=("talker.py:10", "talker.py:11"),
+            reports=(
+                Report("talker.py:10:9", "on_configure takes 0 arguments; it is given the state"),
+                Report(
+                    "talker.py:11:9",
+                    "returns True, not a TransitionCallbackReturn: AttributeError when "
+                    "the state changes",
+                ),
+            ),
         ),
         Example(
             "the publisher is never told",
@@ -62,12 +75,19 @@ class TransitionResult(Rule):
                     "on_activate(self, state)", "return TransitionCallbackReturn.SUCCESS"
                 )
             },
-            at=("talker.py:10",),
+            reports=(
+                Report(
+                    "talker.py:10:9",
+                    "super().on_activate(state) is not called: the publisher of line 8 is silent",
+                ),
+            ),
         ),
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            at=("talker.py:10",),
+            reports=(
+                Report("talker.py:10:9", "nothing calls on_activated; 'on_activate' is meant"),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.node_waits import in_callbacks, in_constructors
 
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
@@ -35,7 +35,17 @@ class WaitWithoutTimeout(Rule):
     severity = Severity.WARNING
     examples = (
         Example("with one", {"caller.py": _NODE.format("timeout_sec=1.0")}),
-        Example("without", {"caller.py": _NODE.format("")}, at=("caller.py:9",)),
+        Example(
+            "without",
+            {"caller.py": _NODE.format("")},
+            reports=(
+                Report(
+                    "caller.py:9:9",
+                    "without timeout_sec, wait_for_service() lets the constructor of "
+                    "Caller hang until the server is there",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

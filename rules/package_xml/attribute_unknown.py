@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import Structure, structure
 from scaffold.model.xml_tree import Attribute, Element
 
@@ -39,7 +39,20 @@ class AttributeUnknown(Rule):
                 '  <license file="LICENSE">MIT</license>\n'
                 '  <depend version_get="1.2">rclpy</depend>\n</package>\n'
             },
-            at=("package.xml:2", "package.xml:3", "package.xml:4"),
+            reports=(
+                Report(
+                    "package.xml:2:12",
+                    "<version compatibility> is in REP-149, but ament_xmllint's schema refuses it",
+                ),
+                Report(
+                    "package.xml:3:12",
+                    "<license file> needs format 3, but this manifest has format 2",
+                ),
+                Report(
+                    "package.xml:4:11",
+                    '<depend> has no attribute "version_get": it has "version_gt"',
+                ),
+            ),
         ),
     )
 

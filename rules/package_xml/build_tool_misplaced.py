@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.known import BUILD_TOOLS
 
 KINDS = ("depend", "exec_depend", "build_export_depend")
@@ -28,7 +28,13 @@ class BuildToolMisplaced(Rule):
     examples = (
         Example("a build tool", {"package.xml": _MANIFEST.format("buildtool_depend")}),
         Example(
-            "needed to run", {"package.xml": _MANIFEST.format("depend")}, at=("package.xml:2",)
+            "needed to run",
+            {"package.xml": _MANIFEST.format("depend")},
+            reports=(
+                Report(
+                    "package.xml:2:11", "'ament_cmake' builds the package: write <buildtool_depend>"
+                ),
+            ),
         ),
     )
 

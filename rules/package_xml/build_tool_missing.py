@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n{}'
@@ -33,7 +33,13 @@ class BuildToolMissing(Rule):
         Example(
             "forgotten",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS},
-            at=("package.xml:1",),
+            reports=(
+                Report(
+                    "package.xml:1:2",
+                    "nothing declares ament_cmake, which CMakeLists.txt finds",
+                    fix="declare it",
+                ),
+            ),
             fixed={"package.xml": _MANIFEST.format(_DEPEND)},
         ),
     )

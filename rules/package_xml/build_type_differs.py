@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 FILES = {"ament_cmake": "CMakeLists.txt", "cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
@@ -38,7 +38,14 @@ class BuildTypeDiffers(Rule):
                 "</export></package>\n",
                 "setup.py": "",
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:15",
+                    "build type ament_cmake needs a CMakeLists.txt, which the package "
+                    "does not have; its setup.py belongs to ament_python",
+                    fix="write ament_python",
+                ),
+            ),
             fixed={
                 "package.xml": "<package><export>\n"
                 "  <build_type>ament_python</build_type>\n"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 _CMAKE_PACKAGE = "find_package(ament_cmake REQUIRED)\nament_package()\n"
 
@@ -35,7 +35,14 @@ class BuildTypeMissing(Rule):
         Example(
             "a setup.py, and no build type",
             {"package.xml": "<package>\n  <name>talker</name>\n</package>\n", "setup.py": ""},
-            at=("package.xml:1",),
+            reports=(
+                Report(
+                    "package.xml:1:2",
+                    "no <build_type>: colcon takes the package for catkin; write "
+                    "<build_type>ament_python</build_type> in <export>",
+                    fix="declare ament_python",
+                ),
+            ),
             fixed={
                 "package.xml": "<package>\n"
                 "  <name>talker</name>\n"
@@ -51,7 +58,14 @@ class BuildTypeMissing(Rule):
                 "package.xml": "<package>\n  <export>\n    <other/>\n  </export>\n</package>\n",
                 "CMakeLists.txt": _CMAKE_PACKAGE,
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:4",
+                    "no <build_type>: colcon takes the package for catkin; write "
+                    "<build_type>ament_cmake</build_type> in <export>",
+                    fix="declare ament_cmake",
+                ),
+            ),
             fixed={
                 "package.xml": "<package>\n  <export>\n"
                 "    <build_type>ament_cmake</build_type>\n    <other/>\n  </export>\n</package>\n"

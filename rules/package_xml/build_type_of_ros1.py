@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.model.cmake_facts import uses_ament
 
 _MANIFEST = (
@@ -32,7 +32,13 @@ class BuildTypeOfRos1(Rule):
         Example(
             "catkin",
             {"package.xml": _MANIFEST.format("catkin"), **_SETUP},
-            at=("package.xml:4",),
+            reports=(
+                Report(
+                    "package.xml:4:5",
+                    "build type catkin, but the files are those of ament_python",
+                    fix="write ament_python",
+                ),
+            ),
             fixed={"package.xml": _MANIFEST.format("ament_python")},
         ),
     )

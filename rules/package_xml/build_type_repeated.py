@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.condition import ConditionError, holds
 
 _MANIFEST = (
@@ -29,7 +29,16 @@ class BuildTypeRepeated(Rule):
         Example(
             "one for ROS 1", {"package.xml": _MANIFEST.format(' condition="$ROS_VERSION == 1"')}
         ),
-        Example("two", {"package.xml": _MANIFEST.format("")}, at=("package.xml:4",)),
+        Example(
+            "two",
+            {"package.xml": _MANIFEST.format("")},
+            reports=(
+                Report(
+                    "package.xml:4:5",
+                    "another build type stands in line 3: colcon ignores the package",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 
 KNOWN = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "python")
 
@@ -34,7 +34,13 @@ class BuildTypeUnknown(Rule):
                 "  <build_type>ament_pyton</build_type>\n"
                 "</export></package>\n"
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:15",
+                    "colcon knows no build type 'ament_pyton'; 'ament_python' is meant",
+                    fix="write ament_python",
+                ),
+            ),
             fixed={
                 "package.xml": "<package><export>\n"
                 "  <build_type>ament_python</build_type>\n"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.condition import ConditionError, holds
 
 _MANIFEST = '<package format="3">\n  <depend condition="{}">rclpy</depend>\n</package>\n'
@@ -25,7 +25,11 @@ class ConditionMalformed(Rule):
     examples = (
         Example("a comparison", {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy")}),
         Example(
-            "one sign", {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")}, at=("package.xml:2",)
+            "one sign",
+            {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")},
+            reports=(
+                Report("package.xml:2:22", "condition '$ROS_VERSION = 2': '=' is not expected"),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import FORMATS, GROUPS, collapse, structure
 from scaffold.model.manifest_values import CONDITION, GROUP_CONDITION, fits
 
@@ -29,12 +29,22 @@ class ConditionMisplaced(Rule):
         Example(
             "format 2",
             {"package.xml": DEPEND.format(2, "$ROS_VERSION == 2")},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:11", "conditions need format 3, but this manifest has format 2"
+                ),
+            ),
         ),
         Example(
             "a character that no condition has",
             {"package.xml": DEPEND.format(3, "$ROS_VERSION == 2 | 1")},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:22",
+                    "'$ROS_VERSION == 2 | 1': the schema does not allow all of these "
+                    "characters for dependencies",
+                ),
+            ),
         ),
         Example(
             "quotes in the condition of a group",
@@ -42,7 +52,12 @@ class ConditionMisplaced(Rule):
                 "package.xml": '<package format="3">\n'
                 "  <member_of_group condition=\"$A == 'b'\">g</member_of_group>\n</package>\n"
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:31",
+                    "\"$A == 'b'\": the schema does not allow all of these characters for groups",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 
 _TALKER = '<package format="3">\n  <name>talker</name>\n  <depend>listener</depend>\n</package>\n'
 _LISTENER = '<package format="3">\n  <name>listener</name>\n{}</package>\n'
@@ -34,7 +34,7 @@ class DependencyCycle(Rule):
             neighbours={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },
-            at=("package.xml:3",),
+            reports=(Report("package.xml:3:11", "a circle: talker needs listener needs talker"),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 
 
 class DependencyEmpty(Rule):
@@ -24,7 +24,7 @@ class DependencyEmpty(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:3", "<depend> names no package", fix="remove it"),),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
     )

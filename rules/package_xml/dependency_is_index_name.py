@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.known import keys_of_module, module_of_key
 
 
@@ -28,7 +28,13 @@ class DependencyIsIndexName(Rule):
         Example(
             "the name for pip",
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:16",
+                    "rosdep has no rule for 'numpy'; its key is 'python3-numpy'",
+                    fix="write python3-numpy",
+                ),
+            ),
             fixed={
                 "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"
             },

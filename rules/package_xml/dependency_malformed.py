@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _DEBIAN = r"ros-(foxy|galactic|humble|iron|jazzy|kilted|rolling|noetic|melodic)-(.+)"
 _MODULES = (".msg", ".srv", ".action")
@@ -46,20 +46,41 @@ class DependencyMalformed(Rule):
         Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
-            at=("package.xml:3",),
+            reports=(
+                Report("package.xml:3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
+            ),
         ),
         Example(
-            "a version", {"package.xml": _MANIFEST.format("numpy&gt;=1.2")}, at=("package.xml:3",)
+            "a version",
+            {"package.xml": _MANIFEST.format("numpy&gt;=1.2")},
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "'numpy>=1.2' holds a version: rosdep takes all for the name; use "
+                    "version_gte='...'",
+                ),
+            ),
         ),
         Example(
             "a package of Debian",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "'ros-jazzy-std-msgs' is a package of Debian; rosdep knows it as 'std_msgs'",
+                ),
+            ),
         ),
         Example(
             "a build type",
             {"package.xml": _MANIFEST.format("ament_python")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "'ament_python' is a build type, no package: rosdep cannot resolve "
+                    "it; remove it",
+                ),
+            ),
         ),
     )
 

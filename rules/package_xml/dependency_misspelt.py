@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.known import similar_package
 
 
@@ -31,7 +31,13 @@ class DependencyMisspelt(Rule):
         Example(
             "a letter is missing",
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:11",
+                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    fix="write std_msgs",
+                ),
+            ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
     )

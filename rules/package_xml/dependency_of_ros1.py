@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.cmake_facts import uses_ament
 from scaffold.model.known import ROS1_PACKAGES
 
@@ -50,7 +50,10 @@ class DependencyOfRos1(Rule):
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            at=("package.xml:2", "package.xml:3"),
+            reports=(
+                Report("package.xml:2:21", "'catkin' is of ROS 1; ROS 2 has ament_cmake instead"),
+                Report("package.xml:3:11", "'rospy' is of ROS 1; ROS 2 has rclpy instead"),
+            ),
         ),
     )
 

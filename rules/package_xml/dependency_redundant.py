@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 
 COVERED = ("build_depend", "build_export_depend", "exec_depend")
 
@@ -23,6 +23,7 @@ class DependencyRedundant(Rule):
 
     code = "PX025"
     name = "dependency-redundant"
+    other_severities = {Severity.WARNING: "colcon accepts the repetition"}
     examples = (
         Example(
             "two purposes, two tags",
@@ -41,7 +42,14 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n"
                 "</package>\n"
             },
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon "
+                    "refuses both",
+                    fix="remove it",
+                ),
+            ),
             fixed={
                 "package.xml": '<package format="3">\n  <depend>std_msgs</depend>\n</package>\n'
             },
@@ -54,7 +62,14 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n"
                 "</package>\n"
             },
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "<exec_depend> 'std_msgs' stands in line 2 already",
+                    fix="remove it",
+                    severity=Severity.WARNING,
+                ),
+            ),
             fixed={
                 "package.xml": '<package format="3">\n'
                 "  <exec_depend>std_msgs</exec_depend>\n</package>\n"
@@ -85,4 +100,4 @@ class DependencyRedundant(Rule):
             fix = Fix("remove it", (manifest.remove(dependency.element),))
             is_refused = kind == "depend" or other is not None
             severity = Severity.ERROR if is_refused else Severity.WARNING
-            yield self.report(dependency, message, fix)._replace(severity=severity)
+            yield self.report(dependency, message, fix, severity=severity)

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.known import ROS1_PACKAGES, ROS_PACKAGES, module_of_key, similar_package
 
 PACKAGE = "[a-z][a-z0-9_]*"
@@ -60,7 +60,13 @@ class DependencyUnresolvable(Rule):
         Example(
             "neither",
             {"package.xml": _MANIFEST.format("pyserial-3")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:11",
+                    "rosdep's cache has no rule for 'pyserial-3', and no package of the "
+                    "workspace or of AMENT_PREFIX_PATH has the name",
+                ),
+            ),
             rosdep_keys=_KEYS,
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest_structure import LIMITS, structure
 from scaffold.model.manifest_values import LIMIT, fits
 
@@ -34,7 +34,7 @@ class DependencyVersionMalformed(Rule):
                 "package.xml": '<package format="2">\n'
                 '  <depend version_gte="1.x">a</depend>\n</package>\n'
             },
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:24", 'version_gte="1.x" is not one to three numbers'),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 
@@ -29,7 +29,13 @@ class DependsOnItself(Rule):
         Example(
             "on itself",
             {"package.xml": _MANIFEST.format("  <exec_depend>talker</exec_depend>\n")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:16",
+                    "<exec_depend> 'talker': a package cannot need itself",
+                    fix="remove it",
+                ),
+            ),
             fixed={"package.xml": _MANIFEST.format("")},
         ),
     )

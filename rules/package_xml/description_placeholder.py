@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.placeholders import is_placeholder
 
 
@@ -33,12 +33,19 @@ class DescriptionPlaceholder(Rule):
                 "  <description>TODO: Package description</description>\n"
                 "</package>\n"
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:3",
+                    "the description is a placeholder, 'TODO: Package description'",
+                ),
+            ),
         ),
         Example(
             "nothing",
             {"package.xml": "<package>\n  <description> </description>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report("package.xml:2:3", "the description is empty: colcon refuses the package"),
+            ),
         ),
     )
 

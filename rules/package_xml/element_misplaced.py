@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Safety, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Safety, Severity
 from scaffold.model.manifest_structure import Misplaced, structure
 
 RIGHT = """\
@@ -45,13 +45,25 @@ class ElementMisplaced(Rule):
         Example(
             "<author> before <license>",
             {"package.xml": EARLY},
-            at=("package.xml:6",),
+            reports=(
+                Report(
+                    "package.xml:6:4",
+                    "<author> must stand behind <license> in line 7 and before <depend> in line 8",
+                    fix="put the elements in order",
+                ),
+            ),
             fixed={"package.xml": RIGHT},
         ),
         Example(
             "<export> before a dependency",
             {"package.xml": LATE},
-            at=("package.xml:9",),
+            reports=(
+                Report(
+                    "package.xml:9:4",
+                    "<export> must stand behind <exec_depend> in line 10",
+                    fix="put the elements in order",
+                ),
+            ),
             fixed={
                 "package.xml": RIGHT.replace(
                     "  <export/>\n", "  <exec_depend>launch</exec_depend>\n  <export/>\n"

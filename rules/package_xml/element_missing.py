@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import REQUIRED, structure
 
 ALL = """\
@@ -42,7 +42,15 @@ class ElementMissing(Rule):
                     if "maintainer" not in line and "license" not in line
                 )
             },
-            at=("package.xml:1", "package.xml:1"),
+            reports=(
+                Report(
+                    "package.xml:1:2", "no <license>: every manifest has one, behind <maintainer>"
+                ),
+                Report(
+                    "package.xml:1:2",
+                    "no <maintainer>: every manifest has one, behind <description>",
+                ),
+            ),
         ),
         Example(
             "misspelt: said by another rule",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import structure
 
 
@@ -31,7 +31,11 @@ class ElementNested(Rule):
                 "package.xml": "<package>\n  <license>\n"
                 "    <url>http://a.org</url>\n  </license>\n</package>\n"
             },
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:6", "<url> stands inside of <license>, which holds text only"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model.manifest_structure import structure
 
 ONE = '<package format="3">\n  <name>talker</name>\n'
@@ -27,13 +27,19 @@ class ElementRepeated(Rule):
         Example(
             "the same again",
             {"package.xml": f"{ONE}  <name>talker</name>\n</package>\n"},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "a second <name>: the first is in line 2",
+                    fix="remove the second one",
+                ),
+            ),
             fixed={"package.xml": f"{ONE}</package>\n"},
         ),
         Example(
             "another one",
             {"package.xml": f"{ONE}  <name>listener</name>\n</package>\n"},
-            at=("package.xml:3",),
+            reports=(Report("package.xml:3:4", "a second <name>: the first is in line 2"),),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.manifest_structure import Structure, Unknown, structure
 
 HEAD = '<package format="{}">\n  <name>talker</name>\n'
@@ -33,7 +33,13 @@ class ElementUnknown(Rule):
         Example(
             "of format 1 in format 3",
             {"package.xml": HEAD.format(3) + "  <run_depend>rclpy</run_depend>\n</package>\n"},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "<run_depend> is of format 1: in format 3 it is <exec_depend>",
+                    unsafe_fix="write <exec_depend>",
+                ),
+            ),
             fixed={
                 "package.xml": HEAD.format(3) + "  <exec_depend>rclpy</exec_depend>\n</package>\n"
             },
@@ -41,12 +47,23 @@ class ElementUnknown(Rule):
         Example(
             "of format 3 in format 2",
             {"package.xml": HEAD.format(2) + "  <group_depend>a</group_depend>\n</package>\n"},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "<group_depend> needs format 3, but this manifest has format 2",
+                ),
+            ),
         ),
         Example(
             "misspelt",
             {"package.xml": HEAD.format(2) + "  <licence>MIT</licence>\n</package>\n"},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "<licence> is not known in format 2: <license> is",
+                    unsafe_fix="write <license>",
+                ),
+            ),
             fixed={"package.xml": HEAD.format(2) + "  <license>MIT</license>\n</package>\n"},
         ),
     )

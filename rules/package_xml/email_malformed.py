@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import collapse, structure
 from scaffold.model.manifest_values import EMAIL, fits
 
@@ -29,12 +29,12 @@ class EmailMalformed(Rule):
         Example(
             "spelt out",
             {"package.xml": '<package>\n  <author email="a at b.org">A</author>\n</package>\n'},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:18", "'a at b.org' is no e-mail address"),),
         ),
         Example(
             "no domain",
             {"package.xml": '<package>\n  <maintainer email="a@b">A</maintainer>\n</package>\n'},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:22", "'a@b' is no e-mail address"),),
         ),
     )
 

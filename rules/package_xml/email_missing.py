@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import structure
 
 
@@ -31,7 +31,7 @@ class EmailMissing(Rule):
         Example(
             "a maintainer without",
             {"package.xml": "<package>\n  <maintainer>A</maintainer>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:4", "the maintainer 'A' has no email"),),
         ),
     )
 

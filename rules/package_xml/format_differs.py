@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.manifest import XmlModel
 from scaffold.model.manifest_structure import FORMATS
 
@@ -35,18 +35,31 @@ class FormatDiffers(Rule):
         Example(
             "different",
             {"package.xml": LINE.format(2) + '<package format="3"/>\n'},
-            at=("package.xml:1",),
+            reports=(
+                Report(
+                    "package.xml:1:1",
+                    "names the schema of format 2, but <package> has 3",
+                    fix="name the schema of format 3",
+                ),
+            ),
             fixed={"package.xml": LINE.format(3) + '<package format="3"/>\n'},
         ),
         Example(
             "none, so 1",
             {"package.xml": LINE.format(3) + "<package/>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:2",
+                    "no format: that is format 1, but the schema named is format 3",
+                ),
+            ),
         ),
         Example(
             "a format that does not exist",
             {"package.xml": LINE.format(3) + '<package format="4"/>\n'},
-            at=("package.xml:2",),
+            reports=(
+                Report("package.xml:2:18", 'format="4" does not exist: there are 1, 2 and 3'),
+            ),
         ),
     )
 

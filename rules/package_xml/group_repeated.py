@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _MANIFEST = (
     '<package format="3">\n  <group_depend>drivers</group_depend>\n'
@@ -26,7 +26,13 @@ class GroupRepeated(Rule):
     name = "group-repeated"
     examples = (
         Example("two groups", {"package.xml": _MANIFEST.format("tools")}),
-        Example("one group", {"package.xml": _MANIFEST.format("drivers")}, at=("package.xml:3",)),
+        Example(
+            "one group",
+            {"package.xml": _MANIFEST.format("drivers")},
+            reports=(
+                Report("package.xml:3:3", "member of the group 'drivers' that line 2 depends on"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model.brought_along import provided_by
 from scaffold.model.known import similar_package
 from scaffold.model.needs import declared, needs
@@ -38,7 +38,14 @@ class ImportDeclaredByOthers(Rule):
         Example(
             "brought along by launch_ros",
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "talker/node.py:1 imports 'rclpy', which only launch_ros brings "
+                    "along; add <exec_depend>rclpy</exec_depend>",
+                    fix="declare rclpy",
+                ),
+            ),
             fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model.cmake_interfaces import generations, is_interface_package
 from scaffold.model.manifest import Manifest
 
@@ -41,18 +41,66 @@ class InterfaceDeclarationsMissing(Rule):
 
     code = "PX040"
     name = "interface-declarations-missing"
+    other_severities = {
+        Severity.WARNING: "another declared message package brings the runtime along"
+    }
     examples = (
         Example("all three", {"package.xml": _manifest(_BUILD + _RUN + _MEMBER), **_FILES}),
         Example(
             "without the group",
             {"package.xml": _manifest(_BUILD + _RUN), **_FILES},
-            at=("package.xml:4",),
+            reports=(
+                Report(
+                    "package.xml:4:4",
+                    "CMakeLists.txt:2 generates interfaces, but there is no "
+                    "<member_of_group> rosidl_interface_packages: CMake stops",
+                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                ),
+            ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+        ),
+        Example(
+            "another message package brings the runtime along",
+            {
+                "package.xml": _manifest(_BUILD + "  <depend>std_msgs</depend>\n" + _MEMBER),
+                **_FILES,
+            },
+            reports=(
+                Report(
+                    "package.xml:4:4",
+                    "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
+                    "rosidl_default_runtime",
+                    fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                    severity=Severity.WARNING,
+                ),
+            ),
+            fixed={
+                "package.xml": _manifest(_BUILD + _RUN + "  <depend>std_msgs</depend>\n" + _MEMBER)
+            },
         ),
         Example(
             "without anything",
             {"package.xml": _manifest(""), **_FILES},
-            at=("package.xml:1", "package.xml:1", "package.xml:1"),
+            reports=(
+                Report(
+                    "package.xml:1:2",
+                    "CMakeLists.txt:2 generates interfaces, but no <buildtool_depend> "
+                    "rosidl_default_generators",
+                    fix="add <buildtool_depend>rosidl_default_generators</buildtool_depend>",
+                ),
+                Report(
+                    "package.xml:1:2",
+                    "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
+                    "rosidl_default_runtime",
+                    fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                ),
+                Report(
+                    "package.xml:1:2",
+                    "CMakeLists.txt:2 generates interfaces, but there is no "
+                    "<member_of_group> rosidl_interface_packages: CMake stops",
+                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                ),
+            ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
@@ -61,7 +109,15 @@ class InterfaceDeclarationsMissing(Rule):
                 "package.xml": _manifest(_BUILD + _RUN).replace('"3"', '"2"'),
                 **_FILES,
             },
-            at=("package.xml:4",),
+            reports=(
+                Report(
+                    "package.xml:4:4",
+                    "CMakeLists.txt:2 generates interfaces, but there is no "
+                    "<member_of_group> rosidl_interface_packages: CMake stops; groups "
+                    "need package format 3",
+                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                ),
+            ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
         ),
     )
@@ -77,9 +133,9 @@ class InterfaceDeclarationsMissing(Rule):
             changes = [manifest.insert(tag, text)]
             changes += _format_3(manifest) if tag == "member_of_group" else []
             fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))
-            found = self.report(last.name_location, message, fix)
             is_there = text in _RUNTIMES and any(n.endswith(_KINDS) for n in manifest.run_names)
-            yield found._replace(severity=Severity.WARNING) if is_there else found
+            severity = Severity.WARNING if is_there else Severity.ERROR
+            yield self.report(last.name_location, message, fix, severity=severity)
 
 
 def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _TEXTS: Mapping[str, tuple[str, ...]] = {
     "apache": ("apache license", "version 2.0"),
@@ -44,7 +44,11 @@ class LicenseDiffers(Rule):
         Example(
             "another",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:3", "'MIT' is declared, but LICENSE holds the Apache License 2.0"
+                ),
+            ),
         ),
     )
 

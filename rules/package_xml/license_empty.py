@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 
 class LicenseEmpty(Rule):
@@ -24,7 +24,9 @@ class LicenseEmpty(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <license> </license>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report("package.xml:2:3", "the licence is empty: colcon refuses the package"),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model.spdx import spdx_of
 
 
@@ -31,13 +31,19 @@ class LicenseNotSpdx(Rule):
         Example(
             "another spelling",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:12",
+                    "the SPDX identifier of 'GPLv3' is GPL-3.0-only",
+                    fix="write GPL-3.0-only",
+                ),
+            ),
             fixed={"package.xml": "<package>\n  <license>GPL-3.0-only</license>\n</package>\n"},
         ),
         Example(
             "which BSD?",
             {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),),
         ),
     )
 

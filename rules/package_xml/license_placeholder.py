@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.placeholders import is_placeholder
 
 
@@ -30,7 +30,13 @@ class LicensePlaceholder(Rule):
                 "  <license>TODO: License declaration</license>\n"
                 "</package>\n"
             },
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:12",
+                    "the licence is a placeholder, 'TODO: License declaration': nobody "
+                    "may use the package",
+                ),
+            ),
         ),
     )
 

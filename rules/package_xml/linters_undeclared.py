@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 
 _LINTERS = frozenset(
     f"ament_cmake_{name}"
@@ -57,7 +57,14 @@ class LintersUndeclared(Rule):
         Example(
             "none",
             {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
-            at=("package.xml:3",),
+            reports=(
+                Report(
+                    "package.xml:3:4",
+                    "CMakeLists.txt:5 runs the linters that <test_depend> names, and "
+                    "none is named; add <test_depend>ament_lint_common</test_depend>",
+                    fix="declare ament_lint_common",
+                ),
+            ),
             fixed={
                 "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n")
             },

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 
 
@@ -36,7 +36,9 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="root@todo.todo">root</maintainer>\n'
                 "</package>\n"
             },
-            at=("package.xml:2",),
+            reports=(
+                Report("package.xml:2:22", "'root@todo.todo' of <maintainer> reaches nobody"),
+            ),
         ),
         Example(
             "no name",
@@ -45,7 +47,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com"></maintainer>\n'
                 "</package>\n"
             },
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:3", "<maintainer> has no name"),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.identity import other_name
 
 _MANIFEST = '<package format="3">\n  <name>{}</name>\n</package>\n'
@@ -30,7 +30,14 @@ class NameDiffersFromFiles(Rule):
         Example(
             "renamed here alone",
             {**_FILES, "package.xml": _MANIFEST.format("robot_talker")},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:9",
+                    "the name is 'robot_talker', but 'talker' in CMakeLists.txt and the "
+                    "files around it",
+                    unsafe_fix="write talker",
+                ),
+            ),
             fixed={"package.xml": _MANIFEST.format("talker")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest_structure import structure
 from scaffold.model.manifest_values import NAME, fits
 
@@ -24,26 +24,59 @@ class NameMalformed(Rule):
 
     code = "PX067"
     name = "name-malformed"
+    other_severities = {Severity.WARNING: "only dashes are wrong, and the package has no messages"}
     examples = (
         Example("well-formed", {"package.xml": "<package><name>talker_2</name></package>\n"}),
         Example(
             "a capital and a dash",
             {"package.xml": "<package>\n  <name>Talker-two</name>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:9",
+                    "the name 'Talker-two' has - in it: only a to z, 0 to 9 and _ are allowed",
+                ),
+            ),
+        ),
+        Example(
+            "a dash",
+            {"package.xml": "<package><name>the-talker</name></package>\n"},
+            reports=(
+                Report(
+                    "package.xml:1:16",
+                    "the name 'the-talker' has - in it: only a to z, 0 to 9 and _ are allowed",
+                    severity=Severity.WARNING,
+                ),
+            ),
+        ),
+        Example(
+            "a dash in the name of a package with messages",
+            {"package.xml": "<package><name>the-msgs</name></package>\n", "msg/Beat.msg": ""},
+            reports=(
+                Report(
+                    "package.xml:1:16",
+                    "the name 'the-msgs' has - in it: only a to z, 0 to 9 and _ are allowed",
+                ),
+            ),
         ),
         Example(
             "two underscores",
             {"package.xml": "<package>\n  <name>talker__two</name>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:9",
+                    "the name 'talker__two' has an underscore at its end or two in a row",
+                ),
+            ),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element, name in structure(package).values("name"):
             if not fits(NAME, name):
-                found = self.report(element.text_location, f"the name {name!r} {_reason(name)}")
                 is_plain = fits(NAME, name.replace("-", "_")) and not package.glob("msg/*.msg")
-                yield found._replace(severity=Severity.WARNING) if is_plain else found
+                severity = Severity.WARNING if is_plain else Severity.ERROR
+                message = f"the name {name!r} {_reason(name)}"
+                yield self.report(element.text_location, message, severity=severity)
 
 
 def _reason(name: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest_structure import structure
 
 
@@ -33,7 +33,10 @@ class TextBetweenElements(Rule):
                 "package.xml": "<package>\n  <name>talker</name>>\n  <export>\n"
                 "    ament_python\n  </export>\n</package>\n"
             },
-            at=("package.xml:2", "package.xml:4"),
+            reports=(
+                Report("package.xml:2:22", "text stands between the elements: only comments may"),
+                Report("package.xml:4:5", "text stands between the elements: only comments may"),
+            ),
         ),
     )
 

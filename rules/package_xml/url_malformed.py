@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest_structure import structure
 from scaffold.model.manifest_values import is_uri
 
@@ -27,7 +27,7 @@ class UrlMalformed(Rule):
         Example(
             "no port",
             {"package.xml": "<package>\n  <url>http://a.org:port/b</url>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:8", "'http://a.org:port/b' is not a URL"),),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest_structure import collapse, structure
 from scaffold.model.manifest_values import URL_TYPES
 
@@ -32,7 +32,12 @@ class UrlTypeUnknown(Rule):
         Example(
             "unknown",
             {"package.xml": '<package>\n  <url type="homepage">http://a.org</url>\n</package>\n'},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:14",
+                    "the url type 'homepage' is not known, only website, bugtracker, repository",
+                ),
+            ),
         ),
     )
 

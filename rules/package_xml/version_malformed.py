@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.manifest_structure import structure
 from scaffold.model.manifest_values import VERSION, fits
 
@@ -27,17 +27,19 @@ class VersionMalformed(Rule):
         Example(
             "two numbers",
             {"package.xml": "<package>\n  <version>0.1</version>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:12", "the version '0.1' is not MAJOR.MINOR.PATCH"),),
         ),
         Example(
             "a suffix",
             {"package.xml": "<package>\n  <version>0.1.0-rc1</version>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(
+                Report("package.xml:2:12", "the version '0.1.0-rc1' is not MAJOR.MINOR.PATCH"),
+            ),
         ),
         Example(
             "a leading zero",
             {"package.xml": "<package>\n  <version>0.01.0</version>\n</package>\n"},
-            at=("package.xml:2",),
+            reports=(Report("package.xml:2:12", "the version '0.01.0' has a leading zero"),),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 
 LINE = (
     '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" '
@@ -34,7 +34,13 @@ class XmlModelMissing(Rule):
         Example(
             "without",
             {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
-            at=("package.xml:2",),
+            reports=(
+                Report(
+                    "package.xml:2:2",
+                    "no <?xml-model ...?> line: no tool validates this manifest",
+                    fix="name the schema",
+                ),
+            ),
             fixed={
                 "package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'
             },

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 MANIFEST = "package.xml"
 
@@ -30,9 +30,16 @@ class XmlNotWellFormed(Rule):
         Example(
             "an element is not closed",
             {"launch/talker.launch.xml": "<launch>\n  <node>\n</launch>\n"},
-            at=("launch/talker.launch.xml:3",),
+            reports=(
+                Report(
+                    "launch/talker.launch.xml:3:1",
+                    "</node> expected, <node> opened at line 2 is not closed",
+                ),
+            ),
         ),
-        Example("empty", {"plugins.xml": ""}, at=("plugins.xml:1",)),
+        Example(
+            "empty", {"plugins.xml": ""}, reports=(Report("plugins.xml:1:1", "the file is empty"),)
+        ),
         Example("not linted", {"AMENT_IGNORE": "", "broken.xml": "<a>"}),
     )
 

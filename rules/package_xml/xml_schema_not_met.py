@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 HEAD = '<launch xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
 USE = HEAD + '        xsi:noNamespaceSchemaLocation="a.xsd">\n'
@@ -40,9 +40,21 @@ class XmlSchemaNotMet(Rule):
         Example(
             "does not fit",
             {"a.xsd": SCHEMA, "a.launch.xml": f"{USE}  <nod/>\n</launch>\n"},
-            at=("a.launch.xml:3",),
+            reports=(
+                Report(
+                    "a.launch.xml:3:1",
+                    "does not fit a.xsd: Element 'nod': This element is not expected. "
+                    "Expected is ( node )",
+                ),
+            ),
         ),
-        Example("no such schema", {"a.launch.xml": f"{USE}</launch>\n"}, at=("a.launch.xml:1",)),
+        Example(
+            "no such schema",
+            {"a.launch.xml": f"{USE}</launch>\n"},
+            reports=(
+                Report("a.launch.xml:1:1", "names the schema a.xsd, but there is no file a.xsd"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

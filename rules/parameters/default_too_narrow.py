@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_by
 from scaffold.model.parameter_files import parameter_file, parameter_paths, value_type
 from scaffold.model.parameter_types import a_type, agreed_type, narrow_default
@@ -37,8 +37,28 @@ class DefaultTooNarrow(Rule):
     name = "default-too-narrow"
     examples = (
         Example("doubles", _files("1.0", "2.5")),
-        Example("an integer", _files("1", "2.5"), at=("talker.py:7",)),
-        Example("a number in quotes", _files("'1'", "2"), at=("talker.py:7",)),
+        Example(
+            "an integer",
+            _files("1", "2.5"),
+            reports=(
+                Report(
+                    "talker.py:7:9",
+                    "the default is an integer, but a.yaml:3 sets a double: the node "
+                    "dies; declare a double",
+                ),
+            ),
+        ),
+        Example(
+            "a number in quotes",
+            _files("'1'", "2"),
+            reports=(
+                Report(
+                    "talker.py:7:9",
+                    "the default is a string, but a.yaml:3 sets an integer: the node "
+                    "dies; declare an integer",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

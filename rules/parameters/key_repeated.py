@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.errors import ParseError
 from scaffold.model import yaml_tree
 from scaffold.model.parameter_files import parameter_paths
@@ -29,7 +29,13 @@ class KeyRepeated(Rule):
     severity = Severity.WARNING
     examples = (
         Example("once", {"a.yaml": _FILE.format("speed")}),
-        Example("twice", {"a.yaml": _FILE.format("rate")}, at=("a.yaml:4",)),
+        Example(
+            "twice",
+            {"a.yaml": _FILE.format("rate")},
+            reports=(
+                Report("a.yaml:4:5", "'rate' stands in line 3 already: only this one counts"),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

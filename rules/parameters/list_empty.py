@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_by, place_of
 from scaffold.model.handlers import is_harmless
 from scaffold.model.node_entities import ParameterRead
@@ -50,7 +50,13 @@ class ListEmpty(Rule):
         Example(
             "none",
             {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[]")},
-            at=("a.yaml:3",),
+            reports=(
+                Report(
+                    "a.yaml:3:12",
+                    "an empty list is no value: talker.py:8 reads names, "
+                    "ParameterUninitializedException",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.parameter_files import mixed, parameter_file, parameter_paths, scalar_type
 from scaffold.model.yaml_tree import Scalar, Sequence
 
@@ -30,13 +30,24 @@ class ListMixesTypes(Rule):
         Example(
             "integers among doubles",
             {"config/a.yaml": _FILE.format("[1, 2.5, -3]")},
-            at=("config/a.yaml:3",),
+            reports=(
+                Report(
+                    "config/a.yaml:3:16",
+                    "gains mixes integer (1) and double (2.5); rcl refuses the file",
+                    fix="write all with a point",
+                ),
+            ),
             fixed={"config/a.yaml": _FILE.format("[1.0, 2.5, -3.0]")},
         ),
         Example(
             "a word that is a boolean",
             {"config/a.yaml": _FILE.format("[left, right, off]")},
-            at=("config/a.yaml:3",),
+            reports=(
+                Report(
+                    "config/a.yaml:3:26",
+                    "gains mixes string (left) and bool (off); rcl refuses the file",
+                ),
+            ),
         ),
     )
 

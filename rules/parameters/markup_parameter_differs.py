@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import declared_by, place_of
 from scaffold.model.launch_markup import MarkupNode, is_known, markup_files
 from scaffold.model.near import nearest
@@ -66,12 +66,28 @@ class MarkupParameterDiffers(Rule):
                 "launch/a.launch.xml": _LAUNCH.format("rate", "2"),
                 "launch/b.launch.yaml": _YAML.format("2"),
             },
-            at=("launch/a.launch.xml:3", "launch/b.launch.yaml:7"),
+            reports=(
+                Report(
+                    "launch/a.launch.xml:3:31",
+                    "rate (demo/talk.py:7) is declared as double, but this is an "
+                    "integer: the node dies",
+                ),
+                Report(
+                    "launch/b.launch.yaml:7:14",
+                    "rate (demo/talk.py:7) is declared as double, but this is an "
+                    "integer: the node dies",
+                ),
+            ),
         ),
         Example(
             "another name",
             {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rates", "2.0")},
-            at=("launch/a.launch.xml:3",),
+            reports=(
+                Report(
+                    "launch/a.launch.xml:3:18",
+                    "the node declares no parameter 'rates'; 'rate' is meant",
+                ),
+            ),
         ),
     )
 

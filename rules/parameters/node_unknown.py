@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import own_nodes
 from scaffold.model.parameter_files import ParameterFile, parameter_file, parameter_paths
 from scaffold.model.parameter_use import names_alike, node_names, use_of
@@ -52,7 +52,12 @@ class NodeUnknown(Rule):
         Example(
             "the name of the executable",
             {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
-            at=("config/a.yaml:1",),
+            reports=(
+                Report(
+                    "config/a.yaml:1:1",
+                    "no node of this package is called 'talker_node'; 'talker' is meant",
+                ),
+            ),
         ),
         Example(
             "a controller",
@@ -69,7 +74,12 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH,
                 "config/demo.yaml": _FILE.format("eye"),
             },
-            at=("config/demo.yaml:1",),
+            reports=(
+                Report(
+                    "config/demo.yaml:1:1",
+                    "no node is called 'eye': launch/a.launch.py:10 gives this file to camera",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import Declared, declared_by, place_of
 from scaffold.model.launch_nodes import started_nodes
 from scaffold.model.launch_values import value_given
@@ -46,7 +46,18 @@ class ParameterOutOfRange(Rule):
                 "a.yaml": _FILE.format("1.5"),
                 "b.yaml": _FILE.format("0.25"),
             },
-            at=("a.yaml:3", "b.yaml:3"),
+            reports=(
+                Report(
+                    "a.yaml:3:11",
+                    "gain (talker.py:10) is in the range 0.0 to 1.0 in steps of 0.1, "
+                    "and 1.5 is not: the node dies",
+                ),
+                Report(
+                    "b.yaml:3:11",
+                    "gain (talker.py:10) is in the range 0.0 to 1.0 in steps of 0.1, "
+                    "and 0.25 is not: the node dies",
+                ),
+            ),
         ),
     )
 

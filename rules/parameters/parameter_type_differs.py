@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model.declared_parameters import declared_by
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.launch_values import value_given
@@ -53,13 +53,26 @@ class ParameterTypeDiffers(Rule):
         Example(
             "an integer, a boolean",
             {"talker.py": _NODE, "a.yaml": _FILE.format("2", "on")},
-            at=("a.yaml:3", "a.yaml:4"),
+            reports=(
+                Report(
+                    "a.yaml:3:11",
+                    "rate (talker.py:7) is a double, but this is an integer",
+                    fix="write it with a point",
+                ),
+                Report(
+                    "a.yaml:4:11",
+                    "mode (talker.py:8) is a string, but this is a bool",
+                    unsafe_fix="put it in quotes",
+                ),
+            ),
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
         Example(
             "a string",
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
-            at=("a.yaml:3",),
+            reports=(
+                Report("a.yaml:3:11", "rate (talker.py:7) is a double, but this is a string"),
+            ),
         ),
         Example(
             "for a node of another package of the workspace",
@@ -72,12 +85,22 @@ class ParameterTypeDiffers(Rule):
                     "demo/talker.py": _NODE,
                 }
             },
-            at=("launch/demo.launch.py:8",),
+            reports=(
+                Report(
+                    "launch/demo.launch.py:8:22",
+                    "rate (demo/talker.py:7 of demo) is a double, but 2 is an integer",
+                ),
+            ),
         ),
         Example(
             "a text for what every node has",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
-            at=("a.yaml:3",),
+            reports=(
+                Report(
+                    "a.yaml:3:19",
+                    "use_sim_time, which every node has, is a bool, but this is a string",
+                ),
+            ),
         ),
     )
 

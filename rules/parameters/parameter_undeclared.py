@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.declared_parameters import Declared, declared_by
 from scaffold.model.launch_nodes import StartedNode, started_nodes
 from scaffold.model.near import nearest
@@ -61,7 +61,16 @@ class ParameterUndeclared(Rule):
                 "talker.py": _NODE.format(""),
                 "a.yaml": _FILE.format("limits:\n      hihg: 4\n    text: hello"),
             },
-            at=("a.yaml:6", "a.yaml:7"),
+            reports=(
+                Report(
+                    "a.yaml:6:7",
+                    "the node talker declares no parameter 'limits.hihg'; 'limits.high' is meant",
+                ),
+                Report(
+                    "a.yaml:7:5",
+                    "the node talker declares no parameter 'text'; it has limits.high, rate",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.launch_nodes import consumers
 from scaffold.model.parameter_files import KEY, Misplaced, parameter_file, parameter_paths
 from scaffold.model.parameter_use import is_loaded, use_of
@@ -38,7 +38,18 @@ class RosParametersMissing(Rule):
                 "config/a.yaml": _FILE.format("ros_parameters"),
                 "config/b.yaml": _FILE.format("ros__parameter"),
             },
-            at=("config/a.yaml:2", "config/b.yaml:2"),
+            reports=(
+                Report(
+                    "config/a.yaml:2:3",
+                    "ros_parameters is no key of a parameter file; it is ros__parameters",
+                    fix="write ros__parameters",
+                ),
+                Report(
+                    "config/b.yaml:2:3",
+                    "ros__parameter is no key of a parameter file; it is ros__parameters",
+                    fix="write ros__parameters",
+                ),
+            ),
             fixed={
                 "config/a.yaml": _FILE.format("ros__parameters"),
                 "config/b.yaml": _FILE.format("ros__parameters"),
@@ -47,7 +58,12 @@ class RosParametersMissing(Rule):
         Example(
             "left out for one node of two",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
-            at=("config/a.yaml:5",),
+            reports=(
+                Report(
+                    "config/a.yaml:5:3",
+                    "'rate' stands under no ros__parameters: node name, ros__parameters, value",
+                ),
+            ),
         ),
     )
 

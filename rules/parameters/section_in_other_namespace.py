@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_nodes import StartedNode
 from scaffold.model.parameter_files import Section, parameter_file, parameter_paths
 from scaffold.model.parameter_use import use_of
@@ -45,7 +45,16 @@ class SectionInOtherNamespace(Rule):
     examples = (
         Example("no namespace", _files("camera")),
         Example("any namespace", _files("/**/camera")),
-        Example("another namespace", _files("/front/camera"), at=("config/demo.yaml:1",)),
+        Example(
+            "another namespace",
+            _files("/front/camera"),
+            reports=(
+                Report(
+                    "config/demo.yaml:1:1",
+                    "this section is for /front/camera, but launch/a.launch.py:10 starts /camera",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.parameter_files import parameter_file, parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
@@ -33,7 +33,11 @@ class ValueRefused(Rule):
                 "b.yaml": _FILE.format("&rate 2.0\n    more: *rate"),
                 "c.yaml": _FILE.format("[[1.0, 2.0], [3.0]]"),
             },
-            at=("a.yaml:3", "b.yaml:4", "c.yaml:3"),
+            reports=(
+                Report("a.yaml:3:5", "rate has no value; write ~ or '' for an empty string"),
+                Report("b.yaml:4:11", "more is the alias *rate; rcl has no aliases"),
+                Report("c.yaml:3:12", "rate is a list of lists; rcl has none"),
+            ),
         ),
         Example(
             "no node; no parameters",
@@ -41,7 +45,10 @@ class ValueRefused(Rule):
                 "a.yaml": "ros__parameters:\n  rate: 2.0\n",
                 "b.yaml": "talker:\n  ros__parameters:\n",
             },
-            at=("a.yaml:1", "b.yaml:2"),
+            reports=(
+                Report("a.yaml:1:1", "no node name stands above ros__parameters"),
+                Report("b.yaml:2:3", "ros__parameters holds no parameters"),
+            ),
         ),
     )
 

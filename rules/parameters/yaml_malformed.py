@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.parameter_files import mistake, parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n{}"
@@ -32,7 +32,16 @@ class YamlMalformed(Rule):
                 "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
                 "config/c.yaml": _FILE.format("    rate: 2.0: 3\n"),
             },
-            at=("config/a.yaml:3", "config/b.yaml:4", "config/c.yaml:3"),
+            reports=(
+                Report("config/a.yaml:3:1", "a tab indents this line; YAML takes spaces alone"),
+                Report(
+                    "config/b.yaml:4:1",
+                    "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
+                ),
+                Report(
+                    "config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.launch_files import DATA_DIRECTORIES
 from scaffold.model.setup_py import DataFile
 from scaffold.model.values import Glob
@@ -42,17 +42,31 @@ class DataDestinationDiffers(Rule):
         Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:10",
+                    "installs launch/talk.launch.py to share/launch; it is looked for "
+                    "in share/talker/",
+                ),
+            ),
         ),
         Example(
             "absolute",
             {**_FILES, "setup.py": _SETUP.format("'/share/talker/launch'", _GLOB)},
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:10",
+                    "installs to /share/talker/launch: an absolute path leaves the "
+                    "workspace; write share/talker/...",
+                ),
+            ),
         ),
         Example(
             "no list",
             {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
-            at=("setup.py:6",),
+            reports=(
+                Report("setup.py:6:9", "the files are a string, not a list: the build stops"),
+            ),
         ),
         Example(
             "no comma",
@@ -62,7 +76,11 @@ class DataDestinationDiffers(Rule):
                     "]),", f"])\n        ('share/talker/launch', {_GLOB}),"
                 ),
             },
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:9", "a comma is missing behind this: 'tuple' object is not callable"
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.setup_files import matches
 from scaffold.model.values import Glob
 
@@ -61,7 +61,14 @@ class DataFileMissing(Rule):
                 "package.xml": "<package/>\n",
                 "launch/talk.launch.py": "",
             },
-            at=("setup.py:8", "setup.py:9"),
+            reports=(
+                Report("setup.py:8:42", "data_files names LICENCE, which is not there"),
+                Report(
+                    "setup.py:9:33",
+                    "the pattern launch/*_launch.py matches no file; "
+                    "launch/talk.launch.py is there",
+                ),
+            ),
         ),
     )
 

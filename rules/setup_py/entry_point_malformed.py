@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _SETUP = (
     "from setuptools import setup\n\n"
@@ -35,12 +35,23 @@ class EntryPointMalformed(Rule):
                     "        'listener = listener.node:main',\n"
                 )
             },
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:9",
+                    "a comma is missing behind this console script: it is joined to the next",
+                ),
+            ),
         ),
         Example(
             "no function",
             {"setup.py": _SETUP.format("        'talker = talker.node',\n")},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:9",
+                    "console script 'talker = talker.node': no function is named: name "
+                    "= module:function",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.setup_py import EntryPoint
 
 _SETUP = (
@@ -45,7 +45,14 @@ class EntryPointMissing(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            at=("setup.py:5", "setup.py:6"),
+            reports=(
+                Report("setup.py:5:9", "talker/node.py has no 'run': `ros2 run` of 'talker' fails"),
+                Report(
+                    "setup.py:6:9",
+                    "there is no talker/nodes.py; talker/node.py is near: `ros2 run` of "
+                    "'other' fails",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.setup_py import EntryPoint
 
 _SETUP = (
@@ -30,7 +30,15 @@ class EntryPointRepeated(Rule):
     name = "entry-point-repeated"
     examples = (
         Example("two names", {"setup.py": _SETUP.format("listener")}),
-        Example("one name", {"setup.py": _SETUP.format("talker")}, at=("setup.py:8",)),
+        Example(
+            "one name",
+            {"setup.py": _SETUP.format("talker")},
+            reports=(
+                Report(
+                    "setup.py:8:9", "'talker' is the name of another entry point: only one is made"
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.model.setup_py import EntryPoint
 
 _SETUP = (
@@ -33,12 +33,19 @@ class EntryPointUnusable(Rule):
         Example(
             "without the package",
             {"setup.py": _SETUP.format("node"), **_FILES},
-            at=("setup.py:6",),
+            reports=(
+                Report("setup.py:6:39", "no module 'node' is installed; 'talker.node' is meant"),
+            ),
         ),
         Example(
             "another package",
             {"setup.py": _SETUP.format("my_package.node"), **_FILES},
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:39",
+                    "no module 'my_package.node' is installed; 'talker.node' is meant",
+                ),
+            ),
         ),
         Example(
             "an argument",
@@ -47,7 +54,13 @@ class EntryPointUnusable(Rule):
                 **_FILES,
                 "talker/node.py": "def main(args):\n    pass\n",
             },
-            at=("talker/node.py:1",),
+            reports=(
+                Report(
+                    "talker/node.py:1:5",
+                    "the entry point 'node' of setup.py calls main() without arguments: "
+                    "TypeError; give args a default",
+                ),
+            ),
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _KNOWN = frozenset(
     """
@@ -48,12 +48,22 @@ class KeywordMisspelt(Rule):
         Example(
             "the keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:5",
+                    "setup() has no 'entry_point': nobody reads it; 'entry_points' is meant",
+                ),
+            ),
         ),
         Example(
             "the group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
-            at=("setup.py:7",),
+            reports=(
+                Report(
+                    "setup.py:7:9",
+                    "nobody reads the group 'console_script': 'console_scripts' makes executables",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 
 _MANIFEST = (
     "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
@@ -37,7 +37,13 @@ class ManifestNotInstalled(Rule):
         Example(
             "forgotten",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_MARKER)},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:16",
+                    "data_files does not install package.xml to share/talker",
+                    fix="install package.xml",
+                ),
+            ),
             fixed={"setup.py": _SETUP.format(_LINE + _MARKER)},
         ),
     )

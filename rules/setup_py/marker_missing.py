@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model.identity import other_name
 
 INDEX = "share/ament_index/resource_index/packages"
@@ -41,7 +41,13 @@ class MarkerMissing(Rule):
         Example(
             "the file is missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH)},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:64",
+                    "data_files names resource/talker, which does not exist: the build stops",
+                    fix="create resource/talker",
+                ),
+            ),
             fixed={"resource/talker": ""},
         ),
     )

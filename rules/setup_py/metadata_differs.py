@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.manifest import Manifest
 from scaffold.model.placeholders import is_placeholder, is_placeholder_address
 from scaffold.model.spdx import spdx_of
@@ -54,7 +54,12 @@ class MetadataDiffers(Rule):
         Example(
             "another version and another licence",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
-            at=("setup.py:5", "setup.py:9"),
+            reports=(
+                Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
+                Report(
+                    "setup.py:9:13", "license is 'MIT', but 'Apache-2.0' in package.xml, line 6"
+                ),
+            ),
         ),
     )
 

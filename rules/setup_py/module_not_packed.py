@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.setup_py import FindPackages, SetupPy
 from scaffold.model.values import Unknown
 
@@ -37,19 +37,40 @@ class ModuleNotPacked(Rule):
                 **_FILES,
             },
         ),
-        Example("none", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:3",)),
+        Example(
+            "none",
+            {"setup.py": _SETUP.format(""), **_FILES},
+            reports=(
+                Report(
+                    "setup.py:3:1", "packages leaves out 'talker', which the entry points start"
+                ),
+            ),
+        ),
         Example(
             "left out",
             {
                 "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
                 **_FILES,
             },
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:14",
+                    "find_packages leaves out 'talker', which the entry points start",
+                ),
+            ),
         ),
         Example(
             "another name",
             {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
-            at=("setup.py:5", "setup.py:5"),
+            reports=(
+                Report(
+                    "setup.py:5:14", "packages leaves out 'talker', which the entry points start"
+                ),
+                Report(
+                    "setup.py:5:14",
+                    "packages names 'demo', but there is no such directory: the build stops",
+                ),
+            ),
         ),
         Example(
             "no __init__.py",
@@ -57,7 +78,12 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(),\n"),
                 "talker/node.py": "def main():\n    pass\n",
             },
-            at=("talker/__init__.py:1",),
+            reports=(
+                Report(
+                    "talker/__init__.py:1:1",
+                    "missing: find_packages does not install talker/ without it",
+                ),
+            ),
         ),
     )
 

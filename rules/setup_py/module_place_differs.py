@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
 _FILES = {"src/talker/__init__.py": "", "src/text.py": ""}
@@ -37,7 +37,12 @@ class ModulePlaceDiffers(Rule):
         Example(
             "not there",
             {"setup.py": _SETUP.format("    package_dir={'': 'lib'},\n"), **_FILES},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:17",
+                    "package_dir names lib/, which does not exist: nothing is installed",
+                ),
+            ),
         ),
         Example(
             "a package",
@@ -45,7 +50,12 @@ class ModulePlaceDiffers(Rule):
                 "setup.py": _SETUP.format("    py_modules=['talker'],\n"),
                 "talker/__init__.py": "",
             },
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:16",
+                    "talker/ is a package: it belongs in packages, not in py_modules",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.model import setup_keywords
 from scaffold.model.identity import other_name
 
@@ -38,7 +38,13 @@ class NameDiffers(Rule):
                 "package.xml": _MANIFEST,
                 "setup.py": "from setuptools import setup\n\nsetup(name='listener')\n",
             },
-            at=("setup.py:3",),
+            reports=(
+                Report(
+                    "setup.py:3:12",
+                    "the name is 'listener', but 'talker' in package.xml, line 1",
+                    unsafe_fix="write talker",
+                ),
+            ),
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.own_modules import names_imported
 from scaffold.model.python_module import PythonModule
 from scaffold.model.setup_py import SetupPy
@@ -51,7 +51,17 @@ class NodeWithoutEntryPoint(Rule):
                 "talker/node_old.py": _NODE,
             },
         ),
-        Example("one is not", {"setup.py": _SETUP.format(""), **_FILES}, at=("setup.py:6",)),
+        Example(
+            "one is not",
+            {"setup.py": _SETUP.format(""), **_FILES},
+            reports=(
+                Report(
+                    "setup.py:6:18",
+                    "talker/other.py is a node with a main, but no entry point starts "
+                    "it; add 'other = talker.other:main'",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.own_files import own_files
 from scaffold.model.setup_files import matches, package_data
 
@@ -39,7 +39,17 @@ class PackageDataMissing(Rule):
             "installed with the package",
             {**_FILES, "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n")},
         ),
-        Example("left out", {**_FILES, "setup.py": _SETUP.format("")}, at=("setup.py:5",)),
+        Example(
+            "left out",
+            {**_FILES, "setup.py": _SETUP.format("")},
+            reports=(
+                Report(
+                    "setup.py:5:14",
+                    "talker/text.py:3 reads talker/words.txt, which is not installed; "
+                    "add package_data={'talker': ['words.txt']}",
+                ),
+            ),
+        ),
         Example(
             "read as a resource; another file is installed",
             {
@@ -48,7 +58,13 @@ class PackageDataMissing(Rule):
                 "WORDS = files('talker').joinpath('words.txt').read_text()\n",
                 "setup.py": _SETUP.format("    package_data={'talker': ['*.json']},\n"),
             },
-            at=("setup.py:6",),
+            reports=(
+                Report(
+                    "setup.py:6:18",
+                    "talker/text.py:3 reads talker/words.txt, which is not installed; "
+                    "add package_data={'talker': ['words.txt']}",
+                ),
+            ),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    {},\n)\n"
 _READ = "long_description=open('README.md').read()"
@@ -25,11 +25,25 @@ class ReadFileMissing(Rule):
     name = "read-file-missing"
     examples = (
         Example("there", {"setup.py": _SETUP.format(_READ), "README.md": "# talker\n"}),
-        Example("missing", {"setup.py": _SETUP.format(_READ)}, at=("setup.py:5",)),
+        Example(
+            "missing",
+            {"setup.py": _SETUP.format(_READ)},
+            reports=(
+                Report(
+                    "setup.py:5:27",
+                    "setup.py opens README.md, which does not exist: the build stops",
+                ),
+            ),
+        ),
         Example(
             "a script",
             {"setup.py": _SETUP.format("scripts=['scripts/talk']")},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:13",
+                    "scripts names scripts/talk, which does not exist: the build stops",
+                ),
+            ),
         ),
     )
 

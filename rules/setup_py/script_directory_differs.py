@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.executables import node_scripts
 from scaffold.model.identity import other_name
 
@@ -54,7 +54,14 @@ class ScriptDirectoryDiffers(Rule):
                 "setup.py": _SETUP,
                 "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/other"),
             },
-            at=("setup.cfg:4",),
+            reports=(
+                Report(
+                    "setup.cfg:4:17",
+                    "install_scripts is '$base/lib/other'; `ros2 run talker` looks in "
+                    "$base/lib/talker",
+                    fix="write $base/lib/talker",
+                ),
+            ),
             fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
@@ -65,7 +72,13 @@ class ScriptDirectoryDiffers(Rule):
                 "setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n",
                 "talker/node.py": "import rclpy\n",
             },
-            at=("setup.cfg:1",),
+            reports=(
+                Report(
+                    "setup.cfg:1:1",
+                    "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
+                    fix="write $base/lib/talker",
+                ),
+            ),
             fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 
 _CFG = "[develop]\nscript{0}dir=$base/lib/talker\n[install]\ninstall{0}scripts=$base/lib/talker\n"
 
@@ -28,7 +28,18 @@ class SetupCfgKeyDashed(Rule):
         Example(
             "dashes",
             {"setup.py": "", "setup.cfg": _CFG.format("-")},
-            at=("setup.cfg:2", "setup.cfg:4"),
+            reports=(
+                Report(
+                    "setup.cfg:2:1",
+                    "setuptools wants 'script_dir' instead of 'script-dir'",
+                    fix="write script_dir",
+                ),
+                Report(
+                    "setup.cfg:4:1",
+                    "setuptools wants 'install_scripts' instead of 'install-scripts'",
+                    fix="write install_scripts",
+                ),
+            ),
             fixed={"setup.cfg": _CFG.format("_")},
         ),
     )

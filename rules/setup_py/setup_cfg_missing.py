@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model.executables import node_scripts
 
 _CFG = "[develop]\nscript_dir=$base/lib/{0}\n[install]\ninstall_scripts=$base/lib/{0}\n"
@@ -50,7 +50,14 @@ class SetupCfgMissing(Rule):
         Example(
             "missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
-            at=("setup.cfg:1",),
+            reports=(
+                Report(
+                    "setup.cfg:1:1",
+                    "no setup.cfg: 'talker' of setup.py lands in bin/, where `ros2 run` "
+                    "does not look",
+                    fix="write setup.cfg",
+                ),
+            ),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 
 _MANIFEST = (
     "<package format='3'><name>talker</name><export><build_type>{}</build_type></export>"
@@ -46,7 +46,14 @@ class SetupOfCatkin(Rule):
         Example(
             "for ament_python",
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
-            at=("setup.py:2",),
+            reports=(
+                Report(
+                    "setup.py:2:1",
+                    "generate_distutils_setup() is of catkin: package.xml, build type "
+                    "ament_python, needs a setup() of its own with data_files and "
+                    "entry_points",
+                ),
+            ),
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.model.launch_files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.setup_files import installed_data
 
@@ -33,6 +33,7 @@ class ShareFileNotInstalled(Rule):
 
     code = "SP010"
     name = "share-file-not-installed"
+    other_severities = {Severity.WARNING: "nothing in the package names the directory"}
     examples = (
         Example(
             "installed",
@@ -52,7 +53,18 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "config/talker.yaml": "",
             },
-            at=("setup.py:7", "setup.py:7"),
+            reports=(
+                Report(
+                    "setup.py:7:16",
+                    "data_files does not install launch/talk.launch.py: `ros2 launch` "
+                    "does not find it",
+                ),
+                Report(
+                    "setup.py:7:16",
+                    "data_files installs nothing of config/, for instance config/talker.yaml",
+                    severity=Severity.WARNING,
+                ),
+            ),
         ),
         Example(
             "a name that the pattern does not match",
@@ -64,7 +76,13 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "launch/talk_all.py": _LAUNCH,
             },
-            at=("setup.py:7",),
+            reports=(
+                Report(
+                    "setup.py:7:16",
+                    "data_files does not install launch/talk_all.py: `ros2 launch` does "
+                    "not find it",
+                ),
+            ),
         ),
     )
 
@@ -82,9 +100,9 @@ class ShareFileNotInstalled(Rule):
             files = data_files(package, directory)
             if files and not installed.intersection(files):
                 message = f"data_files installs nothing of {directory}/, for instance {files[0]}"
-                found = self.report(at, message)
-                wanted = is_named(package, directory)
-                yield found if wanted else found._replace(severity=Severity.WARNING)
+                is_used = is_named(package, directory)
+                severity = Severity.ERROR if is_used else Severity.WARNING
+                yield self.report(at, message, severity=severity)
 
 
 def _is_copy(path: str, stems: tuple[str, ...]) -> bool:

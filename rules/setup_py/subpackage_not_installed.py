@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.model.setup_py import FindPackages
 from scaffold.model.values import Unknown
 
@@ -50,7 +50,14 @@ class SubpackageNotInstalled(Rule):
         Example(
             "one listed",
             {**_FILES, "setup.py": _SETUP.format("find_packages, setup", "['talker']")},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:14",
+                    "packages leaves out talker.text: it is not installed; write "
+                    "find_packages(exclude=['test'])",
+                    fix="write find_packages(exclude=['test'])",
+                ),
+            ),
             fixed={"setup.py": _SETUP.format("find_packages, setup", _FIND)},
         ),
     )

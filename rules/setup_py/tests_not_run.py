@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.model import setup_keywords
 
 EXTRAS = ("test", "tests", "testing")
@@ -32,7 +32,14 @@ class TestsNotRun(Rule):
         Example(
             "not said",
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
-            at=("setup.py:3",),
+            reports=(
+                Report(
+                    "setup.py:3:1",
+                    "nothing says that test/test_talker.py needs pytest: colcon runs 0 "
+                    "tests; add extras_require={'test': ['pytest']}",
+                    fix="add extras_require={'test': ['pytest']}",
+                ),
+            ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.model import setup_keywords
 
 _NEW = "extras_require={'test': ['pytest']}"
@@ -30,7 +30,14 @@ class TestsRequireIgnored(Rule):
         Example(
             "the old way",
             {"setup.py": _SETUP.format("tests_require=['pytest']")},
-            at=("setup.py:5",),
+            reports=(
+                Report(
+                    "setup.py:5:19",
+                    "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
+                    "write extras_require={'test': ['pytest']}",
+                    fix="write extras_require={'test': ['pytest']}",
+                ),
+            ),
             fixed={"setup.py": _SETUP.format(_NEW)},
         ),
     )

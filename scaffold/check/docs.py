@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from inspect import cleandoc
 from typing import TYPE_CHECKING
 
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rule import Example, Report, Rule
 
 if TYPE_CHECKING:
     from scaffold.style.codes import StyleCode
@@ -22,16 +22,14 @@ def summary(rule: type[Rule]) -> str:
 def page(rule: type[Rule]) -> str:
     """Return the documentation of a rule as Markdown."""
     text = cleandoc(rule.__doc__ or "").replace("``", "`")
-    facts = f"Severity: {rule.severity.value} · since {rule.since}"
-    if has_fix(rule):
-        facts += " · can be mended with `--fix`"
+    facts = f"Severity: {_severity(rule)} · since {rule.since}{_fixability(rule)}"
     parts = [f"# {rule.code} {rule.name}", facts, text]
-    rejected = [example for example in rule.examples if example.at]
-    accepted = [example for example in rule.examples if not example.at]
+    rejected = [example for example in rule.examples if example.reports]
+    accepted = [example for example in rule.examples if not example.reports]
     if rejected:
-        parts += ["## Reported", *(_example(example) for example in rejected[:2])]
+        parts += ["## Reported", *(_example(rule, example) for example in rejected[:2])]
     if accepted:
-        parts += ["## Accepted", *(_example(example) for example in accepted[:1])]
+        parts += ["## Accepted", *(_example(rule, example) for example in accepted[:1])]
     return "\n\n".join(parts) + "\n"
 
 
@@ -96,15 +94,36 @@ def has_fix(rule: type[Rule]) -> bool:
     return any(example.fixed is not None for example in rule.examples)
 
 
-def _example(example: Example) -> str:
+def _severity(rule: type[Rule]) -> str:
+    others = [f"{severity.value} if {why}" for severity, why in rule.other_severities.items()]
+    return "; ".join([rule.severity.value, *others])
+
+
+def _fixability(rule: type[Rule]) -> str:
+    """Return how the fixes of a rule are applied, as its examples show it."""
+    reports = [report for example in rule.examples for report in example.reports]
+    if any(report.fix is not None for report in reports):
+        return " · fixable with `--fix`"
+    if any(report.unsafe_fix is not None for report in reports):
+        return " · fixable with `--fix --unsafe-fixes`"
+    return ""
+
+
+def _example(rule: type[Rule], example: Example) -> str:
     parts = [f"*{example.title}*"]
     for path, text in example.files.items():
-        places = [at.rpartition(":")[2] for at in example.at if at.rpartition(":")[0] == path]
-        note = f" (line {', '.join(places)})" if places else ""
-        parts.append(f"`{path}`{note}:")
+        parts.append(f"`{path}`:")
         if text:
             parts.append(f"```{_language(path)}\n{text.rstrip()}\n```")
+    if example.reports:
+        lines = "\n".join(_report(rule, report) for report in example.reports)
+        parts += ["What is reported:", f"```text\n{lines}\n```"]
     return "\n\n".join(parts)
+
+
+def _report(rule: type[Rule], report: Report) -> str:
+    severity = report.severity or rule.severity
+    return f"{report.at}: {severity.value} {rule.code} {report.message} [{rule.name}]"
 
 
 def _language(path: str) -> str:

@@ -20,14 +20,51 @@ class Located(Protocol):
         """The place."""
 
 
+class Report:
+    """What a user reads about one diagnostic of an example, word for word.
+
+    Args:
+        at: The place, ``path:line:column``.
+        message: The message.
+        fix: The title of a safe fix.
+        unsafe_fix: The title of a fix that ``--unsafe-fixes`` applies.
+        severity: The severity where it is not the usual one of the rule.
+    """
+
+    def __init__(
+        self,
+        at: str,
+        message: str,
+        *,
+        fix: str | None = None,
+        unsafe_fix: str | None = None,
+        severity: Severity | None = None,
+    ) -> None:
+        self.at = at
+        self.message = message
+        self.fix = fix
+        self.unsafe_fix = unsafe_fix
+        self.severity = severity
+
+    @property
+    def path(self) -> str:
+        """The file that the diagnostic is about."""
+        return self.at.rsplit(":", 2)[0]
+
+    @property
+    def line(self) -> int:
+        """The line, from 1."""
+        return int(self.at.rsplit(":", 2)[1])
+
+
 class Example:
-    """A package and what a rule says about it: a test and a part of the documentation.
+    """A package and what a rule reports about it: a test and a part of the documentation.
 
     Args:
         title: What it shows.
         files: Text by path; a path ending in ``/`` is an empty directory.
-        at: The exact places, ``path:line``, in reading order; none for an accepted package.
-        fixed: The files that the fix changes or adds; ``None`` when there is no fix.
+        reports: The diagnostics in reading order; none for an accepted package.
+        fixed: The files that the fixes change or add; ``None`` when there is no fix.
         executable: The files with an executable bit.
         neighbours: Other packages of the workspace: files by path, by package directory.
         rosdep_keys: What rosdep resolves; ``None`` for a machine without its cache.
@@ -38,7 +75,7 @@ class Example:
         title: str,
         files: Mapping[str, str],
         *,
-        at: tuple[str, ...] = (),
+        reports: tuple[Report, ...] = (),
         fixed: Mapping[str, str] | None = None,
         executable: tuple[str, ...] = (),
         neighbours: Mapping[str, Mapping[str, str]] | None = None,
@@ -46,7 +83,7 @@ class Example:
     ) -> None:
         self.title = title
         self.files = files
-        self.at = at
+        self.reports = reports
         self.fixed = fixed
         self.executable = executable
         self.neighbours = neighbours or {}
@@ -61,6 +98,8 @@ class Rule:
     name: ClassVar[str]
     """Names the flaw; the file has the same name with underscores."""
     severity: ClassVar[Severity] = Severity.ERROR
+    other_severities: ClassVar[Mapping[Severity, str]] = {}
+    """Severities that a diagnostic may have instead, each with the condition for it."""
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]
@@ -69,6 +108,21 @@ class Rule:
         """Yield what is wrong; a view that the package does not have ends the check silently."""
         raise NotImplementedError
 
-    def report(self, at: Located, message: str, fix: Fix | None = None) -> Diagnostic:
-        """Return a diagnostic of this rule at the place of ``at``."""
-        return Diagnostic(self.code, self.name, self.severity, at.location, message, fix)
+    def report(
+        self,
+        at: Located,
+        message: str,
+        fix: Fix | None = None,
+        *,
+        severity: Severity | None = None,
+    ) -> Diagnostic:
+        """Return a diagnostic of this rule.
+
+        Args:
+            at: What the diagnostic is about; its location is the place.
+            message: What is wrong, what happens, what to do.
+            fix: How to repair it automatically.
+            severity: One of ``other_severities``, where the usual one does not fit.
+        """
+        severity = severity or self.severity
+        return Diagnostic(self.code, self.name, severity, at.location, message, fix)

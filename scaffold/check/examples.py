@@ -1,0 +1,44 @@
+"""Run the examples of rules: they are tests, documentation and what a rule's author looks at."""
+
+from __future__ import annotations
+
+import pickle
+
+from scaffold.check import runner
+from scaffold.check.diagnostic import Diagnostic, Safety
+from scaffold.check.rule import Example, Report, Rule
+from scaffold.model.package import Package
+from scaffold.model.rosdep import RosdepKeys
+from scaffold.model.tree import MemoryTree
+from scaffold.model.workspace import Workspace
+
+
+def package_of(example: Example) -> Package:
+    """Return the package of an example, in the workspace of its neighbors."""
+    workspace = Workspace()
+    # Set on the instance, so that the rosdep cache of this machine has no part in the verdict.
+    data = pickle.dumps({key: {"ubuntu": [key]} for key in example.rosdep_keys or ()}, 2)
+    workspace.rosdep = None if example.rosdep_keys is None else RosdepKeys([data])
+    tree = MemoryTree(dict(example.files), example.executable)
+    package = Package(tree, directory="", workspace=workspace)
+    workspace.add(package)
+    for directory, files in example.neighbours.items():
+        workspace.add(Package(MemoryTree(dict(files)), directory=directory, workspace=workspace))
+    return package
+
+
+def reports(rule: type[Rule], example: Example) -> list[Report]:
+    """Return what a rule reports about an example, in reading order."""
+    return [_report(rule, diagnostic) for diagnostic in runner.check(package_of(example), [rule()])]
+
+
+def _report(rule: type[Rule], diagnostic: Diagnostic) -> Report:
+    at, fix = diagnostic.location, diagnostic.fix
+    severity = None if diagnostic.severity is rule.severity else diagnostic.severity
+    return Report(
+        f"{at.path}:{at.line}:{at.column}",
+        diagnostic.message,
+        fix=fix.title if fix and fix.safety is Safety.SAFE else None,
+        unsafe_fix=fix.title if fix and fix.safety is Safety.UNSAFE else None,
+        severity=severity,
+    )

@@ -1,0 +1,146 @@
+"""Write into rule files what their examples report now; review the result with ``git diff``.
+
+``python scripts/pin_examples.py [CODE ...]``: the rules with these codes or prefixes, else all.
+An example whose report is right already is left alone, its layout included.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from scaffold import content
+from scaffold.check import registry
+from scaffold.check.examples import reports
+from scaffold.check.rule import Report, Rule
+
+WIDTH = 100
+INDENT = " " * 12
+
+
+def main(prefixes: Sequence[str]) -> int:
+    """Rewrite the chosen rule files and list those that changed."""
+    for rule in registry.load(content.roots("rules")):
+        if not prefixes or rule.code.startswith(tuple(prefixes)):
+            path = Path(str(sys.modules[rule.__module__].__file__))
+            before = path.read_text(encoding="utf-8")
+            after = _pinned(rule, before)
+            if after != before:
+                path.write_text(after, encoding="utf-8")
+                sys.stdout.write(f"{rule.code} {path.name}\n")
+    return 0
+
+
+def _pinned(rule: type[Rule], text: str) -> str:
+    """Return the source of a rule file with up-to-date reports in its examples."""
+    calls = list(_example_calls(ast.parse(text)))
+    if len(calls) != len(rule.examples):
+        message = f"{rule.code}: examples must be a tuple of Example(...) calls"
+        raise SystemExit(message)
+    offsets = _line_offsets(text)
+    edits: list[tuple[int, int, str]] = []
+    for call, example in zip(calls, rule.examples, strict=True):
+        current = reports(rule, example)
+        if list(map(vars, current)) != list(map(vars, example.reports)):
+            edits.append(_edit(call, offsets, text, current))
+    for start, end, new in sorted(edits, reverse=True):
+        text = text[:start] + new + text[end:]
+    return _with_imports(text)
+
+
+def _example_calls(module: ast.Module) -> Iterator[ast.Call]:
+    for class_ in module.body:
+        for statement in class_.body if isinstance(class_, ast.ClassDef) else ():
+            if (
+                isinstance(statement, ast.Assign)
+                and ast.unparse(statement.targets[0]) == "examples"
+                and isinstance(statement.value, ast.Tuple)
+            ):
+                yield from (item for item in statement.value.elts if isinstance(item, ast.Call))
+
+
+def _edit(
+    call: ast.Call, offsets: Sequence[int], text: str, current: Sequence[Report]
+) -> tuple[int, int, str]:
+    """Return the replacement of the argument ``reports``, or its insertion after ``files``."""
+    new = f"reports=({''.join(f'{_source(report)}, ' for report in current)})" if current else ""
+    for keyword in call.keywords:
+        if keyword.arg in {"at", "reports"}:
+            end = _offset(offsets, text, keyword.value.end_lineno, keyword.value.end_col_offset)
+            return _offset(offsets, text, keyword.lineno, keyword.col_offset), end, new
+    files = call.args[1]
+    end = _offset(offsets, text, files.end_lineno, files.end_col_offset)
+    return end, end, f", {new}" if new else ""
+
+
+def _source(report: Report) -> str:
+    arguments = [repr(report.at), _string(report.message)]
+    for name in ("fix", "unsafe_fix"):
+        title = getattr(report, name)
+        if title is not None:
+            arguments.append(f"{name}={_string(title)}")
+    if report.severity is not None:
+        arguments.append(f"severity=Severity.{report.severity.name}")
+    return f"Report({', '.join(arguments)})"
+
+
+def _string(text: str) -> str:
+    """Return a literal, in several parts where one would be too long for a line."""
+    room = WIDTH - len(INDENT) - len('unsafe_fix="",') - 8
+    parts = [""]
+    for word in text.split(" "):
+        if parts[-1] and len(parts[-1]) + len(word) > room:
+            parts.append("")
+        parts[-1] += f"{word} "
+    parts[-1] = parts[-1][:-1]
+    return " ".join(map(_literal, parts))
+
+
+def _literal(text: str) -> str:
+    literal = repr(text)
+    if literal.startswith("'") and '"' not in text:
+        return '"' + literal[1:-1].replace("\\'", "'") + '"'
+    return literal
+
+
+def _with_imports(text: str) -> str:
+    """Import the names that the reports need; ruff sorts them."""
+    wanted = [
+        name
+        for name, use in (("Report", " Report("), ("Severity", "severity=Severity."))
+        if use in text.replace("(Report(", " Report(") and not _imports(text, name)
+    ]
+    for name in wanted:
+        text = text.replace("from scaffold.api import ", f"from scaffold.api import {name}, ", 1)
+        text = text.replace(f"import {name}, (", f"import ({name}, ", 1)
+    return text
+
+
+def _imports(text: str, name: str) -> bool:
+    return any(
+        alias.name == name
+        for node in ast.parse(text).body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    )
+
+
+def _line_offsets(text: str) -> list[int]:
+    offsets = [0]
+    for line in text.splitlines(keepends=True):
+        offsets.append(offsets[-1] + len(line))
+    return offsets
+
+
+def _offset(offsets: Sequence[int], text: str, line: int | None, column: int | None) -> int:
+    """Return a character offset: columns of ``ast`` count bytes."""
+    assert line is not None  # noqa: S101  parsed from text
+    start = offsets[line - 1]
+    head = text[start : offsets[line]].encode()[:column]
+    return start + len(head.decode())
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
