@@ -47,6 +47,11 @@ class PlannedFile(NamedTuple):
     before: bytes | None
     """What it holds now; ``None`` for a new file."""
 
+    @property
+    def is_removed(self) -> bool:
+        """Whether the file is to go."""
+        return self.state is State.REMOVED
+
 
 class WritePlan:
     """Files to write below a directory, compared with what is there."""
@@ -106,13 +111,18 @@ class WritePlan:
         """The paths of files that exist and would be changed or removed."""
         return [file.path for file in self.files if file.state in {State.DIFFERING, State.REMOVED}]
 
-    def diff(self, *, hidden: Collection[str] = ()) -> str:
-        """Return the changes as a unified diff, new files included.
+    def diff(self, *, hidden: Collection[str] = (), relative_to: str | None = None) -> str:
+        """Return the changes as a patch that ``git apply`` takes; see `patch.of`.
 
         Args:
             hidden: Paths of files that nobody reads.
+            relative_to: The directory to which the paths in the patch are relative; by default
+                that of `patch.base`.
         """
-        return "".join(_diff(file) for file in self.changes if file.path not in hidden)
+        from scaffold import patch
+
+        base = relative_to or patch.base([self.root])
+        return "".join(patch.of(file, base) for file in self.changes if file.path not in hidden)
 
     def write(self, *, force: bool = False) -> None:
         """Write what differs.
@@ -289,32 +299,3 @@ def _restorer(file: PlannedFile) -> Callable[[], None]:
             raise
 
     return restore
-
-
-def _diff(file: PlannedFile) -> str:
-    from difflib import unified_diff
-
-    from scaffold.printable import printable
-
-    path = printable(file.path)
-    if file.state is State.DIFFERING and file.before == file.content:
-        return f"{path} becomes executable\n"
-    is_removed = file.state is State.REMOVED
-    old = "/dev/null" if file.before is None else f"a/{path}"
-    new = "/dev/null" if is_removed else f"b/{path}"
-    try:
-        before = _lines(file.before or b"")
-        after = _lines(b"" if is_removed else file.content)
-    except UnicodeDecodeError:
-        return f"Binary files {old} and {new} differ\n"
-    return "".join(
-        line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-        for line in unified_diff(before, after, old, new)
-    )
-
-
-def _lines(data: bytes) -> list[str]:
-    """Return the lines with their endings; nothing but a newline ends one."""
-    lines = [line + "\n" for line in data.decode().split("\n")]
-    last = lines.pop()[:-1]
-    return [*lines, last] if last else lines

@@ -15,13 +15,20 @@ def printable(text: str) -> str:
 
 
 def write_lines(text: str, out: TextIO) -> None:
-    """Write lines such as those of a patch: as they are to a file, spelled out on a terminal."""
+    """Write lines such as those of a patch: as they are to a file, spelled out on a terminal.
+
+    Lone surrogates are written as the bytes that they are made of; see `patch.of`.
+    """
     if out.isatty():
         lines = (
             "".join(one if one == "\t" else printable(one) for one in line)
             for line in text.split("\n")
         )
         text = "\n".join(lines)
+    elif (buffer := getattr(out, "buffer", None)) is not None:
+        out.flush()
+        buffer.write(text.encode("utf-8", "surrogateescape"))
+        return
     out.write(text)
 
 

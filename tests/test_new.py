@@ -820,14 +820,14 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
 def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "talker", "--diff"]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("--- /dev/null\n+++ b/.ros2-scaffold.json\n")
-    assert "+++ b/talker/minimal_publisher.py\n" in said
+    assert "--- /dev/null\n+++ b/talker/.ros2-scaffold.json\n" in said
+    assert "+++ b/talker/talker/minimal_publisher.py\n" in said
     assert os.listdir() == []
     assert main(["new", "talker"]) == 0
     (tmp_path / "work" / "talker" / "LICENSE").unlink()
     capsys.readouterr()
     assert main(["new", "talker", "--diff", "--force"]) == 0
-    assert capsys.readouterr().out.startswith("--- /dev/null\n+++ b/LICENSE\n")
+    assert capsys.readouterr().out.startswith("diff --git a/talker/LICENSE b/talker/LICENSE\n")
 
 
 def test_dry_run_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -145,7 +145,7 @@ def test_looking_changes_nothing(
     before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
     assert main(["update", "talker", "--content", str(team), flag]) == 0
     said = capsys.readouterr().out
-    assert f"{NODE}: merged\n" in said or f"+++ b/{NODE}\n" in said
+    assert f"{NODE}: merged\n" in said or f"+++ b/talker/{NODE}\n" in said
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 

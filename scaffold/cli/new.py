@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
     if options.diff:
         write_lines(plan.diff(), sys.stdout)
         return CLEAN
-    print(_summary(options, made, plan))
+    write_lines(f"{_summary(options, made, plan)}\n", sys.stdout)
     if command is not None:
         print(f"\nThe same without questions:\n    {command}")
     return CLEAN
