@@ -1,4 +1,10 @@
-"""Text for terminals: names and contents of files may hold escapes that a terminal obeys."""
+"""Foreign text for terminals: names, contents and messages may hold characters that terminals obey.
+
+Shown as they are: letters, digits, punctuation, symbols and the space of every language. Spelled
+out, as in a Python literal: control characters (C0, C1, among them NUL, ESC and CR), marks that
+turn the direction of text or have no width, other spaces, line and paragraph separators, bytes that
+are no text, and what Unicode has not assigned.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +14,24 @@ if TYPE_CHECKING:
 
 
 def printable(text: str) -> str:
-    """Return one line without escapes for terminals; what cannot be shown is spelled out."""
+    """Return one line that a terminal only shows; what it might obey is spelled out."""
     if text.isprintable():
         return text
     return "".join(one if one.isprintable() else _spelled(one) for one in text)
+
+
+def printable_lines(text: str) -> str:
+    """Return lines that a terminal only shows; their ends and tabs stay."""
+    if text.isprintable():
+        return text
+    return "".join(one if one in "\n\t" or one.isprintable() else _spelled(one) for one in text)
+
+
+def json_text(data: object) -> str:
+    """Return data as JSON in ASCII, for programs and for terminals."""
+    from json import dumps
+
+    return dumps(data, indent=2).replace("\x7f", "\\u007f")
 
 
 def write_lines(text: str, out: TextIO) -> None:
@@ -20,16 +40,12 @@ def write_lines(text: str, out: TextIO) -> None:
     Lone surrogates are written as the bytes that they are made of; see `patch.of`.
     """
     if out.isatty():
-        lines = (
-            "".join(one if one == "\t" else printable(one) for one in line)
-            for line in text.split("\n")
-        )
-        text = "\n".join(lines)
+        out.write(printable_lines(text))
     elif (buffer := getattr(out, "buffer", None)) is not None:
         out.flush()
         buffer.write(text.encode("utf-8", "surrogateescape"))
-        return
-    out.write(text)
+    else:
+        out.write(text)
 
 
 def _spelled(character: str) -> str:

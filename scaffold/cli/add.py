@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -61,7 +62,6 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check.session import Session
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.generate import add
-    from scaffold.printable import printable
 
     target, wanted = _order(options)
     session = Session(registry.load(content.roots("rules")), Selection())
@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     if not (options.diff or options.dry_run):
         plan.write(force=True)
     for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
-        sys.stderr.write(f"note: {printable(note)}\n")
+        terminal.note(note)
     _show(options, target.package, added, plan)
     return FINDINGS if any(one.is_needed for one in added.by_hand) else CLEAN
 
@@ -220,13 +220,11 @@ def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
 
 
 def _report(package: Package, said: list[Diagnostic]) -> None:
-    from scaffold.printable import printable
-
     for diagnostic in said:
-        sys.stderr.write(f"{printable(_line(package, diagnostic))}\n")
-    sys.stderr.write(
+        terminal.say(_line(package, diagnostic))
+    terminal.say(
         "ros2-scaffold: defect: what was to be added has faults that the checker finds; "
-        "nothing was changed; please report it\n"
+        "nothing was changed; please report it"
     )
 
 
@@ -239,14 +237,13 @@ def _line(package: Package, diagnostic: Diagnostic) -> str:
 def _show(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> None:
     """Print the diff or the summary, and what is left to the user."""
     from scaffold.generate.provenance import NAME
-    from scaffold.printable import printable, write_lines
 
     if options.diff:
-        write_lines(plan.diff(hidden=[NAME]), sys.stdout)
+        terminal.show_patch(plan.diff(hidden=[NAME]))
     else:
-        write_lines(f"{_summary(options, package, added, plan)}\n", sys.stdout)
+        terminal.show(_summary(options, package, added, plan))
     for line in _by_hand(package, added):
-        sys.stderr.write(f"{printable(line)}\n")
+        terminal.say(line)
 
 
 def _summary(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> str:

@@ -7,6 +7,8 @@ import sys
 from io import StringIO
 from typing import TYPE_CHECKING
 
+from scaffold.cli import terminal
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -89,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = _Copy()
     reporters.get(options.format)(results, output)
-    sys.stdout.write(output.getvalue())
+    terminal.write_report(output.getvalue())
     code = exit_code(results)
     if slot is not None:
         memory.save(slot, disk, results, code, output.getvalue())
@@ -109,7 +111,6 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.check import fixer
     from scaffold.check.session import Result
     from scaffold.errors import InputError
-    from scaffold.printable import write_lines
 
     remaining: list[Result] = []
     count = 0
@@ -121,7 +122,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
         count += fixed.applied
         plan = _plan(package.root, fixed)
         if options.diff:
-            write_lines(plan.diff(), sys.stdout)
+            terminal.show_patch(plan.diff())
         else:
             plan.write(force=True)
         found = session.check(fixed.package)
@@ -140,17 +141,18 @@ def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     if options.diff:
-        sys.stderr.write(f"{_fixes(count)}, nothing written\n")
+        terminal.say(f"{_fixes(count)}, nothing written")
         return FINDINGS if count else CLEAN
-    sys.stderr.write(f"{_fixes(count)} applied\n")
-    reporters.get(options.format)(results, sys.stdout)
+    terminal.say(f"{_fixes(count)} applied")
+    output = _Copy()
+    reporters.get(options.format)(results, output)
+    terminal.write_report(output.getvalue())
     return exit_code(results)
 
 
 def _reference(targets: Sequence[Target]) -> int:
     """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
-    from scaffold.printable import printable
     from scaffold.reporters.paths import shown
     from scaffold.style import reference
 
@@ -158,8 +160,8 @@ def _reference(targets: Sequence[Target]) -> int:
     for package, one in reference.differences([target.package for target in targets]):
         count += 1
         place = f"{shown(package, one.path)}:{one.line}"
-        sys.stdout.write(f"{printable(place)}: {printable(one.message)}\n")
-    sys.stdout.write(f"{count or 'no'} differences to pydocstyle\n")
+        terminal.show(f"{place}: {one.message}")
+    terminal.show(f"{count or 'no'} differences to pydocstyle")
     return INTERNAL_ERROR if count else CLEAN
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
+
+from scaffold.cli import terminal
 
 SHELLS = ("bash", "zsh", "fish")
 _HOW = {
@@ -23,5 +24,16 @@ def run(options: argparse.Namespace) -> int:
     from argcomplete.shell_integration import shellcode
 
     code = shellcode(["ros2-scaffold"], shell=options.shell)
-    sys.stdout.write(_HOW[options.shell] + code.strip("\n") + "\n")
+    terminal.show(_HOW[options.shell] + code.strip("\n"))
     return 0
+
+
+def complete(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell that asks for completions; one that a terminal would obey is left out."""
+    from argcomplete.finders import CompletionFinder
+
+    class Finder(CompletionFinder):
+        def filter_completions(self, completions: list[str]) -> list[str]:
+            return [one for one in super().filter_completions(completions) if one.isprintable()]
+
+    Finder()(parser)

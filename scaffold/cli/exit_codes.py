@@ -16,3 +16,6 @@ INTERNAL_ERROR = 3
 
 INTERRUPTED = 130
 """Ctrl-C, as shells count it: 128 + SIGINT."""
+
+BROKEN_PIPE = 141
+"""The reader of the output went away, as shells count it: 128 + SIGPIPE."""

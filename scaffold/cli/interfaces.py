@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from scaffold.model.interfaces import Definitions, Interface
@@ -45,14 +46,13 @@ def run(options: argparse.Namespace) -> int:
     if not options.types:
         listed = definitions.all_names()
     if options.format == "json":
-        from json import dumps
-
         data = [_as_data(interface) for interface in shown]
-        sys.stdout.write(dumps(data if shown else listed, indent=2) + "\n")
+        terminal.show_json(data if shown else listed)
         return 0
     for name in listed:
-        sys.stdout.write(f"{name}\n")
-    sys.stdout.write("\n".join(_as_text(interface) for interface in shown))
+        terminal.show(name)
+    if shown:
+        terminal.show("\n".join(map(_as_text, shown)).removesuffix("\n"))
     return 0
 
 

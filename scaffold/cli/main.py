@@ -9,7 +9,14 @@ import sys
 
 from scaffold import __version__
 from scaffold.check import memory
-from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR, INTERRUPTED, USAGE_ERROR
+from scaffold.cli import terminal
+from scaffold.cli.exit_codes import (
+    BROKEN_PIPE,
+    CLEAN,
+    INTERNAL_ERROR,
+    INTERRUPTED,
+    USAGE_ERROR,
+)
 from scaffold.errors import ScaffoldError
 
 TYPE_CHECKING = False  # the one of typing is slow to import
@@ -35,44 +42,32 @@ VERBS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a verb and return its exit code.
-
-    0 clean, 1 something found, 2 the user's input or environment is at fault, 3 a defect of this
-    tool, 130 interrupted.
-    """
+    """Run a verb and return its exit code, one of `scaffold.cli.exit_codes`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     gc.set_threshold(COLLECT_FROM)
     atexit.register(gc.freeze)  # else Python looks through everything once more
     try:
+        terminal.prepare()
         if "_ARGCOMPLETE" in os.environ:
             _complete()
-        if given == ["--version"]:
-            sys.stdout.write(f"ros2-scaffold {__version__}\n")
-            sys.exit(CLEAN)
-        return _run(given)
-    except ScaffoldError as error:
-        from scaffold.printable import printable
-
-        sys.stderr.write(f"ros2-scaffold: error: {printable(str(error))}\n")
-        return USAGE_ERROR
-    except KeyboardInterrupt:
-        sys.stderr.write("ros2-scaffold: interrupted\n")
-        return INTERRUPTED
-    except BrokenPipeError:
-        # The reader went away (`| head`): nothing more can be said, and nothing is wrong.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return CLEAN
-    except Exception as error:  # noqa: BLE001  the last line of defence
-        return _defect(error)
+        try:
+            return _run(given)
+        finally:
+            terminal.flush()
+    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001  the last line of defence
+        return _failed(error)
 
 
 def _run(given: list[str]) -> int:
+    if given == ["--version"]:
+        terminal.show(f"ros2-scaffold {__version__}")
+        sys.exit(CLEAN)
     verb = next((word for word in given if not word.startswith("-")), "")
     slot = memory.Slot.of(given) if verb == "check" else None
     last = slot.last if slot is not None else None
     if last is not None and last.is_current():
         # Before argparse: laying out the flags takes longer than looking at a small package.
-        sys.stdout.write(last.output)
+        terminal.write_report(last.output)
         return last.code
     from importlib import import_module
 
@@ -80,31 +75,66 @@ def _run(given: list[str]) -> int:
 
     options = build_parser(verb, comes_first=given[:1] == [verb]).parse_args(given)
     options.slot = slot
+    os.getcwd()  # where it is gone, each verb would find something else to complain about
     return int(import_module(f"scaffold.cli.{options.verb}").run(options))
+
+
+def _failed(error: Exception | KeyboardInterrupt) -> int:
+    """Say in one line why a run ends; return its exit code."""
+    terminal.settle()
+    match error:
+        case ScaffoldError():
+            terminal.error(str(error))
+        case KeyboardInterrupt():
+            terminal.say("ros2-scaffold: interrupted")
+            return INTERRUPTED
+        case BrokenPipeError():
+            return BROKEN_PIPE
+        case OSError() | MemoryError():
+            _show_traceback(error)
+            terminal.error(_refused(error))
+        case _:
+            return _defect(error)
+    return USAGE_ERROR
+
+
+def _refused(error: OSError | MemoryError) -> str:
+    """Return what the system refuses: space, permission, memory, the current directory."""
+    if isinstance(error, MemoryError):
+        return "out of memory"
+    try:
+        os.getcwd()
+    except OSError:
+        return "the current directory is gone: change to another one"
+    reason = error.strerror or str(error) or type(error).__name__
+    return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
 
 
 def _defect(error: Exception) -> int:
     import traceback
 
-    if os.environ.get("SCAFFOLD_DEBUG"):
-        traceback.print_exception(error)
-    from scaffold.printable import printable
-
+    _show_traceback(error)
     last = traceback.extract_tb(error.__traceback__)[-1]
-    sys.stderr.write(
-        f"ros2-scaffold: defect: {type(error).__name__}: {printable(str(error))} "
+    terminal.say(
+        f"ros2-scaffold: defect: {type(error).__name__}: {error} "
         f"({os.path.basename(last.filename)}:{last.lineno}); "
-        "please report it; SCAFFOLD_DEBUG=1 shows more\n"
+        "please report it; SCAFFOLD_DEBUG=1 shows more"
     )
     return INTERNAL_ERROR
 
 
-def _complete() -> None:
-    import argcomplete
+def _show_traceback(error: Exception) -> None:
+    if os.environ.get("SCAFFOLD_DEBUG"):
+        import traceback
 
+        terminal.say_lines("".join(traceback.format_exception(error)))
+
+
+def _complete() -> None:
+    from scaffold.cli.completion import complete
     from scaffold.cli.parser import build_parser
 
-    argcomplete.autocomplete(build_parser())
+    complete(build_parser())
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from scaffold.cli import terminal
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -51,7 +53,6 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.errors import ScaffoldError
     from scaffold.generate import draft, place, template
     from scaffold.generate.defaults import User
-    from scaffold.printable import write_lines
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
@@ -66,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         plan = _plan(options, made)
     except ScaffoldError:
         if command is not None:
-            sys.stderr.write(f"Your answers as a command, to be mended:\n    {command}\n")
+            terminal.say_lines(f"Your answers as a command, to be corrected:\n    {command}")
         raise
     check = draft.Check(made)
     defects = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
@@ -76,13 +77,13 @@ def run(options: argparse.Namespace) -> int:
     if not options.dry_run and not options.diff:
         plan.write(force=options.force)
     for remark in made.remarks:
-        sys.stderr.write(f"note: {remark}\n")
+        terminal.note(remark)
     if options.diff:
-        write_lines(plan.diff(), sys.stdout)
+        terminal.show_patch(plan.diff())
         return CLEAN
-    write_lines(f"{_summary(options, made, plan)}\n", sys.stdout)
+    terminal.show(_summary(options, made, plan))
     if command is not None:
-        print(f"\nThe same without questions:\n    {command}")
+        terminal.show(f"\nThe same without questions:\n    {command}")
     return CLEAN
 
 
@@ -174,10 +175,10 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
 def _report_defects(defects: list[Diagnostic]) -> None:
     for defect in defects:
         at = defect.location
-        sys.stderr.write(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}\n")
-    sys.stderr.write(
+        terminal.say(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}")
+    terminal.say(
         "ros2-scaffold: defect: the templates make a package that the checker rejects; "
-        "nothing was written; please report it to their authors\n"
+        "nothing was written; please report it to their authors"
     )
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from importlib import import_module
 from typing import NoReturn
 
 from scaffold import __version__
+from scaffold.cli import terminal
 from scaffold.cli.exit_codes import USAGE_ERROR
 from scaffold.cli.main import VERBS
 
@@ -16,10 +18,13 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the line and exit."""
-        from scaffold.printable import printable
+        terminal.error(f"{message}; see `{self.prog} --help`")
+        sys.exit(USAGE_ERROR)
 
-        message = printable(message)
-        self.exit(USAGE_ERROR, f"ros2-scaffold: error: {message}; see `{self.prog} --help`\n")
+    def _print_message(self, message: str, file: object = None) -> None:
+        """Print the help or the version; argparse itself is silent about a full disk."""
+        del file
+        terminal.show(message.removesuffix("\n"))
 
 
 def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argparse.ArgumentParser:

@@ -15,8 +15,10 @@ from prompt_toolkit.formatted_text import FormattedText
 from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
 from prompt_toolkit.keys import Keys
 
+from scaffold.cli import terminal
 from scaffold.cli.choice_list import NAME_WIDTH, Choice, ChoiceList
 from scaffold.cli.screen import STYLE, columns, ended, is_dumb, say
+from scaffold.printable import printable
 
 _LEAST_INPUT = 24
 """Columns that a line of text gets beside its question; else it starts a line of its own."""
@@ -77,7 +79,7 @@ def _read(question: str, default: str, completions: Sequence[str]) -> str:
     if len(lines) > 1 or len(lines[0]) + _LEAST_INPUT > columns():
         lines.append(">")
     if is_dumb():
-        shown = f" [{default}]" if default else ""
+        shown = f" [{printable(default)}]" if default else ""
         return _read_plainly("\n".join(lines) + f"{shown} ") or default
     session: PromptSession[str] = PromptSession(
         FormattedText([("class:question", "\n".join(lines)), ("", " ")]),
@@ -95,7 +97,7 @@ def _read_plainly(text: str) -> str:
     try:
         return input(text).strip()
     except (EOFError, KeyboardInterrupt):
-        print()  # what is said next has a line of its own
+        terminal.show("")  # what is said next has a line of its own
         raise
 
 
@@ -115,7 +117,7 @@ def _on_one_line() -> KeyBindings:
 
 
 def _echo(question: str, answers: Sequence[str]) -> None:
-    text = f"? {ended(question)} {', '.join(answers) or 'nothing'}"
+    text = printable(f"? {ended(question)} {', '.join(answers) or 'nothing'}")
     for part in textwrap.wrap(text, max(columns() - 1, 2), subsequent_indent="  "):
         print_formatted_text(part)
 

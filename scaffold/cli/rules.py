@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from scaffold.check.rule import Rule
@@ -43,21 +44,19 @@ def run(options: argparse.Namespace) -> int:
         docs.write(options.write_docs, rules)
     elif options.codes:
         pages = [_page(word, rules) for word in options.codes]
-        sys.stdout.write("\n".join(pages))
+        terminal.show("\n".join(pages).removesuffix("\n"))
     elif options.format == "json":
-        from json import dumps
-
-        sys.stdout.write(dumps([docs.as_data(rule) for rule in rules], indent=2) + "\n")
+        terminal.show_json([docs.as_data(rule) for rule in rules])
     else:
         width = max(len(rule.name) for rule in rules)
         for rule in rules:
             fix = "fix" if docs.has_fix(rule) else ""
             facts = f"{rule.code}  {rule.severity.value:<7}  {fix:<3}  {rule.name:<{width}}"
-            sys.stdout.write(f"{facts}  {docs.summary(rule)}\n")
-        sys.stdout.write(
+            terminal.show(f"{facts}  {docs.summary(rule)}")
+        terminal.show(
             f"\n{len(rules)} rules. Python style and docstrings keep the codes of flake8 and "
             f"pydocstyle, with ament's verdict: {len(CODES)} codes from {min(CODES)} to "
-            f"{max(CODES)}.\n`ros2-scaffold rules CODE` explains one.\n"
+            f"{max(CODES)}.\n`ros2-scaffold rules CODE` explains one."
         )
     return 0
 

@@ -16,6 +16,8 @@ from prompt_toolkit.output import ColorDepth
 from prompt_toolkit.output.vt100 import Vt100_Output
 from prompt_toolkit.styles import Style
 
+from scaffold.printable import printable_lines
+
 STYLE = Style.from_dict({"question": "bold", "pointed": "bold", "chosen": "ansicyan"})
 
 
@@ -49,7 +51,10 @@ def say(text: str) -> None:
     """Write a text below a question."""
     indent = "  "
     for part in textwrap.wrap(
-        text, max(columns() - 1, 2 * len(indent)), initial_indent=indent, subsequent_indent=indent
+        printable_lines(text),
+        max(columns() - 1, 2 * len(indent)),
+        initial_indent=indent,
+        subsequent_indent=indent,
     ):
         print_formatted_text(part)
 

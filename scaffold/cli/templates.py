@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -58,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         templates_of = list(templates)
     if options.action == "list":
-        print(_listed(templates, templates_of))
+        terminal.show(_listed(templates, templates_of))
         return 0
     return _test(options, roots, templates, templates_of)
 
@@ -102,16 +103,18 @@ def _test(
     tried: list[Tried] = []
     for one in examples.check(names, roots, templates, rules):
         tried.append(one)
-        print(f"{one.example.template}: {one.example.title}: {'wrong' if one.defects else 'ok'}")
+        terminal.show(
+            f"{one.example.template}: {one.example.title}: {'wrong' if one.defects else 'ok'}"
+        )
         for defect in one.defects:
-            print(f"    {defect}")
+            terminal.show(f"    {defect}")
     wrong = sum(bool(one.defects) for one in tried)
     if options.build:
         wrong += _build(tried)
     without = sorted(set(names) - {one.example.template for one in tried})
     for name in without:
-        sys.stderr.write(f"note: {name} has no examples: nothing of it was tested\n")
-    print(f"{len(tried)} examples, {wrong} wrong")
+        terminal.note(f"{name} has no examples: nothing of it was tested")
+    terminal.show(f"{len(tried)} examples, {wrong} wrong")
     return FINDINGS if wrong or not tried else CLEAN
 
 
@@ -129,9 +132,9 @@ def _build(tried: Sequence[Tried]) -> int:
                 example, _ = together[name]
                 wrong += not built.ok
                 state = "built" if built.ok else "does not build"
-                print(f"{example.template}: {example.title}: {state}")
+                terminal.show(f"{example.template}: {example.title}: {state}")
                 for line in () if built.ok else built.errors:
-                    print(f"    {line}")
+                    terminal.show(f"    {line}")
     return wrong
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from scaffold.generate.update import Updated
@@ -37,7 +38,6 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.provenance import NAME
     from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
-    from scaffold.printable import write_lines
 
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
@@ -47,13 +47,13 @@ def run(options: argparse.Namespace) -> int:
     updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
     plan = WritePlan.of(directory, updated.files, executable=updated.executable)
     if options.diff:
-        write_lines(plan.diff(hidden=[NAME]), sys.stdout)
+        terminal.show_patch(plan.diff(hidden=[NAME]))
     elif not options.dry_run:
         plan.write(force=True)
     for remark in updated.remarks:
-        sys.stderr.write(f"note: {remark}\n")
+        terminal.note(remark)
     if not options.diff:
-        print(_summary(options, updated, plan))
+        terminal.show(_summary(options, updated, plan))
     return FINDINGS if updated.conflicts else CLEAN
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from json import dumps
 from typing import TextIO
 
 from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.session import Result, Summary
+from scaffold.printable import json_text
 from scaffold.reporters.paths import shown
 
 
@@ -19,7 +19,7 @@ def report(results: Sequence[Result], out: TextIO) -> None:
         for diagnostic in result.diagnostics
     ]
     summary = Summary.of(results)._asdict()
-    out.write(dumps({"diagnostics": diagnostics, "summary": summary}, indent=2) + "\n")
+    out.write(json_text({"diagnostics": diagnostics, "summary": summary}) + "\n")
 
 
 def _as_data(diagnostic: Diagnostic, path: str) -> dict[str, object]:
