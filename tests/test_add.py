@@ -393,6 +393,113 @@ def test_an_unknown_licence_gives_the_header_of_the_other_files(tmp_path: Path) 
     ]
 
 
+LINTER_TEST = """\
+    # Copyright 2015 Open Source Robotics Foundation, Inc.
+    #
+    # Licensed under the Apache License, Version 2.0 (the "License");
+    # you may not use this file except in compliance with the License.
+    # You may obtain a copy of the License at
+    #
+    #     http://www.apache.org/licenses/LICENSE-2.0
+    #
+    # Unless required by applicable law or agreed to in writing, software
+    # distributed under the License is distributed on an "AS IS" BASIS,
+    # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+    # See the License for the specific language governing permissions and
+    # limitations under the License.
+
+    from ament_copyright.main import main
+
+
+    def test_copyright():
+        assert main(argv=['.', 'test']) == 0
+    """
+"""What `ros2 pkg create` leaves behind, three times."""
+OF_OTHERS = {
+    **{f"test/test_{name}.py": LINTER_TEST for name in ("copyright", "flake8", "pep257")},
+    "third_party/motor.h": "// Copyright 2019 Motors LLC\n",
+    "deps/motors/motor.c": "// Copyright 2019 Motors LLC\n",
+    "demo/drivers/LICENSE": "Drivers are free.\n",
+    "demo/drivers/a.py": "# Copyright 2019 Drivers Inc.\n",
+    "demo/drivers/b.py": "# Copyright 2019 Drivers Inc.\n",
+    "demo/drivers/c.py": "# Copyright 2019 Drivers Inc.\n",
+    "launch/demo.launch.py": "# Copyright 2019 Open Source Robotics Foundation, Inc.\n",
+}
+
+
+def notice(directory: Path) -> list[str]:
+    """Return the copyright notice of what was added to a package of ament_python."""
+    text = (directory / "demo" / "talker.py").read_text()
+    return re.findall(r"(?m)^# Copyright \d{4} (.*)$", text)
+
+
+@pytest.mark.parametrize(
+    ("own", "holder"),
+    [
+        ({}, "Grace"),
+        ({"demo/a.py": "# Copyright 2024 Acme Corp. All rights reserved.\n"}, "Acme Corp"),
+        ({"demo/a.py": "# Copyright 2024 Acme\n", "demo/b.py": "# Copyright 2025 Acme\n"}, "Acme"),
+        ({"demo/a.py": "# Copyright 2024 Acme\n", "demo/b.py": "b = 1\n"}, "Grace"),
+        ({"demo/a.py": "# Copyright 2024 Acme\n", "demo/b.py": "# Copyright 2024 B\n"}, "Grace"),
+        ({"demo/a.py": "# Copyright 2016 Open Source Robotics Foundation, Inc.\n"}, "Grace"),
+    ],
+    ids=["none", "a notice", "all", "half", "different ones", "a copied example"],
+)
+def test_the_holder_is_the_maintainer_or_that_of_most_own_sources(
+    own: Mapping[str, str], holder: str, tmp_path: Path
+) -> None:
+    files = {path: text for path, text in PYTHON.items() if path != "demo/hello.py" or not own}
+    demo = write(tmp_path / "demo", {**files, **OF_OTHERS, **own})
+    assert add(demo, "publisher", "talker") == 0
+    assert notice(demo) == [holder]
+
+
+def test_examples_of_open_robotics_keep_their_holder(tmp_path: Path) -> None:
+    manifest = PYTHON["package.xml"].replace("grace@example.com", "grace@openrobotics.org")
+    own = "# Copyright 2016 Open Source Robotics Foundation, Inc.\n"
+    files = {**PYTHON, "package.xml": manifest, "demo/hello.py": own}
+    demo = write(tmp_path / "demo", files)
+    assert add(demo, "publisher", "talker") == 0
+    assert notice(demo) == ["Open Source Robotics Foundation, Inc."]
+
+
+def test_a_submodule_has_a_holder_of_its_own(tmp_path: Path) -> None:
+    submodule = {".gitmodules": "[submodule]\n  path = demo/arm\n", ".git/HEAD": ""}
+    others = {f"demo/arm/{name}.py": "# Copyright 2019 Arms Inc.\n" for name in "abc"}
+    demo = write(tmp_path / "demo", {**PYTHON, **submodule, **others})
+    assert add(demo, "publisher", "talker") == 0
+    assert notice(demo) == ["Grace"]
+
+
+@pytest.mark.parametrize("maintainer", ["root", "TODO", "your name"])
+def test_without_a_holder_there_is_no_header(
+    maintainer: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    manifest = PYTHON["package.xml"].replace(">Grace<", f">{maintainer}<")
+    demo = write(tmp_path / "demo", {**PYTHON, **OF_OTHERS, "package.xml": manifest})
+    assert add(demo, "publisher", "talker") == 0
+    assert notice(demo) == []
+    assert (
+        "note: the new files have no licence header: neither the maintainer nor the sources of "
+        "demo name a copyright holder; --copyright-holder gives them one\n"
+    ) in capsys.readouterr().err
+    assert add(demo, "publisher", "talker", "--copyright-holder", "Ada", "--force") == 0
+    assert notice(demo) == ["Ada"]
+
+
+@pytest.mark.parametrize("licence", ["TODO: License declaration", "TODO", "Your License"])
+def test_an_undecided_licence_gives_no_header(
+    licence: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    manifest = PYTHON["package.xml"].replace("Apache License 2.0", licence)
+    own = {"demo/hello.py": LINTER_TEST.replace("Open Source Robotics Foundation, Inc.", "Acme")}
+    demo = write(tmp_path / "demo", {**PYTHON, **OF_OTHERS, **own, "package.xml": manifest})
+    assert add(demo, "publisher", "talker") == 0
+    assert notice(demo) == []
+    assert "Licensed" not in (demo / "demo" / "talker.py").read_text()
+    assert f"the licence of demo is {licence!r}" in capsys.readouterr().err
+
+
 def test_without_any_licence_there_is_no_header(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -16,6 +16,7 @@ from scaffold.generate.edit.edit import edit
 from scaffold.generate.piece import LAUNCH, Piece, Target, Wanted
 from scaffold.generate.provenance import Provenance
 from scaffold.generate.template import Role
+from scaffold.model.copyright import REPOSITORY_FILES
 from scaffold.model.package import Package
 from scaffold.model.package_programs import programs_of
 
@@ -155,7 +156,7 @@ def _new_files(package: Package, old: Provenance | None, made: Piece) -> dict[st
     is_there = made.template.role is Role.EXTRA and old is not None and own.is_noted(old, made)
     return {
         path: package.tree.read(path)
-        if is_there and package.has(path)
+        if package.has(path) and (is_there or path in REPOSITORY_FILES)
         else _kept(package, path, text)
         for path, text in made.rendered.files.items()
     }
@@ -229,16 +230,22 @@ def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
 def _remarks(package: Package, made: Piece) -> Iterator[str]:
     context = made.composed.context
     if not context["header"] and any(path.endswith(_WITH_HEADER) for path in made.rendered.files):
-        declared = ", ".join(element.text for element in package.manifest.all("license"))
-        yield (
-            f"the new files have no licence header: the licence of {package.name} is "
-            f"{declared or 'none'!r}; --license gives them one"
-        )
+        yield f"the new files have no licence header: {_why_no_header(package, made)}"
     if made.others:
         launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
         yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
     if made.addition.program is not None:
         yield from neighbours.remarks(package, made.addition.program.path)
+
+
+def _why_no_header(package: Package, made: Piece) -> str:
+    if not made.composed.context["has_license"]:
+        declared = ", ".join(element.text for element in package.manifest.all("license"))
+        return f"the licence of {package.name} is {declared or 'none'!r}; --license gives them one"
+    return (
+        f"neither the maintainer nor the sources of {package.name} name a copyright holder; "
+        "--copyright-holder gives them one"
+    )
 
 
 _WITH_HEADER = (".py", ".cpp")

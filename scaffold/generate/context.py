@@ -33,11 +33,13 @@ def package_context(
     """Return the variables of all files.
 
     Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the licence as
-    comment lines), ``license_text`` (the template of the full text), ``nodes``, ``interfaces``
-    and ``programs``, ``depends`` (names by kind), ``groups`` and ``share_directories``. A part has
-    the answers of its template, ``kind``, ``name`` and ``summary``; a node also has ``module``,
-    ``class_name``, ``executable``, ``parameter_file``, ``has_parameters`` and the full names of
-    its topics, services and actions; an interface has ``file`` and ``type``.
+    comment lines), ``has_license`` (false where an existing package has decided for none that there
+    are templates for), ``license_text`` and ``contributing_text`` (the templates of the full text
+    and of CONTRIBUTING.md), ``nodes``, ``interfaces`` and ``programs``, ``depends`` (names by
+    kind), ``groups`` and ``share_directories``. A part has the answers of its template, ``kind``,
+    ``name`` and ``summary``; a node also has ``module``, ``class_name``, ``executable``,
+    ``parameter_file``, ``has_parameters`` and the full names of its topics, services and actions;
+    an interface has ``file`` and ``type``.
 
     Raises:
         InputError: two answers contradict each other.
@@ -48,7 +50,9 @@ def package_context(
         "date": day.isoformat(),
         "year": day.year,
         "tutorial": answers["comments"] == "tutorial",
+        "has_license": True,
         "license_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.TEXT}",
+        "contributing_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.CONTRIBUTING}",
     }
     context["header"] = renderer.license_header(answers["license"], context)
     for role in PARTS:

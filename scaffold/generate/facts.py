@@ -8,14 +8,21 @@ from collections.abc import Sequence
 
 from scaffold.errors import InputError
 from scaffold.generate import values
+from scaffold.generate.own_sources import majority, own_headers
 from scaffold.generate.questions import Given
 from scaffold.model import copyright as notices
 from scaffold.model.manifest import Manifest
 from scaffold.model.package import Package
+from scaffold.model.placeholders import is_placeholder
 from scaffold.model.spdx import spdx_of
 from scaffold.model.tree import MANIFEST
 
 LICENSE_FILE = "LICENSE"
+_ACCOUNTS = frozenset({"root", "user", "ubuntu", "ros", "admin", "vscode", "none", "unknown"})
+"""Accounts of containers and images, which `ros2 pkg create` takes for the maintainer's name."""
+_OF_EXAMPLES = ("open source robotics foundation", "open robotics", "willow garage")
+"""Whose notices come along with copied examples and tutorials, and with code ported from ROS 1."""
+_OF_OPEN_ROBOTICS = ("openrobotics.org", "osrfoundation.org")
 
 
 def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
@@ -39,17 +46,17 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
     """Return the licence of a package that there is a template for.
 
     The manifest decides; where it says too little (``BSD``) or nothing, the headers of the
-    sources do, then the file LICENSE.
+    package's own sources do, then the file LICENSE. Where it says TODO nothing is decided.
     """
+    if not is_decided(package):
+        return None
     declared = [
         spdx_of(element.text) or (element.text,) for element in package.manifest.all("license")
     ]
     choices = {one for spellings in declared for one in spellings if one in known}
     if len(choices) == 1:
         return choices.pop()
-    written = Counter(
-        header.licence for header in notices.headers(package) if header.licence in known
-    )
+    written = Counter(header.licence for header in own_headers(package) if header.licence in known)
     for licence, _ in written.most_common():
         if licence in choices or not choices:
             return licence
@@ -60,13 +67,23 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
     return min(choices, default=None)
 
 
+def is_decided(package: Package) -> bool:
+    """Tell whether the manifest does not leave the licence to be filled in."""
+    return not any(is_placeholder(element.text) for element in package.manifest.all("license"))
+
+
 def own_header(package: Package) -> str:
-    """Return the comment with the copyright notice that most Python files begin with."""
-    found: Counter[str] = Counter()
-    for header in notices.headers(package):
-        if header.holders and header.path.endswith(".py"):
-            found[_comment(package.source(header.path).lines, header.location.line - 1)] += 1
-    return found.most_common(1)[0][0] if found else ""
+    """Return the comment with the copyright notice that most own Python files begin with.
+
+    It is empty where the licence is not decided, or where the files do not agree.
+    """
+    headers = [one for one in own_headers(package) if one.path.endswith(".py")]
+    comments = (
+        _comment(package.source(one.path).lines, one.location.line - 1)
+        for one in headers
+        if any(_may_hold(package, name) for name in one.holders)
+    )
+    return (majority(comments, len(headers)) or "") if is_decided(package) else ""
 
 
 def _comment(lines: Sequence[str], number: int) -> str:
@@ -80,16 +97,27 @@ def _comment(lines: Sequence[str], number: int) -> str:
 
 
 def _holder(package: Package) -> str | None:
-    """Return who holds the copyright of most sources."""
-    names = Counter(
-        re.sub(r"[.,]?\s*all rights reserved\.?$", "", name, flags=re.IGNORECASE).strip()
-        for header in notices.headers(package)
-        for name in header.holders
-    )
-    for name, _ in names.most_common():
-        if _is_usable(name):
-            return name
-    return None
+    """Return who holds the copyright of most own sources; those without a notice count, too."""
+    headers = own_headers(package)
+    names = (name for header in headers for name in {*map(_without_remark, header.holders)})
+    holder = majority(names, len(headers))
+    if holder is None or not _is_usable(holder) or not _may_hold(package, holder):
+        return None
+    return holder
+
+
+def _may_hold(package: Package, name: str) -> bool:
+    """Tell whether a notice may be of the package's authors, and not of those they copied from."""
+    if not name.lower().startswith(_OF_EXAMPLES):
+        return True
+    maintainers = package.manifest.all("maintainer")
+    return any((one.get("email") or "").endswith(_OF_OPEN_ROBOTICS) for one in maintainers)
+
+
+def _without_remark(name: str) -> str:
+    """Return the name of a holder without what some notices say after it."""
+    remark = r"[.,]?\s*\b(all rights reserved|see (the )?licen[sc]e)\b.*$"
+    return re.sub(remark, "", name, flags=re.IGNORECASE).strip()
 
 
 def _maintainer(manifest: Manifest) -> tuple[str | None, str | None]:
@@ -102,7 +130,9 @@ def _maintainer(manifest: Manifest) -> tuple[str | None, str | None]:
         address: str | None = values.address(email)
     except InputError:
         address = None
-    return (element.text if _is_usable(element.text) else None), address
+    is_person = _is_usable(element.text) and not is_placeholder(element.text)
+    is_person = is_person and element.text.lower() not in _ACCOUNTS
+    return (element.text if is_person else None), address
 
 
 def _is_usable(name: str) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 DIRECTORY = "_licenses"
 HEADER = "header.jinja"
 TEXT = "LICENSE.jinja"
+CONTRIBUTING = "CONTRIBUTING.md.jinja"
 NOTE = "note.jinja"
 """Something the user should know before choosing it; most licences have none."""
 

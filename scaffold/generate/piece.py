@@ -130,7 +130,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
     """Settle all questions; what the package has decided needs no answer."""
     package = target.package
     decided = facts.answers(package, licenses.names(target.roots))
-    has_license = "license" in {**decided, **given}
+    known = {**decided, **given}
     answers = {**decided, **given, "build_type": Given(package.build_type, "package.xml")}
     fixed = {"package": package.name, "build_type": package.build_type}
     messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
@@ -143,9 +143,12 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         fixed=fixed,
         messages=messages,
     )
-    if not has_license:
+    composed.context["has_license"] = "license" in known
+    if not composed.context["has_license"]:
         # Better the header of the author's other files, or none, than one with another licence.
         composed.context["header"] = facts.own_header(package)
+    elif not {"copyright_holder", "maintainer_name"} & {*known}:
+        composed.context["header"] = ""  # whoever runs this need not be the holder
     return composed
 
 

@@ -1,0 +1,64 @@
+"""The sources that the authors of a package wrote: no tests, launch files or vendored code."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Hashable, Iterable
+from typing import TypeVar
+
+from scaffold.model import copyright as notices
+from scaffold.model.copyright import Header
+from scaffold.model.launch_files import ENDINGS
+from scaffold.model.left_out import is_left_out
+from scaffold.model.package import Package
+
+_T = TypeVar("_T", bound=Hashable)
+
+_SOURCES = (".py", ".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx")
+_NOT_CODE = frozenset({"test", "tests", "launch", "launches", "doc", "docs"})
+"""Directories whose files are often copied: `ros2 pkg create` writes linter tests of its own."""
+_VENDORED = re.compile(
+    r"(?i)_*(3rd|third)[-_]?part(y|ies)|vendor(s|ed|ing)?|extern(al|als)?|deps|dependencies|"
+    r"sub_?modules|contrib|node_modules|site-packages"
+)
+_LICENSES = re.compile(r"(?i)(licen[sc]e|copying|notice)s?([-_.].*)?")
+
+
+def own_headers(package: Package) -> list[Header]:
+    """Return the headers of a package's own sources, those without a notice included."""
+    foreign = tuple(_foreign_directories(package))
+    return [
+        header
+        for header in notices.headers(package)
+        if _is_own(header.path)
+        and not header.path.startswith(foreign)
+        and not is_left_out(package, header.path)
+    ]
+
+
+def majority(values: Iterable[_T], total: int) -> _T | None:
+    """Return the value that more than half of ``total`` files have, if there is one."""
+    for value, count in Counter(values).most_common(1):
+        if 2 * count > total:
+            return value
+    return None
+
+
+def _is_own(path: str) -> bool:
+    *directories, name = path.split("/")
+    if not name.endswith(_SOURCES) or name.endswith(ENDINGS) or name == "setup.py":
+        return False
+    if name.startswith("test_") or name == "conftest.py":
+        return False
+    return not any(one in _NOT_CODE or _VENDORED.fullmatch(one) for one in directories)
+
+
+def _foreign_directories(package: Package) -> set[str]:
+    """Return the directories with a licence file of their own: somebody else's work."""
+    found: set[str] = set()
+    for path in package.files:
+        directory, _, name = path.rpartition("/")
+        if directory and _LICENSES.fullmatch(name):
+            found.add(f"{directory}/")
+    return found
