@@ -428,5 +428,6 @@ def test_without_ros(sources: Path, tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
         "ros2-scaffold: error: no ROS 2 environment found: source the setup file of a ROS 2 "
-        "installation, install ROS 2 Jazzy, or run: pip install 'ros2-scaffold[ros]'\n"
+        "installation, install ROS 2 Jazzy, or run: pipx install --force '.[ros]' "
+        "(in a clone of its repository)\n"
     )

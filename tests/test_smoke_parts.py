@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 
 import pytest
 
+from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
 from scaffold.smoke import build, domain, environment, output, probe, process, shared_memory, trial
 from scaffold.smoke.report import report
@@ -115,7 +116,10 @@ def test_what_is_not_taken_is_told(tmp_path: Path) -> None:
 def test_no_environment_at_all(tmp_path: Path) -> None:
     with pytest.raises(EnvironmentMissingError) as caught:
         environment.select({"PATH": "/usr/bin"}, installed=tmp_path, own_prefix=str(tmp_path))
-    assert str(caught.value) == f"no ROS 2 environment found: {environment.HINT}"
+    assert str(caught.value) == (
+        "no ROS 2 environment found: source the setup file of a ROS 2 installation, install "
+        f"ROS 2 Jazzy, or run: {installation.command('ros')}"
+    )
     assert "\n" not in str(caught.value)
 
 

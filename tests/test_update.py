@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import __version__, content
+from scaffold import __version__, content, installation
 from scaffold.cli.main import main
 from scaffold.errors import InputError
 from scaffold.generate import merge, provenance
@@ -254,8 +254,8 @@ def test_records_of_a_newer_release_are_not_touched(
         assert main(verb) == 2
         assert capsys.readouterr().err == (
             "ros2-scaffold: error: talker/.ros2-scaffold.json: written by ros2-scaffold "
-            f"{version}, and this is {__version__}: install {version} or later, such as with "
-            "`pip install --upgrade ros2-scaffold`\n"
+            f"{version}, and this is {__version__}: install {version} or later: bring its source "
+            f"up to date, then `{installation.command()}`\n"
         )
     assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from datetime import date
 from typing import Any
 
-from scaffold import __version__
+from scaffold import __version__, installation
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
 from scaffold.record import NamedTuple
@@ -94,7 +94,7 @@ def _refuse_newer(version: str, path: str) -> None:
     if _release(version) > _release(__version__):
         raise InputError(
             f"{path}: written by ros2-scaffold {version}, and this is {__version__}: install "
-            f"{version} or later, such as with `pip install --upgrade ros2-scaffold`"
+            f"{version} or later: bring its source up to date, then `{installation.command()}`"
         )
 
 

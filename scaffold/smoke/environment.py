@@ -16,15 +16,12 @@ from functools import partial
 from glob import escape, glob
 from pathlib import Path
 
+from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
 
 INSTALLED = Path("/opt/ros")
 PREFERRED_DISTRO = "jazzy"
 DEFAULT_RMW = "rmw_fastrtps_cpp"
-HINT = (
-    "source the setup file of a ROS 2 installation, install ROS 2 Jazzy, "
-    "or run: pip install 'ros2-scaffold[ros]'"
-)
 
 _PASSED_ON = frozenset(
     {
@@ -96,7 +93,10 @@ def select(
         except _UnusableError as reason:
             reasons.append(str(reason))
     why = f" ({'; '.join(reasons)})" if reasons else ""
-    raise EnvironmentMissingError(f"no ROS 2 environment found{why}: {HINT}")
+    raise EnvironmentMissingError(
+        f"no ROS 2 environment found{why}: source the setup file of a ROS 2 installation, "
+        f"install ROS 2 Jazzy, or run: {installation.command('ros')}"
+    )
 
 
 def source(setup: Path, variables: Mapping[str, str]) -> dict[str, str]:

@@ -1,0 +1,62 @@
+"""How this tool was installed, for the commands that its messages advise.
+
+It is on no package index. A message that names it there would send people to whoever takes the
+name, so a command names the source that the tool came from, or a clone.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from shlex import quote
+from urllib.parse import unquote, urlsplit
+
+PROJECT = "ros2-scaffold"
+CLONE = "in a clone of its repository"
+
+
+def command(extra: str = "") -> str:
+    """Return the command that installs the tool again from its source.
+
+    Args:
+        extra: An optional part that it is to bring along, such as ``ros``.
+    """
+    extras = f"[{extra}]" if extra else ""
+    origin = _origin()
+    url, vcs = str(origin.get("url", "")), _table(origin, "vcs_info").get("vcs")
+    parts = urlsplit(url)
+    if parts.scheme and vcs:
+        return f"{_installer()} {quote(f'{PROJECT}{extras} @ {vcs}+{url}')}"
+    path = unquote(parts.path)
+    if parts.scheme == "file" and os.path.isfile(os.path.join(path, "pyproject.toml")):
+        option = "--editable " if _table(origin, "dir_info").get("editable") else ""
+        return f"{_installer()} {option}{quote(path + extras)}"
+    return f"pipx install --force '.{extras}' ({CLONE})"
+
+
+def _installer() -> str:
+    """Return what made the environment that this runs in, with what makes it install again."""
+    parts = os.path.abspath(sys.prefix).split(os.sep)
+    if "pipx" in parts:
+        return "pipx install --force"
+    if "uv" in parts and "tools" in parts:
+        return "uv tool install --force"
+    return f"{quote(sys.executable or 'python3')} -m pip install"
+
+
+def _origin() -> Mapping[str, object]:
+    """Return what the installer noted of the source (PEP 610); nothing for one from an index."""
+    import json
+    from importlib.metadata import PackageNotFoundError, distribution
+
+    try:
+        entries = json.loads(distribution(PROJECT).read_text("direct_url.json") or "{}")
+    except (PackageNotFoundError, OSError, ValueError):
+        return {}
+    return entries if isinstance(entries, dict) else {}
+
+
+def _table(entries: Mapping[str, object], key: str) -> Mapping[str, object]:
+    value = entries.get(key)
+    return value if isinstance(value, dict) else {}
