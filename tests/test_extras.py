@@ -13,11 +13,17 @@ import yaml
 
 from scaffold import content
 from scaffold.check import registry
+from scaffold.check.diagnostic import Diagnostic
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.cli.main import main
 from scaffold.errors import InputError
-from scaffold.generate import draft, template
+from scaffold.generate import draft, licenses, template
 from scaffold.generate.defaults import User
 from scaffold.generate.questions import Given
 from scaffold.generate.template import Role
+from scaffold.model.package import Package
+from tests import oracles
 
 ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)
@@ -122,3 +128,45 @@ def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
 def test_an_extra_that_does_not_exist() -> None:
     with pytest.raises(InputError, match=r"--extras: 'lunch' is not one of .*did you mean launch"):
         make(package="talker", extras=["lunch"])
+
+
+def write(directory: Path, files: dict[str, str]) -> Path:
+    """Write a package that is a git repository of its own."""
+    for path, text in files.items():
+        (directory / path).parent.mkdir(parents=True, exist_ok=True)
+        (directory / path).write_text(text)
+    subprocess.run(["git", "init", "-q", str(directory)], check=True)
+    return directory
+
+
+@oracles.needs_system_linter("ament_copyright")
+@pytest.mark.parametrize("license_", licenses.names(ROOTS))
+def test_ament_copyright_accepts_a_package_that_is_a_repository(
+    license_: str, tmp_path: Path
+) -> None:
+    files = make(package="talker", extras=["ci"], license=license_)
+    talker = write(tmp_path / "talker", files)
+    assert oracles.ament_copyright(talker) == set()
+    assert [one.code for one in check(talker) if one.code == "LY022"] == []
+    (talker / "CONTRIBUTING.md").unlink()
+    assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
+    assert [one.code for one in check(talker) if one.code == "LY022"] == ["LY022"]
+
+
+@pytest.mark.parametrize("extra", ["ci", "pre_commit", "devcontainer"])
+def test_add_brings_what_a_repository_needs(extra: str, tmp_path: Path) -> None:
+    person = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    assert main(["new", "talker", *person, "--destination-directory", str(tmp_path)]) == 0
+    talker = write(tmp_path / "talker", {})
+    command = ["add", extra, "--package-directory", str(talker)]
+    assert main(command) == 0
+    assert check(talker) == []
+    (talker / "CONTRIBUTING.md").write_text("Please do.\n")
+    assert main(command) == 0
+    assert (talker / "CONTRIBUTING.md").read_text() == "Please do.\n"
+
+
+def check(directory: Path) -> list[Diagnostic]:
+    """Return what the checker says of a package."""
+    session = Session(registry.load(content.roots("rules")), Selection())
+    return session.check(Package.at(str(directory)))

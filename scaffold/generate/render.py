@@ -135,7 +135,7 @@ class Renderer:
             scopes: The templates, each with the variables of its files.
 
         Raises:
-            ContentError: a file cannot be rendered, or two have the same path.
+            ContentError: a file cannot be rendered, or two with different texts have the same path.
         """
         files: dict[str, str] = {}
         executable: set[str] = set()
@@ -145,9 +145,9 @@ class Renderer:
                 if not self._is_included(layer, source, scope):
                     continue
                 path = self._path(layer, source, scope)
-                if path in files:
+                text = self.file(f"{layer.name}/{source}{ENDING}", scope)
+                if files.setdefault(path, text) != text:
                     raise ContentError(f"{layer.directory}: {path} is rendered twice")
-                files[path] = self.file(f"{layer.name}/{source}{ENDING}", scope)
                 if any(fnmatchcase(source, pattern) for pattern in layer.executable):
                     executable.add(path)
                 note = _first_match(layer.notes, source)
