@@ -71,9 +71,7 @@ class LaunchDescriptionNotReturned(Rule):
             if function is None or not isinstance(function.node, ast.FunctionDef):
                 continue
             node = function.node
-            if node.decorator_list or any(
-                isinstance(part, ast.Yield | ast.YieldFrom) for part in ast.walk(node)
-            ):
+            if node.decorator_list or any(launch.module.below(node, ast.Yield, ast.YieldFrom)):
                 continue
             yield from self._check(launch, node, function.location)
 

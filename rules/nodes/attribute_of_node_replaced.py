@@ -96,10 +96,9 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
         if binding and name in PROPERTIES
     }
     for method in node.methods.values():
-        for inner in ast.walk(method):
+        for inner in node.facts.module.below(method, ast.Attribute):
             if (
-                isinstance(inner, ast.Attribute)
-                and isinstance(inner.ctx, ast.Store)
+                isinstance(inner.ctx, ast.Store)
                 and isinstance(inner.value, ast.Name)
                 and inner.value.id == "self"
                 and inner.attr in (PROPERTIES | _PRIVATE) - own

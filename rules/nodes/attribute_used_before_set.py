@@ -58,8 +58,10 @@ def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribu
     bound = facts.module.index.bindings(node.node)
     told: set[str] = set()
     first_lines: dict[str, int] = {}
-    for used in ast.walk(node.constructor) if node.constructor else ():
-        if not isinstance(used, ast.Attribute) or not isinstance(used.ctx, ast.Load):
+    if node.constructor is None:
+        return
+    for used in facts.module.below(node.constructor, ast.Attribute):
+        if not isinstance(used.ctx, ast.Load):
             continue
         if used.attr in told or used.attr in bound or has(NODE, used.attr):
             continue

@@ -108,7 +108,7 @@ class CallInCallback(Rule):
 
 
 def _waits(facts: NodeFacts, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
-    for node in ast.walk(function):
+    for node in facts.module.below(function, ast.Call, ast.While):
         match node:
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
                 class_, what = _BLOCKING[method]

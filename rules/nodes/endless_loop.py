@@ -67,8 +67,8 @@ class EndlessLoop(Rule):
 
 
 def _endless(facts: NodeFacts, executed: Executed) -> Iterator[ast.While]:
-    for loop in ast.walk(executed.function):
-        if not isinstance(loop, ast.While) or facts.function_of(loop) is not executed.function:
+    for loop in facts.module.below(executed.function, ast.While):
+        if facts.function_of(loop) is not executed.function:
             continue
         if _is_for_ever(facts, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
             yield loop

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.model.handlers import is_asked_about
 from scaffold.model.nodes import NodeFacts
+from scaffold.model.python_module import PythonModule
 from scaffold.model.scopes import FunctionNode
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
@@ -56,8 +57,8 @@ class FutureReadTooEarly(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in package.rclpy_files():
             for function in facts.module.function_nodes:
-                for name in _futures(function):
-                    if _waits(function):
+                for name in _futures(facts.module, function):
+                    if _waits(facts.module, function):
                         continue
                     for call in facts.calls_in(function):
                         if self._reads(facts, call, name) and not _is_asked(facts, call, name):
@@ -76,7 +77,7 @@ class FutureReadTooEarly(Rule):
         if function is None or isinstance(function, ast.Lambda) or len(call.args) != 1:
             return False
         parameter = function.args.args[-1].arg if function.args.args else ""
-        return not _waits(function) and any(
+        return not _waits(facts.module, function) and any(
             isinstance(inner.func, ast.Attribute)
             and inner.func.attr == "result"
             and isinstance(inner.func.value, ast.Name)
@@ -90,10 +91,10 @@ def _is_asked(facts: NodeFacts, call: ast.Call, name: str) -> bool:
     return is_asked_about(facts.module, call, ast.Name(id=name))
 
 
-def _futures(function: FunctionNode) -> list[str]:
+def _futures(module: PythonModule, function: FunctionNode) -> list[str]:
     """Return the variables that hold the future of an asynchronous call."""
     found: list[str] = []
-    for statement in ast.walk(function):
+    for statement in module.below(function, ast.Assign):
         match statement:
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Attribute(attr=method))
@@ -102,15 +103,10 @@ def _futures(function: FunctionNode) -> list[str]:
     return found
 
 
-def _waits(function: FunctionNode) -> bool:
+def _waits(module: PythonModule, function: FunctionNode) -> bool:
     """Tell whether anything in a function may let the future finish."""
-    for node in ast.walk(function):
-        if isinstance(node, ast.Await | ast.While | ast.Yield):
-            return True
-        if isinstance(node, ast.Attribute) and (
-            node.attr in WAITS or "spin" in node.attr or "wait" in node.attr
-        ):
-            return True
-        if isinstance(node, ast.Name) and ("spin" in node.id or "wait" in node.id):
-            return True
-    return False
+    if any(True for _ in module.below(function, ast.Await, ast.While, ast.Yield)):
+        return True
+    attributes = [node.attr for node in module.below(function, ast.Attribute)]
+    names = [*attributes, *(node.id for node in module.below(function, ast.Name))]
+    return not WAITS.isdisjoint(attributes) or any("spin" in x or "wait" in x for x in names)

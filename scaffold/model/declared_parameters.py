@@ -204,15 +204,15 @@ def _escapes(owner: NodeOwner) -> bool:
 
 def _is_handed_on(owner: NodeOwner, scope: ast.AST, name: str) -> bool:
     module = owner.facts.module
-    for call in ast.walk(scope):
-        if not isinstance(call, ast.Call):
-            continue
-        values = [*call.args, *(word.value for word in call.keywords)]
-        if not any(isinstance(value, ast.Name) and value.id == name for value in values):
+    for use in module.index.names(name):
+        parent = module.parent(use)
+        call = module.parent(parent) if isinstance(parent, ast.keyword) else parent
+        if not isinstance(call, ast.Call) or use is call.func:
             continue
         names = module.qualified_names(call.func)
-        if not names or not all(one.startswith(_HARMLESS) for one in names):
-            return not _is_base_init(call)
+        is_harmless = bool(names) and all(known.startswith(_HARMLESS) for known in names)
+        if not is_harmless and not _is_base_init(call) and module.is_inside(call, scope):
+            return True
     return False
 
 

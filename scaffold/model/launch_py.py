@@ -40,14 +40,18 @@ class LaunchCall(NamedTuple):
     kind: str
     """The last part of its name: ``Node``, ``DeclareLaunchArgument`` ..."""
     call: ast.Call
-    location: Location
-    """What is called."""
+    module: PythonModule
     given: Mapping[str, ast.expr]
     """The arguments by name, where that is known."""
     words: Mapping[str, ast.keyword]
     """The keyword arguments by name."""
     is_open: bool
     """There is a ``*`` or ``**``: more arguments may be given."""
+
+    @property
+    def location(self) -> Location:
+        """The place of what is called."""
+        return self.module.location(self.call.func)
 
 
 class PackageUse(NamedTuple):
@@ -332,7 +336,7 @@ def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
     given.update({name: word.value for name, word in words.items()})
     is_open = len(words) < len(node.keywords)
     is_open = is_open or any(isinstance(arg, ast.Starred) for arg in node.args)
-    return LaunchCall(kind, node, module.location(node.func), given, words, is_open)
+    return LaunchCall(kind, node, module, given, words, is_open)
 
 
 def share_path(value: object) -> tuple[str, str] | None:

@@ -50,8 +50,8 @@ def defined_by(node: NodeClass) -> set[str]:
     owner: NodeClass | None = node
     while owner is not None:
         found |= set(owner.facts.module.index.bindings(owner.node))
-        for attribute in ast.walk(owner.node):
-            if not isinstance(attribute, ast.Attribute) or isinstance(attribute.ctx, ast.Load):
+        for attribute in owner.facts.module.below(owner.node, ast.Attribute):
+            if isinstance(attribute.ctx, ast.Load):
                 continue
             parent = owner.facts.module.parent(attribute)
             if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with

@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 
 def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
     """Return what an expression stands for as a callback."""
-    at = facts.module.location(node)
+    module = facts.module
     if isinstance(node, ast.Call):
-        if facts.module.qualified_name(node.func) == "functools.partial" and node.args:
+        if module.qualified_name(node.func) == "functools.partial" and node.args:
             inner = resolve(facts, node.args[0])
-            return inner._replace(node=node, location=at, is_partial=True)
+            return inner._replace(node=node, is_partial=True)
         inner = resolve(facts, node.func)
         is_called = inner.function is not None and not _returns_function(inner.function)
-        return inner._replace(node=node, location=at, is_called=is_called, function=None)
+        return inner._replace(node=node, is_called=is_called, function=None)
     if isinstance(node, ast.Lambda):
-        return Callback(node, None, node, at, is_called=False, is_bound=False)
+        return Callback(node, None, node, module, is_called=False, is_bound=False)
     if isinstance(node, ast.Attribute):
         owner = facts.owner_of(node.value)
         method = owner.method(node.attr) if isinstance(owner, NodeClass) else None
@@ -33,15 +33,15 @@ def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
             class_ = facts.evaluator.self_class(node.value)
             method = _method_of(facts, class_, node.attr) if class_ else None
         is_bound = method is not None and not _is_static_method(method)
-        return Callback(node, node.attr, method, at, is_called=False, is_bound=is_bound)
+        return Callback(node, node.attr, method, module, is_called=False, is_bound=is_bound)
     if isinstance(node, ast.Name):
         found = facts.module.index.lookup(node.id, node)
         nodes = [binding.node for binding in found[1]] if found else []
         function = nodes[0] if len(nodes) == 1 else None
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             function = None
-        return Callback(node, node.id, function, at, is_called=False, is_bound=False)
-    return Callback(node, None, None, at, is_called=False, is_bound=False)
+        return Callback(node, node.id, function, module, is_called=False, is_bound=False)
+    return Callback(node, None, None, module, is_called=False, is_bound=False)
 
 
 def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNode | None:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from scaffold.model.descriptors import Descriptor
     from scaffold.model.node_owners import NodeOwner
     from scaffold.model.node_parameters import Declaration
+    from scaffold.model.python_module import PythonModule
     from scaffold.model.scopes import FunctionNode
     from scaffold.model.source import Location
 
@@ -35,13 +36,19 @@ class Callback(NamedTuple):
     """The method's or function's name; ``None`` for a lambda or what is not known."""
     function: FunctionNode | ast.Lambda | None
     """Its definition, if that is in the same file."""
-    location: Location
+    module: PythonModule
+    """The file that passes it."""
     is_called: bool
     """The function is called where it should be passed: ``self.on_timer()``."""
     is_bound: bool
     """A method, so ``self`` is not among the arguments that it is called with."""
     is_partial: bool = False
     """Wrapped in ``functools.partial``: some arguments are given already."""
+
+    @property
+    def location(self) -> Location:
+        """The place of what is passed."""
+        return self.module.location(self.node)
 
 
 class Qos(NamedTuple):

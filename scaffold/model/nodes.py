@@ -353,7 +353,7 @@ class NodeFacts:
         if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
             return False
         values: list[ast.expr] = []
-        for statement in ast.walk(class_):
+        for statement in self.module.below(class_, ast.Assign, ast.AugAssign, ast.Attribute):
             match statement:
                 case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)]):
                     values += [statement.value] if name == node.attr else []

@@ -131,6 +131,10 @@ class PythonModule:
         """Return all nodes of exactly this type, in the order of the text."""
         return self.index.all_of(kind)
 
+    def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
+        """Yield a node and those below it that are of some types, one type after the other."""
+        return self.index.below(node, *kinds)
+
     @cached_property
     def function_nodes(self) -> Sequence[FunctionNode]:
         """All functions and methods, nested ones too, in the order of the text."""
@@ -147,6 +151,10 @@ class PythonModule:
     def parents(self, node: ast.AST) -> Iterator[ast.AST]:
         """Yield the nodes around another, from the inside out."""
         return self.index.parents(node)
+
+    def is_inside(self, node: ast.AST, scope: ast.AST) -> bool:
+        """Tell whether a node is somewhere below another."""
+        return any(parent is scope for parent in self.parents(node))
 
     def enclosing_function(self, node: ast.AST) -> FunctionNode | None:
         """Return the function around a node, lambdas aside."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar, cast
 
@@ -48,8 +49,10 @@ class SyntaxIndex:
 
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
-        self.depth = 0
         self._parents: dict[ast.AST, ast.AST] = {}
+        self._numbers: dict[ast.AST, int] = {}
+        """Of all nodes, each before what is below it."""
+        self._numbers_of: dict[type[ast.AST], list[int]] = {}
         self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
@@ -60,28 +63,56 @@ class SyntaxIndex:
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
-        parents, by_type = self._parents, self._by_type
-        level: list[ast.AST] = [self.tree]
-        while level:
-            self.depth += 1
-            if self.depth > deepest:
+        parents, by_type, numbers = self._parents, self._by_type, self._numbers
+        pending: list[tuple[ast.AST, int]] = [(self.tree, 1)]
+        while pending:
+            node, depth = pending.pop()
+            if depth > deepest:
                 return False
-            below: list[ast.AST] = []
-            for node in level:
-                kind = type(node)
-                by_type.setdefault(kind, []).append(node)
-                for field in _fields(kind):
-                    value = getattr(node, field, None)
-                    if isinstance(value, list):
-                        for item in value:
-                            if isinstance(item, ast.AST):
-                                parents[item] = node
-                                below.append(item)
-                    elif isinstance(value, ast.AST):
-                        parents[value] = node
-                        below.append(value)
-            level = below
+            kind = type(node)
+            numbers[node] = len(numbers)
+            by_type.setdefault(kind, []).append(node)
+            below: list[tuple[ast.AST, int]] = []
+            for field in _fields(kind):
+                value = getattr(node, field, None)
+                if isinstance(value, list):
+                    for item in value:
+                        if isinstance(item, ast.AST):
+                            parents[item] = node
+                            below.append((item, depth + 1))
+                elif isinstance(value, ast.AST):
+                    parents[value] = node
+                    below.append((value, depth + 1))
+            if below:
+                below.reverse()
+                pending += below
         return True
+
+    def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
+        """Yield a node and those below it that are of some types, one type after the other."""
+        first = self._numbers[node]
+        last = self._last_number(node)
+        for kind in kinds:
+            if kind not in self._numbers_of:
+                nodes = self._by_type.get(kind, [])
+                self._numbers_of[kind] = [self._numbers[one] for one in nodes]
+            numbers = self._numbers_of[kind]
+            start, end = bisect_left(numbers, first), bisect_right(numbers, last)
+            yield from cast("list[Node]", self._by_type.get(kind, [])[start:end])
+
+    def _last_number(self, node: ast.AST) -> int:
+        """Return the number of the last node below another."""
+        while True:
+            last: ast.AST | None = None
+            for field in _fields(type(node)):
+                value = getattr(node, field, None)
+                if isinstance(value, list):
+                    last = next((one for one in reversed(value) if isinstance(one, ast.AST)), last)
+                elif isinstance(value, ast.AST):
+                    last = value
+            if last is None:
+                return self._numbers[node]
+            node = last
 
     def all_of(self, kind: type[Node]) -> Sequence[Node]:
         """Return the nodes of a type in the order of the text."""

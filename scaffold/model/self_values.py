@@ -111,7 +111,7 @@ class SelfEvaluator(Evaluator):
         """Tell whether others may set an attribute: ``if not hasattr(self, 'rate'):``."""
         for parent in self.module.parents(target):
             if isinstance(parent, ast.If):
-                for call in ast.walk(parent.test):
+                for call in self.module.below(parent.test, ast.Call):
                     match call:
                         case ast.Call(
                             func=ast.Name("hasattr"), args=[_, ast.Constant(value=name)]
