@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 
+from scaffold import home
 from scaffold.model.disk import digest
 
 SWITCH = "SCAFFOLD_NO_CACHE"
@@ -20,23 +21,47 @@ _SEAL = len(digest(b""))
 
 
 def directory(kind: str) -> str | None:
-    """Return where the user's cache keeps things of a kind, ``None`` if it is switched off."""
+    """Return where the user's cache keeps things of a kind, ``None`` if there is none.
+
+    It is switched off, there is no home, or it is in the repository that the tool works in: code is
+    kept in it, and a stranger could have committed some.
+    """
     if os.environ.get(SWITCH):
         return None
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return os.path.join(home, "ros2-scaffold", kind) if os.path.isabs(home) else None
+    kept = home.cache()
+    # The default place is the user's own, even for those who have a repository in their home.
+    if kept is None or ("XDG_CACHE_HOME" in os.environ and _is_in_repository(kept)):
+        return None
+    return os.path.join(kept, kind)
 
 
 def read_sealed(path: str, head: bytes) -> bytes | None:
-    """Return what was written under a head, ``None`` if it is not there, other or damaged."""
+    """Return what was written under a head, ``None`` if it is not there, other or damaged.
+
+    What another user wrote is as good as none.
+    """
     try:
         with open(path, "rb", buffering=0) as file:
-            stored = file.read()
+            stored = file.read() if os.fstat(file.fileno()).st_uid == os.geteuid() else b""
     except OSError:
         return None
     start = len(head) + _SEAL
     data = stored[start:]
     return data if stored[:start] == head + digest(data).encode() else None
+
+
+def _is_in_repository(path: str) -> bool:
+    """Tell whether a path is in the repository around the current directory."""
+    try:
+        directory = os.getcwd()
+    except OSError:  # it was removed
+        return False
+    while not os.path.lexists(os.path.join(directory, ".git")):
+        parent = os.path.dirname(directory)
+        if parent == directory:
+            return False
+        directory = parent
+    return os.path.realpath(path).startswith(os.path.join(directory, ""))
 
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:

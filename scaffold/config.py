@@ -3,20 +3,24 @@
 ``ros2-scaffold.toml`` in the current directory or the nearest one above it is the project's;
 ``$XDG_CONFIG_HOME/ros2-scaffold/config.toml`` is the user's. A table ``[check]`` of the project
 wins over the user's key by key; flags win over both.
+
+The project's file is data of strangers. What is code, the content directories, it may name only if
+the user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+from scaffold import home, trust
 from scaffold.errors import ConfigError
 from scaffold.model.disk import Disk
 from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"
-USER_FILE = os.path.join("ros2-scaffold", "config.toml")
+USER_FILE = "config.toml"
 
 _CHECK_KEYS = frozenset({"select", "ignore", "per-path-ignores"})
 
@@ -34,6 +38,8 @@ class Config(NamedTuple):
     values: Mapping[str, Value]
     content: tuple[str, ...] = ()
     """Content directories, relative ones resolved against their file."""
+    warnings: tuple[str, ...] = ()
+    """What the project's files say and was ignored, a line each."""
 
     def strings(self, key: str) -> tuple[str, ...]:
         """Return a list of strings, empty when not set.
@@ -83,6 +89,10 @@ class Config(NamedTuple):
 def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None) -> Config:
     """Read the user's and the project's file.
 
+    The project's content directories count only if its directory is trusted. A file above the
+    repository that belongs to another user is left alone; without a repository, one above the
+    directory.
+
     Args:
         directory: Where the search for the project's file starts.
         content: Content directories given as flags; they come last.
@@ -94,10 +104,17 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
     disk = disk or Disk()
     values: dict[str, Value] = {}
     directories: list[str] = []
-    for path in filter(None, (_user_file(disk), _project_file(disk, directory))):
+    warnings: list[str] = []
+    project = _project_file(disk, directory, warnings)
+    for path in filter(None, (user_file(disk), project)):
         for table, entries in _read(disk, path).items():
             if table == "content":
-                directories += _content(entries, path)
+                given = {disk.real(one) for one in content}
+                listed = _content(disk, entries, path)
+                named = [one for one in listed if disk.real(one) not in given]
+                refused = _refused(disk, path) if named and path == project else None
+                warnings += [refused] if refused else []
+                directories += [] if refused else named
                 continue
             if not isinstance(entries, dict):
                 raise ConfigError(f"{path}: {table} stands outside of a table such as [check]")
@@ -106,25 +123,74 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
                     known = ", ".join(sorted(_CHECK_KEYS))
                     raise ConfigError(f"{path}: [check] has no key {key!r}; it has {known}")
                 values[f"{table}.{key}"] = Value(value, path)
-    return Config(values, (*directories, *content))
+    return Config(values, (*directories, *content), tuple(warnings))
 
 
-def _user_file(disk: Disk) -> str | None:
-    base = os.environ.get("XDG_CONFIG_HOME") or os.path.join(os.path.expanduser("~"), ".config")
-    path = os.path.join(base, USER_FILE)
-    return path if disk.is_file(path) else None
+def named_content(directory: str) -> list[str]:
+    """Return the content directories that the project's file in a directory names.
+
+    Raises:
+        ConfigError: there is no such file, or it cannot be read.
+    """
+    path = os.path.join(directory, PROJECT_FILE)
+    return _content(Disk(), _read(Disk(), path).get("content", []), path)
 
 
-def _project_file(disk: Disk, directory: str) -> str | None:
-    current = os.path.abspath(directory)
-    while True:
+def user_file(disk: Disk) -> str | None:
+    """Return the path of the user's file, ``None`` if there is none."""
+    base = home.configuration()
+    path = None if base is None else os.path.join(base, USER_FILE)
+    return path if path is not None and disk.is_file(path) else None
+
+
+def _project_file(disk: Disk, directory: str, warnings: list[str]) -> str | None:
+    start = os.path.abspath(directory)
+    for current in _upwards(start):
         path = os.path.join(current, PROJECT_FILE)
         if disk.is_file(path):
-            return path
-        parent = os.path.dirname(current)
-        if parent == current:
-            return None
-        current = parent
+            top = None if disk.is_own(path) else _top(disk, start)
+            if top is None or (_is_within(current, top) and not disk.is_shared(current)):
+                return path
+            warnings.append(
+                f"{path}: ignored: it is not in {top} and belongs to another user; copy it there "
+                "if it is yours to use"
+            )
+    return None
+
+
+def _top(disk: Disk, start: str) -> str:
+    """Return the top of the repository around a directory; without one, the directory itself.
+
+    A repository in a directory where everybody may write is that of anybody.
+    """
+    for current in _upwards(start):
+        if disk.exists(os.path.join(current, ".git")) and not disk.is_shared(current):
+            return current
+    return start
+
+
+def _upwards(directory: str) -> Iterator[str]:
+    yield directory
+    while (parent := os.path.dirname(directory)) != directory:
+        yield parent
+        directory = parent
+
+
+def _is_within(directory: str, top: str) -> bool:
+    return os.path.commonpath((directory, top)) == top
+
+
+def _refused(disk: Disk, path: str) -> str | None:
+    """Return why the content of a project's file is ignored, ``None`` if it is not."""
+    from shlex import quote
+
+    directory = disk.real(os.path.dirname(path))
+    if trust.is_trusted(disk, directory):
+        return None
+    return (
+        f"{path}: 'content' ignored: it names code, and you do not trust this directory; "
+        f"if you do: ros2-scaffold trust {quote(directory)}"
+    )
 
 
 def _read(disk: Disk, path: str) -> dict[str, Any]:
@@ -142,8 +208,8 @@ def _read(disk: Disk, path: str) -> dict[str, Any]:
         raise ConfigError(f"{path}: not TOML: {error}") from error
 
 
-def _content(entries: object, path: str) -> list[str]:
+def _content(disk: Disk, entries: object, path: str) -> list[str]:
     if not isinstance(entries, list) or not all(isinstance(entry, str) for entry in entries):
         raise ConfigError(f"{path}: content must be a list of directories")
-    base = os.path.dirname(path)
+    base = disk.real(os.path.dirname(path))
     return [os.path.join(base, os.path.expanduser(entry)) for entry in entries]

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from scaffold import content
+from scaffold import content, trust
 from scaffold.check.rule import Rule
 from scaffold.cli.main import main
 from scaffold.errors import ContentError, InputError
@@ -1059,6 +1059,7 @@ def test_a_package_that_the_checker_rejects_is_a_defect(
     team: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "work" / "ros2-scaffold.toml").write_text(f'content = ["{team.parent}"]\n')
+    trust.add(str(tmp_path / "work"))
     (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text("import os\n")
     assert main(["new", "talker", "--node-kind", "blinker"]) == 3
     said = capsys.readouterr()

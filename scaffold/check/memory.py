@@ -38,7 +38,7 @@ ENVIRONMENT = (
 )
 """The variables that a verdict, or how it is shown, depends on."""
 
-_MAGIC = b"scaffold-run-1\n"
+_MAGIC = b"scaffold-run-2\n"
 
 
 class Run:
@@ -50,6 +50,7 @@ class Run:
         results: What ``scaffold.check.remembered`` wants to know of each package.
         code: The exit code.
         output: What was written.
+        warnings: What was written to standard error: what of the configuration is ignored.
     """
 
     def __init__(
@@ -59,12 +60,14 @@ class Run:
         results: Sequence[tuple[Any, ...]],
         code: int,
         output: str,
+        warnings: Sequence[str],
     ) -> None:
         self.outside = outside
         self.trees = trees
         self.results = results
         self.code = code
         self.output = output
+        self.warnings = warnings
         self._asked: dict[int, bool] = {}
 
     def is_current(self) -> bool:
@@ -114,7 +117,10 @@ class Slot:
 
     def save(self, run: Run) -> None:
         """Store a run."""
-        everything: Any = (run.outside, run.trees, run.results, run.code, run.output)
+        everything: Any = (
+            *(run.outside, run.trees, run.results),
+            *(run.code, run.output, run.warnings),
+        )
         data = marshal.dumps(everything)
         if len(data) <= MAX_BYTES and cache.write_sealed(self._path, self._head, data):
             cache.trim(os.path.dirname(self._path), MAX_RUNS)

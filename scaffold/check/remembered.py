@@ -77,7 +77,13 @@ class Memory:
                 yield Result(target.package, known.files, found)
 
     def save(
-        self, slot: Slot, disk: Disk, results: Sequence[Result], code: int, output: str
+        self,
+        slot: Slot,
+        disk: Disk,
+        results: Sequence[Result],
+        code: int,
+        output: str,
+        warnings: Sequence[str] = (),
     ) -> None:
         """Remember a complete run.
 
@@ -87,6 +93,7 @@ class Memory:
             results: Of all packages, in their order.
             code: The exit code.
             output: What was written.
+            warnings: What of the configuration is ignored.
         """
         from scaffold.style import ruff
 
@@ -109,7 +116,7 @@ class Memory:
             )
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             found.append(tuple(known))
-        slot.save(Run(disk.seen, trees, found, code, output))
+        slot.save(Run(disk.seen, trees, found, code, output, (*warnings,)))
 
 
 def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
-    from scaffold import config, content
-    from scaffold.cli import flags
+    from scaffold import content
+    from scaffold.cli import flags, settings
     from scaffold.generate import parts, questions, template
 
-    templates = template.load(content.roots("templates", config.load().content))
+    templates = template.load(content.roots("templates", settings.load().content))
     kinds = parts.addable(templates)
     kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {', '.join(kinds)}")
     kind.completer = lambda **_: kinds  # type: ignore[attr-defined]  # argcomplete
@@ -224,7 +224,8 @@ def _report(package: Package, said: list[Diagnostic]) -> None:
         terminal.say(_line(package, diagnostic))
     terminal.say(
         "ros2-scaffold: defect: what was to be added has faults that the checker finds; "
-        "nothing was changed; please report it"
+        "nothing was changed; "
+        "please report it as an issue of the repository that this tool is from"
     )
 
 

@@ -72,11 +72,13 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check.remembered import Memory
     from scaffold.check.session import Session
     from scaffold.cli import progress
+    from scaffold.cli.settings import warn
     from scaffold.model import discovery
     from scaffold.model.disk import Disk
 
     disk = Disk()
     settings = config.load(content=tuple(options.content), disk=disk)
+    warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
     selection = _selection(options, settings, rules)
     session = Session(rules, selection)
@@ -94,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
     terminal.write_report(output.getvalue())
     code = exit_code(results)
     if slot is not None:
-        memory.save(slot, disk, results, code, output.getvalue())
+        memory.save(slot, disk, results, code, output.getvalue(), settings.warnings)
     return code
 
 

@@ -17,6 +17,7 @@ from scaffold.cli.exit_codes import (
     INTERRUPTED,
     USAGE_ERROR,
 )
+from scaffold.cli.search_path import leave_out_current_directory
 from scaffold.errors import ScaffoldError
 
 TYPE_CHECKING = False  # the one of typing is slow to import
@@ -36,6 +37,7 @@ VERBS = {
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
+    "trust": "let the configuration of a directory name rules and templates",
     "completion": "print what a shell needs for tab completion",
 }
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
@@ -44,6 +46,8 @@ VERBS = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a verb and return its exit code, one of `scaffold.cli.exit_codes`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if arguments is None:
+        leave_out_current_directory()
     gc.set_threshold(COLLECT_FROM)
     atexit.register(gc.freeze)  # else Python looks through everything once more
     try:
@@ -67,6 +71,8 @@ def _run(given: list[str]) -> int:
     last = slot.last if slot is not None else None
     if last is not None and last.is_current():
         # Before argparse: laying out the flags takes longer than looking at a small package.
+        for warning in last.warnings:
+            terminal.warn(warning)
         terminal.write_report(last.output)
         return last.code
     from importlib import import_module
@@ -118,7 +124,8 @@ def _defect(error: Exception) -> int:
     terminal.say(
         f"ros2-scaffold: defect: {type(error).__name__}: {error} "
         f"({os.path.basename(last.filename)}:{last.lineno}); "
-        "please report it; SCAFFOLD_DEBUG=1 shows more"
+        "please report it as an issue of the repository that this tool is from; "
+        "SCAFFOLD_DEBUG=1 shows more"
     )
     return INTERNAL_ERROR
 

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
-    from scaffold import config, content
-    from scaffold.cli import flags
+    from scaffold import content
+    from scaffold.cli import flags, settings
     from scaffold.generate import parts, questions, template
 
-    templates = template.load(content.roots("templates", config.load().content))
+    templates = template.load(content.roots("templates", settings.load().content))
     parser.set_defaults(templates=templates)
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
     questions.add_flags(parser, questions.shared(_in_order(templates)), kinds)

@@ -33,13 +33,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold import config, content
+    from scaffold import content
     from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
+    from scaffold.cli import settings
     from scaffold.style.codes import CODES
 
-    settings = config.load(content=tuple(options.content))
-    rules = all_rules(registry.load(content.roots("rules", settings.content)))
+    own = settings.load(options.content).content
+    rules = all_rules(registry.load(content.roots("rules", own)))
     if options.write_docs:
         docs.write(options.write_docs, rules)
     elif options.codes:

@@ -41,13 +41,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List templates, or test them."""
-    from scaffold import config, content
+    from scaffold import content
+    from scaffold.cli import settings
     from scaffold.generate import template
 
     if options.directory is None:
         options.directory = options.content
     own = _own(options.directory)
-    roots = content.roots("templates", (*config.load().content, *own))
+    roots = content.roots("templates", (*settings.load().content, *own))
     templates = template.load(roots)
     if options.directory is not None:
         within = os.path.realpath(options.directory) + os.sep

@@ -84,6 +84,11 @@ def note(text: str) -> None:
     say(f"note: {text}")
 
 
+def warn(text: str) -> None:
+    """Write a line to standard error that says what is not as the user may expect."""
+    say(f"ros2-scaffold: warning: {text}")
+
+
 def error(text: str) -> None:
     """Write the line to standard error that says why the run ends."""
     say(f"ros2-scaffold: error: {text}")

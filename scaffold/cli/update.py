@@ -30,7 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Bring a package in step with the templates; 1 when there is something to decide."""
-    from scaffold import config, content
+    from scaffold import content
+    from scaffold.cli import settings
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import InputError
     from scaffold.generate import template, update
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
         raise InputError(f"{directory}: no such directory")
-    roots = content.roots("templates", config.load(content=tuple(options.content)).content)
+    roots = content.roots("templates", settings.load(options.content).content)
     templates = template.load(roots)
     updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
     plan = WritePlan.of(directory, updated.files, executable=updated.executable)

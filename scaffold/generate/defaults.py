@@ -48,12 +48,14 @@ class User:
         """``user.name`` and ``user.email``, as far as git has them."""
         import subprocess
 
+        from scaffold import git
+
         directory = os.path.abspath(self.directory)
         while not os.path.isdir(directory):
             directory = os.path.dirname(directory)
-        command = ["git", "-C", directory, "config", "-z", "--get-regexp", r"^user\.(name|email)$"]
+        words = ("config", "-z", "--get-regexp", r"^user\.(name|email)$")
         try:
-            done = subprocess.run(command, capture_output=True, timeout=10, check=False)
+            done = git.run(*words, directory=directory)
         except (OSError, subprocess.TimeoutExpired):
             return {}
         found: dict[str, str] = {}

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from scaffold import home
+from scaffold.config import USER_FILE
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import parts, questions
 from scaffold.generate.connections import clashes, uses
@@ -302,5 +304,4 @@ def _remarks(renderer: Renderer, context: Mapping[str, object], user: User) -> t
 
 
 def _config_file() -> str:
-    base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
-    return os.path.join(base, "ros2-scaffold", "config.toml")
+    return os.path.join(home.configuration() or "~/.config/ros2-scaffold", USER_FILE)

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 from typing import NamedTuple
 
+from scaffold import git
 from scaffold.errors import InputError
 
 LABELS = ("yours", "template before", "template now")
@@ -44,11 +45,14 @@ def merge(yours: bytes, before: bytes, now: bytes) -> Merged:
             with open(names[-1], "wb") as file:
                 file.write(content)
         labels = [word for label in LABELS for word in ("-L", label)]
-        command = ["git", "merge-file", "--stdout", "--diff3", *labels, *names]
         try:
-            done = subprocess.run(command, capture_output=True, check=False)
+            # Not in the user's repository, whose configuration has no say in this.
+            words = ("merge-file", "--stdout", "--diff3", *labels, *names)
+            done = git.run(*words, directory=directory)
         except FileNotFoundError:
             raise InputError("git is needed to merge files; install it") from None
+        except subprocess.TimeoutExpired:
+            raise InputError(f"git did not merge within {git.SECONDS} s") from None
     if done.returncode >= _FAILED or done.returncode < 0:
         reason = " ".join(done.stderr.decode(errors="replace").split())
         raise InputError(f"git cannot merge: {reason}")

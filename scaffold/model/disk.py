@@ -102,6 +102,21 @@ class Disk:
         """Return a path without links."""
         return str(self._ask("real", path))
 
+    def is_own(self, path: str) -> bool:
+        """Tell whether a file, and a link to it, belong to the user who runs this.
+
+        Under sudo, to the one who called it as well.
+        """
+        return bool(self._ask("is_own", path))
+
+    def is_shared(self, path: str) -> bool:
+        """Tell whether everybody may put files into a directory, as into ``/tmp``."""
+        return bool(self._ask("is_shared", path))
+
+    def owner(self, path: str) -> str:
+        """Return the number of the user that a file belongs to; empty for none."""
+        return str(self._ask("owner", path))
+
     def stamp(self, path: str) -> str:
         """Return what changes when a program is installed anew."""
         return str(self._ask("stamp", path))
@@ -192,6 +207,35 @@ def _is_executable(path: str) -> bool:
         return False
 
 
+def _is_own(path: str) -> bool:
+    users = {os.geteuid()}
+    caller = os.environ.get("SUDO_UID", "")
+    if users == {0} and caller.isdecimal():
+        users.add(int(caller))
+    try:
+        return {os.lstat(path).st_uid, os.stat(path).st_uid} <= users
+    except OSError:
+        return False
+
+
+def _is_shared(path: str) -> bool:
+    # Without the sticky bit it is a mount that knows no owners, as those of virtual machines.
+    try:
+        return os.stat(path).st_mode & _SHARED == _SHARED
+    except OSError:
+        return False
+
+
+_SHARED = 0o1002
+
+
+def _owner(path: str) -> str:
+    try:
+        return str(os.stat(path).st_uid)
+    except OSError:
+        return ""
+
+
 _ANSWERS: dict[str, Callable[[str], Answer]] = {
     "content": _digest_of_content,
     "names": lambda path: _digest_of(*_names(path)),
@@ -200,6 +244,9 @@ _ANSWERS: dict[str, Callable[[str], Answer]] = {
     "is_directory": os.path.isdir,
     "is_executable": _is_executable,
     "real": os.path.realpath,
+    "is_own": _is_own,
+    "is_shared": _is_shared,
+    "owner": _owner,
     "stamp": stamp,
 }
 

@@ -1,0 +1,71 @@
+"""``ros2-scaffold trust [DIR]``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from scaffold.cli import terminal
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.description = (
+        "Let the ros2-scaffold.toml in a directory name rules and templates of its own: rules are "
+        "Python that every later run there executes. Trust is for this directory, not for those "
+        "below it, and lasts until it is removed."
+    )
+    parser.add_argument(
+        "directory", nargs="?", metavar="DIR", help="the directory that has the ros2-scaffold.toml"
+    )
+    action = parser.add_mutually_exclusive_group()
+    action.add_argument("--list", action="store_true", help="list the trusted directories")
+    action.add_argument("--remove", action="store_true", help="stop trusting the directory")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Change or show the list of trusted directories."""
+    from scaffold import trust
+    from scaffold.cli.exit_codes import CLEAN
+    from scaffold.errors import InputError
+
+    if options.list:
+        if options.directory is not None:
+            raise InputError("--list takes no DIR")
+        _list()
+    elif options.directory is None:
+        raise InputError("DIR is needed: the directory that has the ros2-scaffold.toml")
+    elif options.remove:
+        terminal.show(f"not trusted any more: {trust.remove(options.directory)}")
+    else:
+        _add(options.directory)
+    return CLEAN
+
+
+def _add(directory: str) -> None:
+    from scaffold import config, trust
+
+    real = trust.add(directory)
+    terminal.show(f"trusted: {real}")
+    if not os.path.isfile(os.path.join(real, config.PROJECT_FILE)):
+        terminal.note(
+            f"there is no {config.PROJECT_FILE} in {real}; trust is for the directory that has "
+            "one, not for those below it"
+        )
+        return
+    for name in config.named_content(real):
+        terminal.show(f"    rules and templates from {os.path.normpath(name)}")
+
+
+def _list() -> None:
+    from scaffold import trust
+    from scaffold.model.disk import Disk
+
+    disk = Disk()
+    for directory, owner in trust.trusted(disk).items():
+        note = ""
+        if not disk.is_directory(directory):
+            note = "  (gone)"
+        elif disk.owner(directory) != owner:
+            note = "  (not any more: it belongs to another user than then)"
+        terminal.show(f"{directory}{note}")

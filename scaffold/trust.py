@@ -1,0 +1,136 @@
+"""The directories whose configuration may name rules and templates, which are code.
+
+The user trusts them by name. A directory is trusted exactly, as git's ``safe.directory``: not what
+is below it. The list is a file of the user's configuration, a line for each: the owner that the
+directory had then, and its real path. Whoever puts another directory there is another owner.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator
+
+from scaffold import home
+from scaffold.errors import ConfigError, InputError
+from scaffold.model.disk import Disk
+
+FILE = "trusted"
+"""In the directory of the user's configuration."""
+
+_ABOUT = "# Directories trusted by `ros2-scaffold trust`: owner and path.\n"
+
+
+def is_trusted(disk: Disk, directory: str) -> bool:
+    """Tell whether the user trusts a directory.
+
+    Args:
+        disk: Notes what the answer depends on.
+        directory: Its real path.
+    """
+    owner = trusted(disk).get(directory)
+    return owner is not None and owner == disk.owner(directory)
+
+
+def trusted(disk: Disk) -> dict[str, str]:
+    """Return the owners of the trusted directories by their real paths."""
+    path = _path()
+    if path is None or not disk.is_file(path):
+        return {}
+    try:
+        text = os.fsdecode(disk.read(path))
+    except OSError as error:
+        raise ConfigError(f"{path}: {error.strerror}") from error
+    entries: dict[str, str] = {}
+    for line in text.splitlines(keepends=False):
+        owner, _, directory = line.partition(" ")
+        if owner.isdecimal() and os.path.isabs(directory):
+            entries[directory] = owner
+    return entries
+
+
+def add(directory: str) -> str:
+    """Trust a directory and return its real path.
+
+    Raises:
+        InputError: there is none, or everybody may replace what is in it.
+        ConfigError: the list cannot be written.
+    """
+    if not os.path.isdir(directory):
+        raise InputError(f"{directory}: no such directory")
+    disk = Disk()
+    real = disk.real(directory)
+    if real.splitlines() != [real]:
+        raise InputError(f"{directory}: a name with a line break cannot be trusted")
+    if disk.is_shared(real):
+        raise InputError(f"{directory}: everybody may write there, so it cannot be trusted")
+    with _locked() as path:
+        _write(path, {**trusted(Disk()), real: disk.owner(real)})
+    return real
+
+
+def remove(directory: str) -> str:
+    """Stop trusting a directory, which may be gone, and return its path in the list.
+
+    Raises:
+        InputError: it is not trusted.
+        ConfigError: the list cannot be written.
+    """
+    with _locked() as path:
+        entries = trusted(Disk())
+        names = (os.path.realpath(directory), os.path.abspath(directory))
+        name = next((name for name in names if name in entries), None)
+        if name is None:
+            raise InputError(
+                f"{directory}: not trusted; `ros2-scaffold trust --list` lists what is"
+            )
+        del entries[name]
+        _write(path, entries)
+    return name
+
+
+def _path() -> str | None:
+    directory = home.configuration()
+    return None if directory is None else os.path.join(directory, FILE)
+
+
+@contextlib.contextmanager
+def _locked() -> Iterator[str]:
+    """Yield the path of the list, which no other process changes meanwhile."""
+    import fcntl
+
+    path = _path()
+    if path is None:
+        raise ConfigError("no home directory to keep the list of trusted directories in; set HOME")
+    try:
+        os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
+        descriptor = os.open(os.path.dirname(path), os.O_RDONLY)
+    except OSError as error:
+        raise ConfigError(f"{path}: {error.strerror}; nothing was changed") from error
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield path
+    finally:
+        os.close(descriptor)
+
+
+def _write(path: str, entries: dict[str, str]) -> None:
+    """Write the list aside and rename it; a link to it, as those of dotfiles, stays."""
+    from tempfile import NamedTemporaryFile
+
+    target = os.path.realpath(path)
+    lines = [f"{owner} {directory}\n" for directory, owner in sorted(entries.items())]
+    try:
+        with NamedTemporaryFile(
+            prefix=f".{FILE}-", dir=os.path.dirname(target), delete=False
+        ) as file:
+            try:
+                file.write(os.fsencode(_ABOUT + "".join(lines)))
+                file.flush()
+                os.fsync(file.fileno())
+                os.replace(file.name, target)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+    except OSError as error:
+        raise ConfigError(f"{path}: {error.strerror}; nothing was changed") from error
