@@ -201,11 +201,35 @@ def _read(disk: Disk, path: str) -> dict[str, Any]:
     else:
         import tomli as tomllib
     try:
-        return tomllib.loads(disk.read(path).decode())
+        data = disk.read(path).decode()
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise ConfigError(f"{path}:{line}: not UTF-8") from error
+    try:
+        entries = tomllib.loads(data)
+        _refuse_large(entries, path)
+    except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"{path}: not TOML: {error}") from error
+    except RecursionError:
+        raise ConfigError(f"{path}: nested too deeply") from None
+    except ValueError as error:  # Python refuses numbers of thousands of digits
+        raise ConfigError(f"{path}: not TOML: a number is too large") from error
+    return entries
+
+
+def _refuse_large(value: object, path: str) -> None:
+    """Raise if there is an integer that TOML does not have: it ends at 64 bits."""
+    if isinstance(value, int) and value.bit_length() > _INTEGER_BITS:
+        raise ConfigError(f"{path}: not TOML: a number is too large")
+    if isinstance(value, dict | list):
+        for inner in value.values() if isinstance(value, dict) else value:
+            _refuse_large(inner, path)
+
+
+_INTEGER_BITS = 63
+"""Of the integers of TOML, besides their sign."""
 
 
 def _content(disk: Disk, entries: object, path: str) -> list[str]:

@@ -18,7 +18,7 @@ from scaffold import __version__, content
 from scaffold.check import registry
 from scaffold.check.session import all_rules
 from scaffold.cli.main import VERBS
-from scaffold.generate import template
+from scaffold.generate import yaml_file
 from tests import PATIENCE
 from tests.oracles import system_environment
 
@@ -134,7 +134,7 @@ def only(directory: Path, pattern: str) -> Path:
 
 def test_pre_commit_accepts_the_hook() -> None:
     run(sys.executable, "-m", "pre_commit", "validate-manifest", ROOT / ".pre-commit-hooks.yaml")
-    (hook,) = template.read_yaml(str(ROOT / ".pre-commit-hooks.yaml"))
+    (hook,) = yaml_file.read(str(ROOT / ".pre-commit-hooks.yaml"))
     command, verb = hook["entry"].split()
     assert command == hook["id"] == "ros2-scaffold"
     assert verb in VERBS

@@ -8,9 +8,10 @@ import sys
 from typing import TYPE_CHECKING
 
 from scaffold.cli import terminal
+from scaffold.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from scaffold.check.diagnostic import Diagnostic
     from scaffold.cli.wizard import Asked
@@ -51,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.errors import ScaffoldError
-    from scaffold.generate import draft, place, template
+    from scaffold.generate import dependency_names, draft, place, template
     from scaffold.generate.defaults import User
 
     settings = config.load(content=tuple(options.content))
@@ -62,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
     if "package" not in given:
         given, command = _ask(options, roots, templates, given)
     try:
+        named, doubts = _dependencies(options, given)
         made = draft.draft(roots, templates, given, User(options.destination_directory))
         place.check(options.destination_directory, made.name)
         plan = _plan(options, made)
@@ -70,13 +72,14 @@ def run(options: argparse.Namespace) -> int:
             terminal.say_lines(f"Your answers as a command, to be corrected:\n    {command}")
         raise
     check = draft.Check(made)
-    defects = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
+    found = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
+    defects = [defect for defect in found if not dependency_names.is_about(defect, named)]
     if defects:
         _report_defects(defects)
         return INTERNAL_ERROR
     if not options.dry_run and not options.diff:
         plan.write(force=options.force)
-    for remark in made.remarks:
+    for remark in (*made.remarks, *doubts):
         terminal.note(remark)
     if options.diff:
         terminal.show_patch(plan.diff())
@@ -98,7 +101,6 @@ def _ask(
     Raises:
         InputError: there is no terminal.
     """
-    from scaffold.errors import InputError
     from scaffold.generate import draft, place
     from scaffold.generate.defaults import User
 
@@ -113,10 +115,32 @@ def _ask(
         _refuse_existing(options, name)
 
     def try_package(answers: Mapping[str, Given]) -> None:
+        _dependencies(options, answers)
         draft.compose(roots, templates, answers, User(options.destination_directory))
 
     trial = wizard.Trial(try_name, try_package)
     return wizard.ask(templates, given, user, trial, _besides_answers(options))
+
+
+def _dependencies(
+    options: argparse.Namespace, given: Mapping[str, Given]
+) -> tuple[Sequence[str], Sequence[str]]:
+    """Return the dependencies that the user wants, and what to say of them.
+
+    Raises:
+        InputError: one is certainly wrong.
+    """
+    from scaffold.generate import dependency_names, values
+
+    wanted = given.get("dependencies")
+    if wanted is None:
+        return (), ()
+    try:
+        names = values.dependencies(wanted.value)
+    except InputError as error:
+        raise InputError(f"{wanted.origin}: {error}") from error
+    where = options.destination_directory
+    return names, tuple(dependency_names.notes(names, wanted.origin, where))
 
 
 def _besides_answers(options: argparse.Namespace) -> list[str]:

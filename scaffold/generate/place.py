@@ -32,7 +32,7 @@ def check(destination: str, package: str) -> None:
             f"{outer} is a package, and colcon does not look for others inside of it"
         )
     own = os.path.join(os.path.realpath(destination), package)
-    for other in _neighbours(top):
+    for other in neighbours(top):
         directory = os.path.realpath(other)
         if directory != own and Package.at(directory).name == package:
             raise ConflictError(f"{directory} is a package with the name {package!r} already")
@@ -44,8 +44,8 @@ def workspace(destination: str) -> str | None:
     return os.path.dirname(sources) if sources else None
 
 
-def _neighbours(top: str) -> list[str]:
-    """Return the packages of the workspace, and those beside the new package."""
+def neighbours(top: str) -> list[str]:
+    """Return the packages of the workspace around a directory, and those in it."""
     disk = Disk()
     sources = colcon.sources_at(disk, top)
     found = colcon.package_directories(disk, sources) if sources else []

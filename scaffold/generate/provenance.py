@@ -107,9 +107,26 @@ def _release(version: str) -> list[int]:
     return numbers
 
 
+_MOST_DEEP = 10
+"""Levels of answers; those of ours have four."""
+
+
+def _depth(value: object) -> int:
+    """Return how deep lists and mappings are nested; what is too deep is not looked at."""
+    depth, level = 0, [value]
+    while level and depth <= _MOST_DEEP:
+        inner: list[object] = []
+        for one in level:
+            inner += one.values() if isinstance(one, dict) else one if isinstance(one, list) else ()
+        depth, level = depth + 1, inner
+    return depth
+
+
 def _are_answers(answers: object) -> bool:
     """Tell whether answers have the form in which they are kept; each is judged later."""
     if not isinstance(answers, dict) or not isinstance(answers.get("package"), str):
+        return False
+    if _depth(answers) > _MOST_DEEP:
         return False
     parts = answers.get("add", [])
     return (

@@ -12,8 +12,9 @@ from difflib import get_close_matches
 from typing import Any
 
 from scaffold.errors import InputError
+from scaffold.generate import yaml_file
 from scaffold.generate.qos import NAMES
-from scaffold.generate.template import Question, Template, read_yaml
+from scaffold.generate.template import Question, Template
 from scaffold.generate.values import TYPES
 from scaffold.record import NamedTuple
 
@@ -165,17 +166,10 @@ def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
     Raises:
         InputError: it cannot be read, is not a mapping, or answers what nobody asks.
     """
-    import yaml
-
-    try:
-        entries = read_yaml(path)
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not YAML: {' '.join(str(error).split())}") from error
+    entries = yaml_file.read(path)
     if not isinstance(entries, dict):
         raise InputError(f"{path}: must map questions to answers, such as 'rate: 2.0'")
-    return from_table({str(key): Given(value, path) for key, value in entries.items()}, questions)
+    return from_table({key: Given(value, path) for key, value in entries.items()}, questions)
 
 
 def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> dict[str, Given]:

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import marshal
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from typing import Any
 
 from scaffold import cache
 from scaffold.errors import ContentError
-from scaffold.generate import licenses
+from scaffold.generate import licenses, yaml_file
 from scaffold.model.disk import digest, stamp
 from scaffold.record import NamedTuple
 
@@ -99,7 +99,7 @@ class Template(NamedTuple):
         return f"{self.role.value}_name"
 
 
-_KEYS = {
+_KEYS: Mapping[str, type[Any]] = {
     "summary": str,
     "role": str,
     "questions": dict,
@@ -115,6 +115,18 @@ _KEYS = {
     "notes": dict,
     "examples": dict,
 }
+_INNER: Mapping[str, Any] = {
+    "build_types": str,
+    "depends": list,
+    "groups": str,
+    "installs": str,
+    "include": (str, bool),
+    "executable": str,
+    "notes": str,
+    "examples": dict,
+}
+"""The types of what is in a value."""
+_WORDS: Mapping[object, str] = {str: "text", dict: "mapping", list: "list", (str, bool): "text"}
 _DEFINITIONS = frozenset({"msg", "srv", "action"})
 _QUESTION_KEYS = frozenset({"type", "help", "default", "choices", "positional", "metavar"})
 
@@ -143,15 +155,6 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
     return {name: _with_choices(template, found, known) for name, template in found.items()}
 
 
-def read_yaml(path: str) -> Any:  # noqa: ANN401  whatever the file holds
-    """Return the content of a YAML file; raises OSError and yaml.YAMLError."""
-    import yaml
-
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    with open(path, encoding="utf-8") as file:
-        return yaml.load(file, loader)  # noqa: S506  a safe loader, the fast one where it exists
-
-
 def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
     """Return the names of the templates of a role."""
     return tuple(name for name, template in templates.items() if template.role is role)
@@ -161,7 +164,7 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
     """Return the manifests of templates, from the user's cache while no file has changed."""
     paths = [os.path.join(directory, MANIFEST) for directory in directories]
     stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
-    head = b"scaffold-manifests-1\n" + digest(os.fsencode(stamps)).encode()
+    head = b"scaffold-manifests-2\n" + digest(os.fsencode(stamps)).encode()
     kept = cache.directory("manifests")
     place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
     data = cache.read_sealed(place, head) if kept else None
@@ -169,11 +172,7 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
         found: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
         return found
     made = [_manifest(path) for path in paths]
-    try:
-        data = marshal.dumps(made)
-    except ValueError:  # a date, which YAML knows and marshal does not
-        return made
-    if kept and cache.write_sealed(place, head, data):
+    if kept and cache.write_sealed(place, head, marshal.dumps(made)):
         cache.trim(kept, _MOST_KEPT)
     return made
 
@@ -190,7 +189,7 @@ def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Templat
         roles = ", ".join(one.value for one in Role)
         raise ContentError(f"{path}: role must be one of {roles}") from None
     for kind, depends in manifest.get("depends", {}).items():
-        if kind not in DEPEND_KINDS or not isinstance(depends, list):
+        if kind not in DEPEND_KINDS or not all(isinstance(text, str) for text in depends):
             kinds = ", ".join(DEPEND_KINDS)
             raise ContentError(f"{path}: depends must map {kinds} to lists of names")
     asked = manifest.get("questions", {}).items()
@@ -223,23 +222,30 @@ def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Templat
 
 def _manifest(path: str) -> dict[str, Any]:
     """Return a manifest whose keys and the types of whose values are right."""
-    import yaml
-
-    try:
-        manifest = read_yaml(path)
-    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
-        raise ContentError(f"{path}: {' '.join(str(error).split())}") from error
+    manifest = yaml_file.read(path, ContentError)
     if not isinstance(manifest, dict):
         raise ContentError(f"{path}: must be a mapping with the keys {', '.join(_KEYS)}")
     for key, value in manifest.items():
         if key not in _KEYS:
             raise ContentError(f"{path}: unknown key {key!r}; the keys are {', '.join(_KEYS)}")
         if not isinstance(value, _KEYS[key]):
-            raise ContentError(f"{path}: {key} must be a {_KEYS[key].__name__}")
+            raise ContentError(f"{path}: {key} must be a {_WORDS[_KEYS[key]]}")
+        _refuse_others(path, key, value)
     for key in ("summary", "role"):
         if key not in manifest:
             raise ContentError(f"{path}: the key {key!r} is missing")
     return manifest
+
+
+def _refuse_others(path: str, key: str, value: object) -> None:
+    """Raise if a list or a mapping holds something of another type than its key says."""
+    inside: Iterable[object] = value if isinstance(value, list) else ()
+    if isinstance(value, dict):
+        inside = value.values()
+    for inner in inside:
+        if not isinstance(inner, _INNER.get(key, object)):
+            whole, part = _WORDS[_KEYS[key]], _WORDS[_INNER[key]]
+            raise ContentError(f"{path}: {key} must be a {whole} of {part}s, and {inner!r} is none")
 
 
 def _question(path: str, name: str, entry: object) -> Question:
@@ -251,10 +257,15 @@ def _question(path: str, name: str, entry: object) -> Question:
     if unknown:
         keys = ", ".join(sorted(_QUESTION_KEYS))
         raise ContentError(f"{path}: {name} has an unknown key {unknown[0]!r}; the keys are {keys}")
+    for key in ("help", "metavar"):
+        if not isinstance(entry.get(key, ""), str):
+            raise ContentError(f"{path}: {key} of {name} must be a text")
     kind = entry.get("type", "text")
-    if kind not in TYPES:
+    if not isinstance(kind, str) or kind not in TYPES:
         raise ContentError(f"{path}: {name} has the unknown type {kind!r}; {', '.join(TYPES)}")
     choices = entry.get("choices", [])
+    if not isinstance(choices, str | list):
+        raise ContentError(f"{path}: {name} must have a list of choices, or a role")
     return Question(
         name=name,
         type=kind,

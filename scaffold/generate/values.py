@@ -234,7 +234,7 @@ TYPES: Mapping[str, Callable[[object, str], object]] = {
 
 def _string(given: object) -> str:
     if isinstance(given, bool) or not isinstance(given, str | int | float):
-        raise InputError(f"{given!r} is not a text")
+        raise InputError(f"{_short(repr(given))} is not a text")
     return str(given)
 
 

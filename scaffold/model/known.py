@@ -238,6 +238,11 @@ def keys_of_module(root: str) -> tuple[str, ...]:
     return (root,) if root in ROS_PACKAGES else ()
 
 
+def module_keys() -> frozenset[str]:
+    """Return the manifest keys that provide Python modules."""
+    return frozenset(key for keys in _OTHER_MODULES.values() for key in keys.split())
+
+
 def module_of_key(key: str) -> str | None:
     """Return the module that a key of Python's package index names, if rosdep calls it otherwise.
 
@@ -274,7 +279,7 @@ def is_near(name: str, other: str) -> bool:
     if name == other or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
         return False
     plain = name.replace("-", "").replace("_", "").lower()
-    return other.replace("_", "") == plain or _one_slip(name, other)
+    return other.replace("_", "") == plain or is_one_slip(name, other, digits=False)
 
 
 def similar_package(name: str) -> str | None:
@@ -308,8 +313,14 @@ def _alike() -> Mapping[tuple[int, str], list[str]]:
     return _ALIKE
 
 
-def _one_slip(one: str, other: str) -> bool:
-    """Tell whether two names differ by one letter or by two neighbours swapped."""
+def is_one_slip(one: str, other: str, *, digits: bool = True) -> bool:
+    """Tell whether two names differ by one letter or by two neighbours swapped.
+
+    Args:
+        one: A name.
+        other: Another one.
+        digits: Whether a digit more or other counts as a slip.
+    """
     if abs(len(one) - len(other)) > 1:
         return False
     same = 0
@@ -318,7 +329,7 @@ def _one_slip(one: str, other: str) -> bool:
     a, b = one[same:], other[same:]
     if len(a) != len(b):
         longer, shorter = (a, b) if len(a) > len(b) else (b, a)
-        return longer[1:] == shorter and not longer[0].isdigit()
+        return longer[1:] == shorter and (digits or not longer[0].isdigit())
     if a[1:] == b[1:]:
-        return not (a[:1].isdigit() or b[:1].isdigit())
+        return digits or not (a[:1].isdigit() or b[:1].isdigit())
     return a[:2] == b[1::-1] and a[2:] == b[2:]

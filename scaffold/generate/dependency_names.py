@@ -1,0 +1,111 @@
+"""Whether the dependencies that a user names exist, before a package is made with them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from difflib import get_close_matches
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.errors import InputError
+from scaffold.model import known
+from scaffold.model.disk import Disk
+from scaffold.model.rosdep import RosdepKeys, cached_keys
+
+if TYPE_CHECKING:
+    from scaffold.check.diagnostic import Diagnostic
+
+_PYTHON = "python3-"
+_SHORT = 5
+"""Letters from which on a digit more or other is no slip: turtlebot4 is not turtlebot3."""
+_SHORTEST = 3
+_MOST_HINTS = 3
+
+_RULES = frozenset({"dependency-misspelt", "dependency-of-ros1", "dependency-unresolvable"})
+"""What the checker says of names; it does not see the workspace that a package is made for."""
+
+
+def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
+    """Yield a line about each name that nothing here knows.
+
+    Args:
+        names: The dependencies.
+        origin: Where the user named them, for messages.
+        directory: Where the package is to be; the packages around it are known.
+
+    Raises:
+        InputError: a name is certainly wrong: that of another thing misspelt, of ROS 1, or one
+            that rosdep's cache lacks.
+    """
+    here = _Here(directory)
+    for name in names:
+        if name in _names() or here.has(name):
+            continue
+        heir = known.ROS1_PACKAGES.get(name)
+        if heir:
+            raise InputError(f"{origin}: {name!r} is of ROS 1; ROS 2 has {heir} instead")
+        resolves = here.rosdep.resolves(name) if here.rosdep is not None else None
+        if resolves:
+            continue
+        slips = [other for other in sorted({*_names(), *here.packages}) if _is_slip(name, other)]
+        hints = slips or get_close_matches(name, {*_names(), *here.packages}, _MOST_HINTS, 0.75)
+        hint = f"; did you mean {' or '.join(map(repr, hints[:_MOST_HINTS]))}?" if hints else ""
+        if slips or resolves is False:
+            raise InputError(f"{origin}: there is no package or rosdep key {name!r}{hint}")
+        yield (
+            f"{name!r} is in no package here, not installed and not widely known{hint or ';'} "
+            "`rosdep resolve` tells whether the robot can have it"
+        )
+
+
+def is_about(diagnostic: Diagnostic, names: Sequence[str]) -> bool:
+    """Tell whether the checker only doubts a name that `notes` has accepted."""
+    return diagnostic.name in _RULES and any(repr(name) in diagnostic.message for name in names)
+
+
+_NAMES: set[str] = set()
+
+
+def _names() -> set[str]:
+    """Return the names that are known everywhere: common packages and keys of Python modules."""
+    if not _NAMES:
+        _NAMES.update(known.ROS_PACKAGES, known.BUILD_TOOLS, known.module_keys())
+    return _NAMES
+
+
+def _is_slip(name: str, other: str) -> bool:
+    """Tell whether a name is another one with a slip of the finger, and nothing else."""
+    if name.startswith(_PYTHON) and other.startswith(_PYTHON):
+        # Two short names of Python modules resemble each other by chance: pip, pil.
+        return known.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
+    if known.is_near(name, other):
+        return True
+    return _SHORTEST <= len(name) < _SHORT and known.is_one_slip(name, other)
+
+
+class _Here:
+    """What the machine and the workspace know."""
+
+    def __init__(self, directory: str) -> None:
+        self._directory = directory
+
+    def has(self, name: str) -> bool:
+        """Tell whether a package is installed, or in the workspace."""
+        prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+        paths = (os.path.join(one, "share", name, "package.xml") for one in prefixes if one)
+        return any(map(os.path.isfile, paths)) or name in self.packages
+
+    @cached_property
+    def packages(self) -> frozenset[str]:
+        """The names of the packages of the workspace, and of those beside the new one."""
+        from scaffold.generate import place
+        from scaffold.model.package import Package
+
+        found = place.neighbours(os.path.realpath(self._directory))
+        return frozenset(Package.at(directory).name or "" for directory in found)
+
+    @cached_property
+    def rosdep(self) -> RosdepKeys | None:
+        """The keys of rosdep's cache, if the machine has one."""
+        return cached_keys(Disk())

@@ -1,0 +1,155 @@
+"""Plain data from a YAML file that a user wrote: texts, numbers, yes and no, lists and mappings.
+
+Less than YAML can say, so that no file multiplies itself, builds an object or means two things: a
+date stays the text it is, a key is a text and there once, and aliases and tags are refused.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from scaffold.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    import yaml
+
+    from scaffold.errors import ScaffoldError
+
+MAX_BYTES = 1_000_000
+MAX_DEPTH = 40
+MAX_NUMBER = 40
+"""Characters of a number; a longer one is a text without its quotes."""
+
+_TAG = "tag:yaml.org,2002:"
+_NUMBERS = frozenset({f"{_TAG}int", f"{_TAG}float"})
+_OTHERS = frozenset({f"{_TAG}bool", f"{_TAG}null"})
+
+
+def read(path: str, kind: type[ScaffoldError] = InputError) -> Any:  # noqa: ANN401  what it holds
+    """Return what a file holds.
+
+    Args:
+        path: The file.
+        kind: The error to raise.
+
+    Raises:
+        ScaffoldError: it cannot be read or used; the message has the file and the line.
+    """
+    import yaml
+
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise kind(f"{path}: {error.strerror}") from error
+    except ValueError as error:  # a NUL in the path
+        raise kind(f"{path}: {error}") from error
+    if len(data) > MAX_BYTES:
+        raise kind(f"{path}: larger than {MAX_BYTES} bytes")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise kind(f"{path}:{line}: not UTF-8") from error
+    reader = _Reader(path, kind)
+    try:
+        return reader.document(yaml.parse(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)))
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        line = mark.line + 1 if mark is not None else 1
+        raise kind(f"{path}:{line}: not YAML: {error.problem or error.context}") from error
+    except yaml.YAMLError as error:
+        raise kind(f"{path}: not YAML: {' '.join(str(error).split())}") from error
+
+
+class _Reader:
+    """Makes data of the parser's events."""
+
+    def __init__(self, path: str, kind: type[ScaffoldError]) -> None:
+        self._path = path
+        self._kind = kind
+
+    def document(self, events: Iterator[yaml.Event]) -> object:
+        """Return the only document, ``None`` when there is none."""
+        import yaml
+
+        found: object = None
+        count = 0
+        for event in events:
+            if isinstance(event, yaml.DocumentStartEvent):
+                count += 1
+                if count > 1:
+                    self._refuse(event, "a second document; write one")
+            elif isinstance(event, yaml.NodeEvent):
+                found = self._value(event, events, 0)
+        return found
+
+    def _value(self, event: yaml.Event, events: Iterator[yaml.Event], depth: int) -> object:
+        import yaml
+
+        if depth > MAX_DEPTH:
+            self._refuse(event, f"nested more than {MAX_DEPTH} levels deep")
+        if isinstance(event, yaml.AliasEvent):
+            self._refuse(event, f"the alias *{event.anchor}: write out what it stands for")
+        if isinstance(event, yaml.ScalarEvent):
+            return self._scalar(event)
+        self._refuse_tag(event, {f"{_TAG}seq", f"{_TAG}map"})
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self._list(events, depth + 1)
+        return self._mapping(events, depth + 1)
+
+    def _list(self, events: Iterator[yaml.Event], depth: int) -> list[object]:
+        import yaml
+
+        found: list[object] = []
+        for event in events:
+            if isinstance(event, yaml.SequenceEndEvent):
+                break
+            found.append(self._value(event, events, depth))
+        return found
+
+    def _mapping(self, events: Iterator[yaml.Event], depth: int) -> Mapping[str, object]:
+        import yaml
+
+        found: dict[str, object] = {}
+        for event in events:
+            if isinstance(event, yaml.MappingEndEvent):
+                break
+            if not isinstance(event, yaml.ScalarEvent):
+                self._refuse(event, "a key that is no text")
+            if event.value == "<<" and event.implicit[0]:
+                self._refuse(event, "the merge key <<: write out what it stands for")
+            if event.value in found:
+                self._refuse(event, f"the key {event.value!r} is there twice")
+            found[event.value] = self._value(next(events), events, depth)
+        return found
+
+    def _scalar(self, event: yaml.ScalarEvent) -> object:
+        """Return a text, or what YAML takes one without quotes for."""
+        from yaml import SafeLoader, ScalarNode
+
+        self._refuse_tag(event, {f"{_TAG}str", "!"})
+        if event.tag is not None or not event.implicit[0]:
+            return event.value
+        loader = SafeLoader("")
+        tag = loader.resolve(ScalarNode, event.value, (True, False))  # type: ignore[no-untyped-call]  # of PyYAML
+        if tag not in _NUMBERS | _OTHERS:
+            return event.value
+        if len(event.value) > MAX_NUMBER:
+            self._refuse(event, f"a number of {len(event.value)} characters; a text needs quotes")
+        try:
+            return loader.construct_object(ScalarNode(tag, event.value))
+        except (ValueError, OverflowError):
+            self._refuse(event, f"{event.value!r} is not a number; a text needs quotes")
+
+    def _refuse_tag(self, event: yaml.Event, known: set[str]) -> None:
+        tag = getattr(event, "tag", None)
+        if tag is not None and tag not in known:
+            self._refuse(event, f"the tag {tag.replace(_TAG, '!!')!r}: write the value without it")
+
+    def _refuse(self, event: yaml.Event, reason: str) -> NoReturn:
+        mark = event.start_mark
+        line = mark.line + 1 if mark is not None else 1
+        raise self._kind(f"{self._path}:{line}: {reason}")
