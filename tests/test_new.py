@@ -725,7 +725,7 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
             "answers.yaml: 'zzz' is no question of the templates; known are ",
         ),
         ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
-        ("a: [\n", "answers.yaml: not YAML: while parsing"),
+        ("a: [\n", "answers.yaml:2: not YAML: "),
         ("rate: 0\n", "answers.yaml: rate: 0 Hz is not between"),
         ("comments: loud\n", "answers.yaml: comments: 'loud' is not one of brief, tutorial"),
         ("topic: yes\n", "answers.yaml: topic: True is not a text"),
