@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -13,6 +14,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.version import Version
 
 from scaffold import __version__, content
 from scaffold.check import registry
@@ -21,6 +24,11 @@ from scaffold.cli.main import VERBS
 from scaffold.generate import yaml_file
 from tests import PATIENCE
 from tests.oracles import system_environment
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ROOT = Path(__file__).parent.parent
 
@@ -138,3 +146,38 @@ def test_pre_commit_accepts_the_hook() -> None:
     command, verb = hook["entry"].split()
     assert command == hook["id"] == "ros2-scaffold"
     assert verb in VERBS
+
+
+ADVISORIES = {
+    "jinja2": ("CVE-2025-27516", "3.1.6"),
+    "lxml": ("CVE-2026-41066", "6.1"),
+    "pytest": ("CVE-2025-71176", "9.0.3"),
+    "setuptools": ("CVE-2025-47273", "78.1.1"),
+    "tqdm": ("CVE-2024-34062", "4.66.3"),
+}
+"""By distribution, an advisory and the first version with the fix."""
+
+
+def test_every_dependency_has_a_lower_bound_and_a_reason() -> None:
+    text = (ROOT / "pyproject.toml").read_text()
+    project = tomllib.loads(text)["project"]
+    wanted = [*project["dependencies"], *project["optional-dependencies"]["ros"]]
+    assert [one for one in wanted if not re.search(r"[>=]=", one)] == []
+    lines = {line.strip() for line in text.splitlines()}
+    reasons = [re.escape(f'"{one}",') + " +# .+" for one in wanted]
+    assert [one for one in reasons if not any(re.fullmatch(one, line) for line in lines)] == []
+
+
+def test_lower_bounds_have_known_fixes_in() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    groups = [project["dependencies"], *project["optional-dependencies"].values()]
+    seen = set()
+    for requirement in [Requirement(one) for group in groups for one in group]:
+        name = requirement.name.lower()
+        if name in ADVISORIES:
+            seen.add(name)
+            bounds = [one.version for one in requirement.specifier if one.operator == ">="]
+            advisory, fixed = ADVISORIES[name]
+            (bound,) = bounds
+            assert Version(bound) >= Version(fixed), f"{requirement}: {advisory}"
+    assert seen == set(ADVISORIES)
