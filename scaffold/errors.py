@@ -52,6 +52,17 @@ class TooLargeError(ParseError):
     """A file that is too large to be read; reported once, as SC004."""
 
 
+EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError)
+"""What code of this tool raises when a file asks for more than there is; the file is at fault."""
+
+
+def exhausted(error: BaseException) -> str:
+    """Return the message for one of ``EXHAUSTED``."""
+    if isinstance(error, RecursionError):
+        return "nested too deeply"
+    return "nested too deeply, or too large for the memory"
+
+
 class NewerSyntaxError(ViewError):
     """A Python file that only a newer Python than the running one can parse; not a flaw."""
 

@@ -25,8 +25,8 @@ class XmlSchemaNotMet(Rule):
     **Why.** ``ament_xmllint`` validates every file that names a schema, and fails under
     ``colcon test``; also when the schema is not there.
 
-    **Fix.** Correct the file, or the place of the schema. A schema on the network is not looked
-    at.
+    **Fix.** Correct the file, or the place of the schema. For schemas that are
+    not looked at, see PX052.
 
     **Source.** ``ament_xmllint/main.py``.
     """
@@ -58,12 +58,8 @@ class XmlSchemaNotMet(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.model import xml_files
+        from scaffold.model import xml_schema
 
-        for path in xml_files.of_package(package):
-            if path == "package.xml":
-                continue
-            found = xml_files.schema_complaint(package, path)
-            if found is not None:
-                at, message = found
-                yield self.report(at, message)
+        for verdict in xml_schema.verdicts(package):
+            if verdict.is_checked:
+                yield self.report(verdict.location, verdict.message)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 
 from scaffold.check.diagnostic import (
     CreateFile,
@@ -13,8 +14,9 @@ from scaffold.check.diagnostic import (
     Remove,
     Safety,
 )
+from scaffold.model.disk import MOST_BYTES
 from scaffold.model.package import Package
-from scaffold.model.tree import Tree
+from scaffold.model.tree import Tree, within
 from scaffold.record import NamedTuple
 
 MAX_ROUNDS = 10
@@ -62,11 +64,13 @@ class Overlay:
         """The directories that hold a package of their own."""
         return tuple(self._base.nested)
 
-    def read(self, path: str) -> bytes:
-        """Return what is in a file; raises OSError."""
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file of so many bytes at most; raises OSError."""
         if path in self.removed:
             raise FileNotFoundError(path)
-        return self.changed[path] if path in self.changed else self._base.read(path)
+        if path in self.changed:
+            return within(most, path, self.changed[path])
+        return self._base.read(path, most)
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has, or gets, an executable bit."""
@@ -138,7 +142,8 @@ def _apply_round(
         text = splice(source.text, ones)
         if path.endswith(".py") and _is_python(source.text) and not _is_python(text):
             continue  # the fixes work against each other: better none than a broken file
-        result.changed[path] = text.encode(source.encoding)
+        with suppress(UnicodeError):  # what the file's encoding cannot hold is not written
+            result.changed[path] = text.encode(source.encoding)
     return result, len(chosen)
 
 

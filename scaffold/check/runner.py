@@ -8,13 +8,15 @@ from itertools import islice
 from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.internal import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.rule import Rule
-from scaffold.errors import TooLargeError, ViewError
+from scaffold.errors import EXHAUSTED, TooLargeError, ViewError, exhausted
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 from scaffold.model.tree import MANIFEST
 
 MOST_FINDINGS = 5000
 """Of one code in one package; a flood of them must not hold the check up."""
+MOST_REFUSED = 100
+"""Files of one package that exhaust a rule one after the other."""
 
 
 def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
@@ -24,24 +26,58 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
     """
     said: list[Diagnostic] = []
     for rule in rules:
-        try:
-            # One more than is shown, so that the session knows of it.
-            said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
-        except ViewError:
-            continue
-        except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
-            said.append(_crash(rule, error))
+        said += _run(rule, package)
     said.extend(_unparsable(package))
     return sorted(set(said), key=lambda diagnostic: diagnostic.sort_key)
 
 
-def _crash(rule: Rule, error: Exception) -> Diagnostic:
+def _run(rule: Rule, package: Package) -> list[Diagnostic]:
+    """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
+    said: list[Diagnostic] = []
+    for _ in range(MOST_REFUSED):
+        said.clear()
+        try:
+            # One more than is shown, so that the session knows of it.
+            said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
+        except ViewError:
+            pass
+        except EXHAUSTED as error:
+            path = _file_at_fault(package, error)
+            if path is not None and package.refuse(path, exhausted(error)):
+                continue
+            said.append(_crash(rule, package, error))
+        except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
+            said.append(_crash(rule, package, error))
+        break
+    return said
+
+
+def _crash(rule: Rule, package: Package, error: Exception) -> Diagnostic:
+    path = _file_at_fault(package, error) or MANIFEST
+    message = crash_message(f"the rule {rule.code} {rule.name}", error)
+    return RuleCrashed().report(Location.start_of(path), message)
+
+
+def crash_message(what: str, error: Exception) -> str:
+    """Return the message about a defect: what failed, how, and where in our code."""
     trace = error.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next
     where = f" (line {trace.tb_lineno} of {trace.tb_frame.f_code.co_name})" if trace else ""
-    message = f"the rule {rule.code} {rule.name} failed: {type(error).__name__}: {error}{where}"
-    return RuleCrashed().report(Location.start_of(MANIFEST), message)
+    return f"{what} failed: {type(error).__name__}: {error}{where}"
+
+
+def _file_at_fault(package: Package, error: Exception) -> str | None:
+    """Return the file that the failing code was looking at, if its variables tell."""
+    path: str | None = None
+    trace = error.__traceback__
+    while trace is not None:
+        for value in trace.tb_frame.f_locals.values():
+            held = value if isinstance(value, str) else getattr(value, "path", None)
+            if isinstance(held, str) and package.has(held):
+                path = held
+        trace = trace.tb_next
+    return path
 
 
 def _unparsable(package: Package) -> list[Diagnostic]:

@@ -123,7 +123,7 @@ class Session:
         return sorted(
             (
                 d
-                for d in _bounded(found)
+                for d in _bounded([*dict.fromkeys(found)])
                 if not (d.code in unreadable and d.location.path in told)
                 and (target.only is None or d.location.path in target.only)
                 and (d.code == RuleCrashed.code or self.selection.wants(d.code))

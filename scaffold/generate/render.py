@@ -16,8 +16,8 @@ from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
 from scaffold.generate.compiled import Compiled
 from scaffold.generate.sandbox import Sandbox, refuse_leaving, refuse_outside
-from scaffold.generate.template import ENDING, MANIFEST, Template
-from scaffold.model.disk import digest
+from scaffold.generate.template import ENDING, MANIFEST, MOST_BYTES, Template
+from scaffold.model.disk import digest, read_file
 from scaffold.record import NamedTuple
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
@@ -240,9 +240,9 @@ class _Loader(BaseLoader):
         for directory in self._directories(first):
             path = os.path.join(directory, *rest.split("/"))
             try:
-                with open(path, encoding="utf-8") as file:
-                    refuse_outside(path, [*self._roots, directory])
-                    return self._with_comments(file.read()), path, None
+                data = read_file(path, MOST_BYTES)
+                refuse_outside(path, [*self._roots, directory])
+                return self._with_comments(_decode(data)), path, None
             except (FileNotFoundError, NotADirectoryError):
                 continue
             except (OSError, UnicodeDecodeError) as error:
@@ -293,3 +293,7 @@ def _line_of(error: Exception) -> str:
         if frame.filename.endswith(ENDING):
             return f", {frame.filename}:{frame.lineno}"
     return ""
+
+
+def _decode(data: bytes) -> str:
+    return data.decode().replace("\r\n", "\n").replace("\r", "\n")

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import re
+from contextlib import suppress
 from functools import lru_cache
 
+from scaffold.errors import ViewError
 from scaffold.model.ament_files import broken_links, lintable
+from scaffold.model.disk import LargeFileError
 from scaffold.model.package import Package
 from scaffold.model.source import Location
 from scaffold.record import NamedTuple
@@ -57,6 +60,10 @@ def _headers(package: Package) -> list[Header]:
             continue
         try:
             data = package.tree.read(path)
+        except LargeFileError:
+            with suppress(ViewError):
+                package.data(path)  # which makes it known as too large
+            continue
         except OSError:
             continue  # SC001 of whoever needs the file
         if data:

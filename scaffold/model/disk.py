@@ -9,7 +9,9 @@ This module is imported by every start of the tool and imports next to nothing.
 
 from __future__ import annotations
 
+import errno
 import os
+import stat
 
 TYPE_CHECKING = False  # the one of typing would take longer to import than a package to check
 if TYPE_CHECKING:
@@ -20,6 +22,19 @@ if TYPE_CHECKING:
     Answer = bool | str | None
     Names = tuple[list[str], list[str], list[str]]
     """Files, directories and broken links, each sorted."""
+
+
+MOST_BYTES = 10_000_000
+"""Of a file of any kind; what reads text that it takes apart has a bound of its own below this."""
+
+
+class LargeFileError(OSError):
+    """A file has more bytes than are read; it was not read at all."""
+
+    def __init__(self, path: str, size: int, most: int) -> None:
+        reason = f"it has {size // 1000} kB, {most // 1000} kB are read"
+        super().__init__(errno.EFBIG, reason, path)
+        self.size = size
 
 
 class Disk:
@@ -37,30 +52,43 @@ class Disk:
             if self.seen.setdefault(question, answer) != answer:
                 self.is_settled = False
 
-    def read(self, path: str) -> bytes:
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
         """Return what is in a regular file.
 
+        Args:
+            path: The file.
+            most: The bytes that it may have, at most ``MOST_BYTES``.
+
         Raises:
+            LargeFileError: it has more; it counts by its stamp.
             OSError: it cannot be read. Reading a pipe would wait for ever, and a device may have
                 no end.
         """
-        data: bytes | None = None
         try:
-            data = _read(path)
-        finally:
-            self.note({("content", path): None if data is None else digest(data)})
+            data = read_file(path, most)
+        except LargeFileError:
+            self._ask("stamp", path)
+            raise
+        except OSError:
+            self.note({("content", path): None})
+            raise
+        self.note({("content", path): digest(data)})
         return data
 
-    def read_renewed(self, path: str) -> bytes:
+    def read_renewed(self, path: str, most: int = MOST_BYTES) -> bytes:
         """Return what is in a file that its program never edits, but replaces.
 
         It counts by its stamp: hashing it in each run would take longer than all the rest.
 
+        Args:
+            path: The file.
+            most: The bytes that it may have.
+
         Raises:
-            OSError: it cannot be read.
+            OSError: it cannot be read, or has more bytes.
         """
         self._ask("stamp", path)
-        return _read(path)
+        return read_file(path, most)
 
     def names(self, directory: str) -> Names:
         """Return what is in a directory; links to directories are left out.
@@ -142,11 +170,33 @@ def digest(data: bytes) -> str:
     return blake2b(data, digest_size=20).hexdigest()
 
 
-def _read(path: str) -> bytes:
+def read_file(path: str, most: int = MOST_BYTES) -> bytes:
+    """Return what is in a regular file; its size is asked for before anything is read.
+
+    Raises:
+        LargeFileError: it has more bytes than are read.
+        OSError: it cannot be read, or is no regular file.
+    """
+    # Opening a device may do something; what takes the file's place meanwhile must not block.
     if not os.path.isfile(path):
-        raise FileNotFoundError(path)
-    with open(path, "rb", buffering=0) as file:
-        return file.read()
+        raise FileNotFoundError(errno.ENOENT, "no such file", path)
+    descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    try:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode):
+            raise FileNotFoundError(errno.ENOENT, "no regular file", path)
+        size = status.st_size
+        parts: list[bytes] = []
+        count = 0
+        while count <= most >= size:
+            part = os.read(descriptor, max(size, 4096) + 1 - count if count <= size else 65536)
+            if not part:
+                return parts[0] if len(parts) == 1 else b"".join(parts)
+            parts.append(part)
+            count += len(part)
+    finally:
+        os.close(descriptor)
+    raise LargeFileError(path, max(size, count), most)
 
 
 def _names(directory: str) -> Names:
@@ -186,7 +236,7 @@ def _digest_of(*names: list[str]) -> str:
 
 def _digest_of_content(path: str) -> str | None:
     try:
-        return digest(_read(path))
+        return digest(read_file(path))
     except OSError:
         return None
 

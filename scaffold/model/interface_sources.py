@@ -23,6 +23,10 @@ BUNDLE = os.path.join(
 )
 
 
+MOST_BYTES = 500_000
+"""Of one definition; the largest of those that are released has 20 kB."""
+
+
 class Text(NamedTuple):
     """The text of a definition."""
 
@@ -181,7 +185,7 @@ class _InstalledPackage:
             return None
         path = os.path.join(self._share, kind, f"{name}.{kind}")
         try:
-            text = self._disk.read(path).decode()
+            text = self._disk.read(path, MOST_BYTES).decode()
         except (OSError, UnicodeDecodeError):
             return None
         return Text(Source(path, text.replace("\r\n", "\n").replace("\r", "\n")), path)

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _FILE = ".gitignore"
+_MOST_BYTES = 200_000
+"""Of such a file; people write some lines."""
 _SUBMODULES = ".gitmodules"
 
 
@@ -48,11 +50,11 @@ def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
     In front of each, the way from its directory to the package: ``src/talker/``.
     """
     with contextlib.suppress(OSError):
-        yield "", package.tree.read(name).decode(errors="replace")
+        yield "", package.tree.read(name, _MOST_BYTES).decode(errors="replace")
     disk = package.outside
     for directory in _parents(package):
         with contextlib.suppress(OSError):
-            text = disk.read(os.path.join(directory, name)).decode(errors="replace")
+            text = disk.read(os.path.join(directory, name), _MOST_BYTES).decode(errors="replace")
             way = os.path.relpath(disk.real(package.root or ""), directory)
             yield f"{way.replace(os.sep, '/')}/", text
 

@@ -6,7 +6,15 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from scaffold.errors import MissingFileError, ParseError, TooLargeError, ViewError
+from scaffold.errors import (
+    EXHAUSTED,
+    MissingFileError,
+    ParseError,
+    TooLargeError,
+    ViewError,
+    exhausted,
+)
+from scaffold.model.disk import LargeFileError
 from scaffold.model.source import Location, Source
 from scaffold.model.tree import MANIFEST, DiskTree, MemoryTree, Tree
 from scaffold.record import NamedTuple
@@ -28,6 +36,12 @@ View = TypeVar("View")
 CMAKE_LISTS = "CMakeLists.txt"
 SETUP_PY = "setup.py"
 SETUP_CFG = "setup.cfg"
+_FILES_OF_VIEWS = {
+    "manifest": MANIFEST,
+    "cmake": CMAKE_LISTS,
+    "setup_py": SETUP_PY,
+    "setup_cfg": SETUP_CFG,
+}
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 
 MOST_BYTES = 500_000
@@ -77,6 +91,7 @@ class Package:
         self._neighbourhood: Neighbourhood | None = None
         self._identity: Identity | None = None
         self._views: dict[object, object] = {}
+        self._refused: dict[str, ParseError] = {}
 
     @classmethod
     def at(
@@ -332,9 +347,23 @@ class Package:
         """
         return self._view(("derived", key), build)
 
+    def refuse(self, path: str, message: str) -> bool:
+        """Count a file as unparsable from now on, for what only a look at its contents shows.
+
+        Returns:
+            Whether it was not refused before.
+        """
+        if path in self._refused:
+            return False
+        self._refused[path] = ParseError(Location.start_of(path), message)
+        errors = {key: view for key, view in self._views.items() if isinstance(view, ViewError)}
+        self._views = {**errors, ("source", path): self._refused[path]}
+        return True
+
     def forget(self) -> None:
         """Drop the views and the list of files: they are made again when asked for."""
         self._views.clear()
+        self._refused.clear()
         if self._workspace is None:
             self._neighbourhood = None
         if isinstance(self.tree, DiskTree):
@@ -361,9 +390,13 @@ class Package:
     def _read(self, path: str) -> bytes:
         if not self.has(path):
             raise MissingFileError(path)
+        if path in self._refused:
+            raise self._refused[path]
         at = Location.start_of(path)
         try:
-            data = self.tree.read(path)
+            data = self.tree.read(path, most_bytes(path))
+        except LargeFileError as error:
+            raise TooLargeError(at, _too_large(error.size, path)) from error
         except OSError as error:
             reason = error.strerror or str(error)
             raise ParseError(at, f"cannot be read: {reason}") from error
@@ -389,6 +422,20 @@ class Package:
             return False
         return first.startswith(b"#!") and b"python" in first
 
+    def _path_of(self, key: object) -> str | None:
+        """Return the file that a view is made of, if its key names one."""
+        words = key if isinstance(key, tuple) else (key,)
+        for word in words:
+            if isinstance(word, tuple):
+                path = self._path_of(word)
+                if path is not None:
+                    return path
+            elif isinstance(word, str):
+                path = _FILES_OF_VIEWS.get(word, word)
+                if path in self.tree.files:
+                    return path
+        return None
+
     def _view(self, key: object, build: Callable[[], View]) -> View:
         """Build a view once; an error is remembered and raised again."""
         if key not in self._views:
@@ -396,6 +443,11 @@ class Package:
                 self._views[key] = build()
             except ViewError as error:
                 self._views[key] = error
+            except EXHAUSTED as error:
+                path = self._path_of(key)
+                if path is None:
+                    raise
+                self._views[key] = ParseError(Location.start_of(path), exhausted(error))
         found = self._views[key]
         if isinstance(found, ViewError):
             raise found
@@ -408,9 +460,8 @@ def why_unread(path: str, data: bytes) -> str:
     Some checks take a time that grows with the square of a line, so lines have a bound, too; and
     a file of two bytes for each word takes ten times as long as text of the same size.
     """
-    most = _most_bytes(path)
-    if len(data) > most:
-        return f"{len(data) // 1000} kB of {most // 1000} kB that are read: it is not checked"
+    if len(data) > most_bytes(path):
+        return _too_large(len(data), path)
     if len(data) <= MOST_BYTES_OF_LINE or not (path == MANIFEST or path.endswith(_CODE)):
         return ""
     longest = max(map(len, data.splitlines()))
@@ -424,6 +475,10 @@ def why_unread(path: str, data: bytes) -> str:
     return ""
 
 
+def _too_large(size: int, path: str) -> str:
+    return f"{size // 1000} kB of {most_bytes(path) // 1000} kB that are read: it is not checked"
+
+
 def _words(data: bytes) -> int:
     """Count what code is made of, as time and memory go by that and not by bytes."""
     import re
@@ -431,7 +486,7 @@ def _words(data: bytes) -> int:
     return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))
 
 
-def _most_bytes(path: str) -> int:
+def most_bytes(path: str) -> int:
     """Return the size up to which a file is read: by kind, far above what people write."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_BYTES_OF_DECLARATIONS

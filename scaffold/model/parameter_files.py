@@ -172,10 +172,10 @@ def _is_candidate(package: Package, path: str) -> bool:
     if not {"test", "tests"}.isdisjoint(path.split("/")) or path.startswith("."):
         return False
     try:
-        data = package.tree.read(path)
+        data = package.tree.read(path, yaml_tree.MAX_LENGTH)
     except OSError:
         return False
-    if len(data) > yaml_tree.MAX_LENGTH or b"aram" not in data.lower():
+    if b"aram" not in data.lower():
         return False
     try:
         text = data.decode()

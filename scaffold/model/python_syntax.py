@@ -97,7 +97,11 @@ def decode(path: str, data: bytes) -> Source:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return Source.decode(path, data, encoding)
+            source = Source.decode(path, data, encoding)
+            if encoding != "utf-8" and source.text.encode(encoding) != data:
+                message = f"{encoding.upper()} does not give back the bytes that it reads"
+                raise ParseError(Location.start_of(path), message)
+            return source
     except ValueError as error:
         message = f"the bytes are not valid {encoding.upper()}"
         raise ParseError(Location.start_of(path), message) from error

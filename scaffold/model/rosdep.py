@@ -84,7 +84,7 @@ def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> Rosdep
         if kind != "yaml" or not url or not _OTHER_DISTROS.isdisjoint(tags):
             continue
         try:
-            sources.append(disk.read_renewed(os.path.join(cache, _file_of(url))))
+            sources.append(disk.read_renewed(os.path.join(cache, _file_of(url)), MOST_BYTES))
         except OSError:
             return None
         kinds.add(ROS_DISTRO if ROS_DISTRO in tags else "" if not tags else "other")

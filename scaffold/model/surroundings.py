@@ -52,8 +52,11 @@ class Surroundings:
         return found
 
     def _name_of(self, directory: str) -> str | None:
+        from scaffold.model.package import most_bytes
+
         try:
-            data = self._workspace.disk.read(os.path.join(directory, MANIFEST))
+            path = os.path.join(directory, MANIFEST)
+            data = self._workspace.disk.read(path, most_bytes(MANIFEST))
         except OSError:
             return None
         found = re.search(_NAME, data)

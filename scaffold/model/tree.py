@@ -7,10 +7,21 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
 
-from scaffold.model.disk import Disk
+from scaffold.model.disk import MOST_BYTES, Disk, LargeFileError
 
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
+
+
+def within(most: int, path: str, data: bytes) -> bytes:
+    """Return what is in a file that is in memory, under the bound of those on disk.
+
+    Raises:
+        LargeFileError: it has more bytes than are read.
+    """
+    if len(data) > most:
+        raise LargeFileError(path, len(data), most)
+    return data
 
 
 class Tree(Protocol):
@@ -28,8 +39,8 @@ class Tree(Protocol):
     def nested(self) -> Sequence[str]:
         """The directories that hold a package of their own; their files are left out."""
 
-    def read(self, path: str) -> bytes:
-        """Return what is in a file; raises OSError."""
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file of so many bytes at most; raises OSError."""
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
@@ -91,9 +102,9 @@ class DiskTree:
         self._nested.clear()
         self._broken.clear()
 
-    def read(self, path: str) -> bytes:
-        """Return what is in a file; raises OSError."""
-        return self.disk.read(os.path.join(self.root, path))
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file of so many bytes at most; raises OSError."""
+        return self.disk.read(os.path.join(self.root, path), most)
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
@@ -144,10 +155,10 @@ class MemoryTree:
             found.update("/".join(parts[:depth]) for depth in range(1, len(parts)))
         return frozenset(found)
 
-    def read(self, path: str) -> bytes:
-        """Return what is in a file; raises OSError."""
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file of so many bytes at most; raises OSError."""
         try:
-            return self._files[path]
+            return within(most, path, self._files[path])
         except KeyError:
             raise FileNotFoundError(path) from None
 

@@ -29,19 +29,6 @@ def mistake(package: Package, path: str) -> tuple[Location, str] | None:
     return check(path, data)
 
 
-def schema_complaint(package: Package, path: str) -> tuple[Location, str] | None:
-    """Return the first place where an XML file does not fit the schema that it names."""
-    try:
-        data = package.tree.read(path)
-    except OSError:
-        return None
-    if b"xml-model" not in data and b"noNamespaceSchemaLocation" not in data:
-        return None  # nearly all files: nothing to import for
-    from scaffold.model import xml_schema
-
-    return xml_schema.complaint(package, path, data)
-
-
 def check(path: str, data: bytes) -> tuple[Location, str] | None:
     """Return the first mistake in an XML file.
 

@@ -8,18 +8,24 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check.diagnostic import Diagnostic, Edit, Fix, Safety
-from scaffold.check.runner import MOST_FINDINGS
-from scaffold.errors import ViewError
-from scaffold.model.package import Package, why_unread
+from scaffold.check.internal import RuleCrashed, UnparsableFile
+from scaffold.check.rule import Rule
+from scaffold.check.runner import MOST_FINDINGS, crash_message
+from scaffold.errors import EXHAUSTED, ScaffoldError, ViewError, exhausted
+from scaffold.model.disk import LargeFileError
+from scaffold.model.package import Package, most_bytes, why_unread
 from scaffold.model.source import Location, Source
 from scaffold.style import ruff
 from scaffold.style.cache import Cache
 from scaffold.style.codes import CODES
-from scaffold.style.finding import Finding
+from scaffold.style.finding import CRASHED, UNPARSABLE, Finding
 from scaffold.style.selection import select
 
 if TYPE_CHECKING:
     from scaffold.style.ruff import Said
+
+
+_OWN_CODES: dict[str, type[Rule]] = {UNPARSABLE: UnparsableFile, CRASHED: RuleCrashed}
 
 
 def _identity() -> str:
@@ -45,8 +51,8 @@ class _File:
         self.findings: list[Finding] | None = None
 
 
-def _unread(path: str, data: bytes, linters: int, why: str) -> _File:
-    file = _File(path, "", data, linters)
+def _unread(path: str, linters: int, why: str) -> _File:
+    file = _File(path, "", b"", linters)
     file.findings = [Finding("E902", 1, 1, why, linters=linters)]
     return file
 
@@ -89,7 +95,12 @@ class StyleCheck:
             return self._results().get(file.on_disk, [])
 
         name = file.path.rpartition("/")[2]
-        findings = check(name, file.data, said, file.linters)
+        try:
+            findings = check(name, file.data, said, file.linters)
+        except ScaffoldError:
+            raise
+        except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
+            return [_failure(error, file.linters)]
         if self._cache is not None and file.key:
             self._cache.put(file.key, findings)
         return findings
@@ -121,13 +132,16 @@ class StyleCheck:
         links = getattr(package.tree, "broken_links", ())
         for path, linters in select((*package.tree.files, *links)).items():
             try:
-                data = package.tree.read(path)
+                data = package.tree.read(path, most_bytes(path))
+            except LargeFileError:
+                files.append(_unread(path, linters, "the file is too large to be checked"))
+                continue
             except OSError as error:
                 why = "it links to nothing" if path in links else error.strerror or "it is no file"
-                files.append(_unread(path, b"", linters, f"the file cannot be read: {why}"))
+                files.append(_unread(path, linters, f"the file cannot be read: {why}"))
                 continue
             if why_unread(path, data):
-                files.append(_unread(path, data, linters, "the file is too large to be checked"))
+                files.append(_unread(path, linters, "the file is too large to be checked"))
                 continue
             file = _File(path, "", data, linters)
             if self._cache is not None:
@@ -163,7 +177,16 @@ def _is_text(path: str) -> bool:
     return not any("\ud800" <= character <= "\udfff" for character in path)
 
 
+def _failure(error: Exception, linters: int) -> Finding:
+    """Return the one finding of a file whose check failed: its own fault, or a defect of ours."""
+    if isinstance(error, EXHAUSTED):
+        return Finding(UNPARSABLE, 1, 1, exhausted(error), linters=linters)
+    return Finding(CRASHED, 1, 1, crash_message("the check of its style", error), linters=linters)
+
+
 def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
+    if finding.code in _OWN_CODES:
+        return _OWN_CODES[finding.code]().report(Location.start_of(path), finding.message)
     code = CODES[finding.code]
     end = (finding.end_line or finding.line, finding.end_column or finding.column)
     location = Location(path, finding.line, finding.column, *max(end, finding[1:3]))

@@ -9,6 +9,11 @@ FLAKE8 = 1
 PEP257 = 2
 """Reported by ament_pep257."""
 
+UNPARSABLE = "SC001"
+"""The engine's own code for a file that only this tool cannot read."""
+CRASHED = "SC002"
+"""The engine's own code for a defect of this tool."""
+
 Replacement = tuple[int, int, int, int, str]
 """Line and column of the start, of the end (both from 1, the end exclusive), and the new text."""
 

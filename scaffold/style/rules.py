@@ -7,6 +7,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
+from scaffold.errors import exhausted
 from scaffold.style import (
     blank_lines,
     comprehensions,
@@ -26,7 +27,7 @@ from scaffold.style import (
     statements,
 )
 from scaffold.style.codes import CODES
-from scaffold.style.finding import FLAKE8, PEP257, Finding, Replacement
+from scaffold.style.finding import FLAKE8, PEP257, UNPARSABLE, Finding, Replacement
 from scaffold.style.logical import LogicalLine
 from scaffold.style.ruff import MOST_OF_A_LINE, Said
 from scaffold.style.text import PythonText, decode
@@ -80,7 +81,10 @@ def check(
         for finding in findings
         if finding.linters & linters
     ]
-    return [*map(_Alignment(text).kept, _once(noqa.apply(text, kept)))]
+    judged = [*map(_Alignment(text).kept, _once(noqa.apply(text, kept)))]
+    if text.is_too_deep:
+        judged.insert(0, Finding(UNPARSABLE, 1, 1, exhausted(RecursionError()), linters=linters))
+    return judged
 
 
 def _own(text: PythonText) -> Iterator[Finding]:

@@ -8,13 +8,19 @@ import re
 import tokenize
 import warnings
 from bisect import bisect_right
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from scaffold.errors import EXHAUSTED
 from scaffold.record import NamedTuple
 from scaffold.style.logical import LogicalLine, split
 from scaffold.style.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 
 BOM = "\ufeff"
+_EXACT = frozenset({"utf-8", "utf-8-sig", "iso-8859-1"})
+"""Encodings that give back the bytes that they read."""
+MAX_DEPTH = 300
+"""Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
 
 
 class Decoded(NamedTuple):
@@ -31,14 +37,28 @@ def decode(data: bytes) -> Decoded:
         return Decoded(_universal_newlines(data.decode("ascii")), is_clean=True)
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
-        return Decoded(_universal_newlines(data.decode(encoding)).lstrip(BOM), is_clean=True)
+        text = data.decode(encoding)
+        # A codec that is no alphabet, such as idna, does not give the bytes back.
+        is_exact = encoding in _EXACT or text.encode(encoding) == data
     except (SyntaxError, UnicodeError, LookupError):
-        return Decoded(_universal_newlines(data.decode("latin-1")), is_clean=False)
+        is_exact = False
+    if is_exact:
+        return Decoded(_universal_newlines(text).lstrip(BOM), is_clean=True)
+    return Decoded(_universal_newlines(data.decode("latin-1")), is_clean=False)
 
 
 def _universal_newlines(text: str) -> str:
     r"""Return the text with every line ending as ``\n``."""
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+def _children(nodes: Sequence[ast.AST], start: int, end: int) -> Iterator[ast.AST]:
+    for at in range(start, end):
+        for value in nodes[at].__dict__.values():
+            if isinstance(value, list):
+                yield from (child for child in value if isinstance(child, ast.AST))
+            elif isinstance(value, ast.AST) and value._fields:
+                yield value
 
 
 class PythonText:
@@ -56,25 +76,41 @@ class PythonText:
 
     @cached_property
     def tree(self) -> ast.Module | None:
-        """The syntax tree; ``None`` when the running Python cannot parse the file."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            try:
-                return ast.parse(self.text)
-            except (SyntaxError, ValueError, RecursionError, MemoryError):
-                return None
+        """The syntax tree; ``None`` when the running Python cannot parse the file.
+
+        Also when it is deeper than visitors can follow; see ``is_too_deep``.
+        """
+        return None if self.is_too_deep else self._parsed[0]
+
+    @cached_property
+    def is_too_deep(self) -> bool:
+        """Whether the file is nested deeper than anybody writes."""
+        return self._parsed[1]
 
     @cached_property
     def nodes(self) -> list[ast.AST]:
         """All nodes of the syntax tree but contexts and operators, parents first."""
-        found: list[ast.AST] = [self.tree] if self.tree else []
-        for node in found:
-            for value in node.__dict__.values():
-                if isinstance(value, list):
-                    found.extend(one for one in value if isinstance(one, ast.AST))
-                elif isinstance(value, ast.AST) and value._fields:
-                    found.append(value)
-        return found
+        return self._nodes if self.tree else []
+
+    @cached_property
+    def _parsed(self) -> tuple[ast.Module | None, bool]:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                tree = ast.parse(self.text)
+            except (SyntaxError, ValueError):
+                return None, False
+            except EXHAUSTED:
+                return None, True
+        self._nodes: list[ast.AST] = [tree]
+        start = 0
+        for _ in range(MAX_DEPTH):
+            end = len(self._nodes)
+            if start == end:
+                return tree, False
+            self._nodes.extend([*_children(self._nodes, start, end)])
+            start = end
+        return tree, True
 
     @cached_property
     def tokens(self) -> list[Token]:
