@@ -153,7 +153,8 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
 def _reads_others(root: etree._Element) -> bool:
     """Tell whether a schema makes its reader open other files."""
     document = root.getroottree().docinfo
-    return bool(document.doctype) or any(element.tag in _READS_OTHERS for element in root.iter())
+    has_type = document.internalDTD is not None
+    return has_type or any(element.tag in _READS_OTHERS for element in root.iter())
 
 
 def _read(package: Package, path: str) -> bytes:
