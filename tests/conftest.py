@@ -18,6 +18,15 @@ settings.register_profile(
 settings.load_profile("repository")
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what takes hours, unless it is asked for by its marker."""
+    if "nightly" in config.option.markexpr:
+        return
+    left_out = [item for item in items if "nightly" in item.keywords]
+    config.hook.pytest_deselected(items=left_out)
+    items[:] = [item for item in items if "nightly" not in item.keywords]
+
+
 @pytest.fixture(scope="session", autouse=True)
 def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Let the session have an empty home directory."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 HEAD = '<launch xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
 INCLUDES = """\
@@ -45,12 +45,23 @@ class XmlSchemaUnchecked(Rule):
         Example(
             "a schema that includes another",
             {"a.xsd": INCLUDES, "b.xsd": FITS, "a.launch.xml": _uses("a.xsd")},
-            at=("a.launch.xml:1",),
+            reports=(
+                Report(
+                    "a.launch.xml:1:1",
+                    "names the schema 'a.xsd', which is not looked at: it names other files",
+                ),
+            ),
         ),
         Example(
             "on the network",
             {"a.xml": _uses("https://ros.example.org/launch.xsd")},
-            at=("a.xml:1",),
+            reports=(
+                Report(
+                    "a.xml:1:1",
+                    "names the schema 'https://ros.example.org/launch.xsd', which is not looked "
+                    "at: it is on the network",
+                ),
+            ),
         ),
     )
 
