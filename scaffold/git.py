@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import subprocess
 
+from scaffold import programs
+
 _PROTECTION = (
     "--no-pager",
     *("-c", "core.fsmonitor=false"),
@@ -28,8 +30,11 @@ def run(*words: str, directory: str) -> subprocess.CompletedProcess[bytes]:
         OSError: git cannot be started.
         subprocess.TimeoutExpired: it did not end.
     """
+    program = programs.find("git")
+    if program is None:
+        raise FileNotFoundError("git")
     return subprocess.run(
-        ["git", *_PROTECTION, "-C", directory, *words],
+        [program, *_PROTECTION, "-C", directory, *words],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=SECONDS,

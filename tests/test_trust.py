@@ -17,13 +17,14 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import cache, config, git, trust
+from scaffold import cache, config, git, programs, trust
 from scaffold.check import compiled
 from scaffold.check.session import Session
 from scaffold.cli.main import main
-from scaffold.errors import ConfigError, InputError
+from scaffold.errors import ConfigError, EnvironmentMissingError, InputError
 from scaffold.model.disk import Disk, digest, stamp
 from scaffold.model.package import Package
+from scaffold.style import ruff
 
 ROOT = Path(__file__).parent.parent
 RULE = '''"""A rule of a stranger's."""
@@ -708,9 +709,33 @@ def test_git_is_run_in_one_place() -> None:
     places = [
         path.relative_to(ROOT).as_posix()
         for path in (ROOT / "scaffold").rglob("*.py")
-        if re.search(r"""\[["']git["'],""", path.read_text())
+        if re.search(r"""[\[(]["']git["'][,)]""", path.read_text())
     ]
     assert places == ["scaffold/git.py"]
+
+
+@pytest.mark.parametrize("entry", ["", ".", "bin"])
+def test_no_program_of_the_repository_is_found_on_the_path(
+    repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch, entry: str
+) -> None:
+    for name in ("git", "ruff"):
+        script = repository.write(
+            f"{entry or '.'}/{name}", f"#!/bin/sh\ntouch {repository.canary}\n"
+        )
+        script.chmod(0o755)
+    own = programs.find("git")
+    monkeypatch.setenv("PATH", os.pathsep.join((entry, os.environ["PATH"])))
+    assert programs.find("git") == own
+    repository.file.unlink()
+    assert run("new", "own").code == 0
+    # Without a ruff of the running Python, the PATH is asked.
+    monkeypatch.setattr(sys, "executable", "")
+    monkeypatch.setattr(sys, "prefix", str(repository.canary.parent / "nowhere"))
+    monkeypatch.setitem(sys.modules, "ruff", None)
+    monkeypatch.setenv("PATH", entry)
+    with pytest.raises(EnvironmentMissingError):
+        ruff._find()  # noqa: SLF001  `executable` remembers what it has found
+    assert not repository.has_run
 
 
 @pytest.mark.parametrize("key", ["kind", "text"])

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import programs
 from scaffold.errors import EnvironmentMissingError
 from scaffold.record import NamedTuple
 from scaffold.style.finding import Replacement
@@ -238,7 +239,7 @@ def _find() -> str:
     beside = os.path.join(os.path.dirname(sys.executable), "ruff")
     own = os.path.join(sys.prefix, "bin", "ruff")
     for candidate in (beside, own):
-        if os.access(candidate, os.X_OK):
+        if os.path.isabs(candidate) and os.access(candidate, os.X_OK):
             return candidate
     from importlib import import_module
 
@@ -246,10 +247,9 @@ def _find() -> str:
         return str(import_module("ruff").find_ruff_bin())
     except (ImportError, AttributeError, FileNotFoundError):
         pass
-    for directory in os.environ.get("PATH", "").split(os.pathsep):
-        candidate = os.path.join(directory, "ruff")
-        if directory and os.access(candidate, os.X_OK):
-            return candidate
+    on_path = programs.find("ruff")
+    if on_path is not None:
+        return on_path
     raise EnvironmentMissingError("ruff is not installed; pip install 'ruff>=0.17.5,<0.18'")
 
 

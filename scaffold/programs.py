@@ -1,0 +1,17 @@
+"""Finds programs on the PATH, but none of the current directory: that is a stranger's."""
+
+from __future__ import annotations
+
+import os
+
+
+def find(name: str) -> str | None:
+    """Return the path of a program, ``None`` if there is none.
+
+    An empty or relative entry of the PATH is skipped. A colon too many makes an empty one.
+    """
+    for directory in os.environ.get("PATH", os.defpath).split(os.pathsep):
+        candidate = os.path.join(directory, name)
+        if os.path.isabs(directory) and os.path.isfile(candidate) and os.access(candidate, os.X_OK):
+            return candidate
+    return None
