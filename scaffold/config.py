@@ -235,7 +235,9 @@ _INTEGER_BITS = 63
 
 
 def _content(disk: Disk, entries: object, path: str) -> list[str]:
-    if not isinstance(entries, list) or not all(isinstance(entry, str) for entry in entries):
+    if not isinstance(entries, list) or not all(
+        isinstance(entry, str) and entry and "\0" not in entry for entry in entries
+    ):
         raise ConfigError(f"{path}: content must be a list of directories")
     base = disk.real(os.path.dirname(path))
     return [os.path.join(base, os.path.expanduser(entry)) for entry in entries]

@@ -357,6 +357,20 @@ def test_an_empty_list_needs_no_trust(repository: Repository, run: Run) -> None:
     assert run("rules").err == ""
 
 
+@pytest.mark.parametrize(
+    "value", ["3", '"evil"', "[3]", "[[]]", '[""]', r'["\u0000"]', "{ a = 1 }", "1979-05-27"]
+)
+def test_content_that_is_no_list_of_directories(
+    repository: Repository, run: Run, value: str
+) -> None:
+    repository.write("ros2-scaffold.toml", f"content = {value}\n")
+    for words in (["rules"], ["check", "talker"], ["trust", "."]):
+        outcome = run(*words)
+        assert outcome.code == 2
+        assert outcome.err.endswith("content must be a list of directories\n")
+    assert trust.trusted(Disk()) == {}
+
+
 def test_the_line_shows_no_escapes(repository: Repository, run: Run) -> None:
     odd = repository.root / "a\x1b]0;b c"
     shutil.copytree(repository.root / "evil", odd / "evil")

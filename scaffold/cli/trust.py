@@ -45,16 +45,18 @@ def run(options: argparse.Namespace) -> int:
 def _add(directory: str) -> None:
     from scaffold import config, trust
 
+    has_file = os.path.isfile(os.path.join(directory, config.PROJECT_FILE))
+    # Before anything is trusted: the file may be broken.
+    names = config.named_content(os.path.realpath(directory)) if has_file else []
     real = trust.add(directory)
     terminal.show(f"trusted: {real}")
-    if not os.path.isfile(os.path.join(real, config.PROJECT_FILE)):
+    for name in names:
+        terminal.show(f"    rules and templates from {os.path.normpath(name)}")
+    if not has_file:
         terminal.note(
             f"there is no {config.PROJECT_FILE} in {real}; trust is for the directory that has "
             "one, not for those below it"
         )
-        return
-    for name in config.named_content(real):
-        terminal.show(f"    rules and templates from {os.path.normpath(name)}")
 
 
 def _list() -> None:
