@@ -74,7 +74,7 @@ def test_found(capsys: pytest.CaptureFixture[str]) -> None:
             "talker/package.xml:6:3: error PX002 the description is a placeholder, "
             "'TODO: Package description' [description-placeholder]"
         ),
-        "1 package, 3 files: 2 errors; 1 can be mended with --fix",
+        "1 package, 3 files: 2 errors; 1 fixable with --fix",
     ]
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from scaffold.check.diagnostic import (
+    Change,
     CreateFile,
     Diagnostic,
     Edit,
@@ -14,13 +14,17 @@ from scaffold.check.diagnostic import (
     Remove,
     Safety,
 )
-from scaffold.model.disk import MOST_BYTES
+from scaffold.check.overlay import Overlay
+from scaffold.check.soundness import breaks
+from scaffold.errors import ViewError
 from scaffold.model.package import Package
-from scaffold.model.tree import Tree, within
+from scaffold.model.tree import MANIFEST
 from scaffold.record import NamedTuple
 
 MAX_ROUNDS = 10
 """Fixes that still find work after this many rounds work against each other."""
+
+Check = Callable[[Package], list[Diagnostic]]
 
 
 class Fixed(NamedTuple):
@@ -28,6 +32,8 @@ class Fixed(NamedTuple):
 
     package: Package
     """The package after the fixes, in memory."""
+    before: Mapping[str, bytes]
+    """What the fixes were made for: the content of the changed and removed files that existed."""
     changed: Mapping[str, bytes]
     """New content by path, for files that differ or are new."""
     removed: frozenset[str]
@@ -35,61 +41,20 @@ class Fixed(NamedTuple):
     """Files that get their executable bits."""
     applied: int
     """How many fixes were applied."""
+    diagnostics: list[Diagnostic]
+    """What remains; a fix that would break its file is no longer among it."""
+    unsettled: frozenset[str]
+    """Codes that still had fixes when the rounds were used up."""
 
 
-class Overlay:
-    """A tree with changes on top of it, none of them on disk."""
+class Step(NamedTuple):
+    """The outcome of one round."""
 
-    def __init__(self, base: Tree) -> None:
-        self._base = base
-        self.place: str | None = getattr(base, "root", None)
-        """The directory of what is below the changes, if it is on disk."""
-        self.changed: dict[str, bytes] = {}
-        self.removed: set[str] = set()
-        self.executable: set[str] = set()
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """The paths of all files."""
-        return tuple(sorted({*self._base.files, *self.changed} - self.removed))
-
-    @property
-    def directories(self) -> frozenset[str]:
-        """The paths of all directories."""
-        parents = {path[:at] for path in self.changed for at in _slashes(path)}
-        return frozenset({*self._base.directories, *parents})
-
-    @property
-    def nested(self) -> tuple[str, ...]:
-        """The directories that hold a package of their own."""
-        return tuple(self._base.nested)
-
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
-        """Return what is in a file of so many bytes at most; raises OSError."""
-        if path in self.removed:
-            raise FileNotFoundError(path)
-        if path in self.changed:
-            return within(most, path, self.changed[path])
-        return self._base.read(path, most)
-
-    def is_executable(self, path: str) -> bool:
-        """Tell whether the file has, or gets, an executable bit."""
-        return path in self.executable or self._base.is_executable(path)
-
-    def copy(self) -> Overlay:
-        """Return an independent copy."""
-        twin = Overlay(self._base)
-        twin.changed, twin.removed = dict(self.changed), set(self.removed)
-        twin.executable = set(self.executable)
-        return twin
+    overlay: Overlay
+    applied: int
 
 
-def fix(
-    package: Package,
-    check: Callable[[Package], list[Diagnostic]],
-    *,
-    unsafe: bool = False,
-) -> Fixed:
+def fix(package: Package, check: Check, *, unsafe: bool = False) -> Fixed:
     """Apply the fixes of what ``check`` finds, until it finds nothing more to fix.
 
     Args:
@@ -100,107 +65,213 @@ def fix(
     overlay = Overlay(package.tree)
     count = 0
     for _ in range(MAX_ROUNDS):
-        overlay, applied = _apply_round(package, overlay, check, unsafe=unsafe)
+        current = on(package, overlay)
+        diagnostics = check(current)
+        overlay, applied = apply(current, overlay, diagnostics, unsafe=unsafe)
         count += applied
         if not applied:
-            break
-    after = _on(package, overlay)
-    same = {path for path, data in overlay.changed.items() if _had(package, path) == data}
-    changed = {path: data for path, data in overlay.changed.items() if path not in same}
-    return Fixed(after, changed, frozenset(overlay.removed), frozenset(overlay.executable), count)
+            return outcome(current, overlay, diagnostics, count, unsafe=unsafe, is_settled=True)
+    current = on(package, overlay)
+    return outcome(current, overlay, check(current), count, unsafe=unsafe, is_settled=False)
 
 
-def _apply_round(
+def on(package: Package, overlay: Overlay) -> Package:
+    """Return a package with other files."""
+    return Package(overlay, directory=package.directory, workspace=package.known_workspace)
+
+
+def outcome(
     package: Package,
     overlay: Overlay,
-    check: Callable[[Package], list[Diagnostic]],
+    diagnostics: list[Diagnostic],
+    applied: int,
     *,
     unsafe: bool,
-) -> tuple[Overlay, int]:
-    current = _on(package, overlay)
-    fixes = [
-        diagnostic.fix
-        for diagnostic in check(current)
-        if diagnostic.fix and (unsafe or diagnostic.fix.safety is Safety.SAFE)
-    ]
-    chosen = _compatible(fixes)
+    is_settled: bool,
+) -> Fixed:
+    """Put together what became of a package.
+
+    Args:
+        package: The package after the fixes.
+        overlay: Its files.
+        diagnostics: What is left.
+        applied: How many fixes were applied.
+        unsafe: Whether unsafe fixes were to be applied.
+        is_settled: Whether the last round found nothing more that it could apply.
+    """
+    pending = [one for one in diagnostics if _is_wanted(one.fix, unsafe=unsafe)]
+    unsettled = frozenset[str]() if is_settled else frozenset(one.code for one in pending)
+    if is_settled and pending:
+        refused = {id(one) for one in pending}
+        diagnostics = [one._replace(fix=None) if id(one) in refused else one for one in diagnostics]
+    changed = overlay.differing
+    before = {path: data for path in {*changed, *overlay.removed} for data in overlay.had(path)}
+    removed, executable = frozenset(overlay.removed), frozenset(overlay.executable)
+    return Fixed(package, before, changed, removed, executable, applied, diagnostics, unsettled)
+
+
+def apply(
+    package: Package, overlay: Overlay, diagnostics: Iterable[Diagnostic], *, unsafe: bool
+) -> Step:
+    """Apply the fixes of some diagnostics, as many as do not overlap.
+
+    Args:
+        package: What the diagnostics are about.
+        overlay: Its files; they stay as they are.
+        diagnostics: The diagnostics.
+        unsafe: Apply the fixes that the author should look at, too.
+
+    Returns:
+        The files afterwards, and how many fixes were applied.
+    """
+    fixes = [one.fix for one in diagnostics if one.fix and _is_wanted(one.fix, unsafe=unsafe)]
+    inside = [fixed for one in fixes if (fixed := _inside(one, overlay)) is not None]
+    chosen, texts = _sound(package, _compatible(inside))
     result = overlay.copy()
-    edits: dict[str, list[Edit]] = {}
-    for change in dict.fromkeys(change for one in chosen for change in one.changes):
-        if isinstance(change, Edit):
-            edits.setdefault(change.path, []).append(change)
-        elif isinstance(change, CreateFile):
+    for change in _changes(chosen):
+        if isinstance(change, CreateFile):
             result.changed[change.path] = change.text.encode()
             result.removed.discard(change.path)
         elif isinstance(change, MakeExecutable):
             result.executable.add(change.path)
-        else:
+        elif isinstance(change, Remove):
             result.changed.pop(change.path, None)
             result.removed.add(change.path)
-    for path, ones in edits.items():
-        source = current.editable(path)
-        text = splice(source.text, ones)
-        if path.endswith(".py") and _is_python(source.text) and not _is_python(text):
-            continue  # the fixes work against each other: better none than a broken file
-        with suppress(UnicodeError):  # what the file's encoding cannot hold is not written
-            result.changed[path] = text.encode(source.encoding)
-    return result, len(chosen)
+    result.changed.update(texts)
+    return Step(result, len(chosen))
 
 
-def _is_python(text: str) -> bool:
-    import ast
-    import warnings
+def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
+    return fix is not None and (unsafe or fix.safety is Safety.SAFE)
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            ast.parse(text.removeprefix("\ufeff"))
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
-            return False
-    return True
+
+def _changes(fixes: Iterable[Fix]) -> list[Change]:
+    """Return the changes of fixes, each once."""
+    return [*dict.fromkeys(change for one in fixes for change in one.changes)]
+
+
+def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
+    """Return a fix with links followed; ``None`` if one leads out of the package."""
+    changes: list[Change] = []
+    for change in fix.changes:
+        path = overlay.real(change.path)
+        if path is None:
+            return None
+        changes.append(change if path == change.path else change._replace(path=path))
+    return fix._replace(changes=tuple(changes))
+
+
+# -- which fixes go together
+
+
+def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
+    """Return fixes in order, without those that touch what an earlier one touches."""
+    chosen: list[Fix] = []
+    taken: dict[str, list[Edit]] = {}
+    whole: set[str] = set()
+    for one in dict.fromkeys(fixes):
+        edits = [change for change in one.changes if isinstance(change, Edit)]
+        files = {c.path for c in one.changes if isinstance(c, CreateFile | Remove)}
+        clash = any(
+            edit.path in whole or any(_clash(edit, other) for other in taken.get(edit.path, ()))
+            for edit in edits
+        )
+        if clash or files & (whole | taken.keys()):
+            continue
+        for edit in edits:
+            taken.setdefault(edit.path, []).append(edit)
+        whole |= files
+        chosen.append(one)
+    return chosen
+
+
+def _clash(one: Edit, other: Edit) -> bool:
+    """Tell whether two edits touch each other and do not go together."""
+    if one.start > other.end or other.start > one.end:
+        return False
+    return not _go_together(one, other)
+
+
+def _go_together(one: Edit, other: Edit) -> bool:
+    """Tell whether both insert a dependency, each on a line of its own, at one place."""
+    if one.path != MANIFEST or not one.start == one.end == other.start == other.end:
+        return False
+    from scaffold.model.manifest_edit import inserted_dependency
+
+    first, second = inserted_dependency(one), inserted_dependency(other)
+    return bool(first and second and first.is_before == second.is_before) and (
+        one.text == other.text or first.name != second.name  # type: ignore[union-attr]  # see above
+    )
 
 
 def splice(text: str, edits: Iterable[Edit]) -> str:
     """Return the text with edits that do not overlap."""
     parts: list[str] = []
     at = 0
-    for edit in sorted(edits, key=lambda edit: (edit.start, edit.end)):
+    for edit in sorted(edits, key=_order):
         parts += text[at : edit.start], edit.text
         at = edit.end
     return "".join([*parts, text[at:]])
 
 
-def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
-    """Return fixes in order, without those that touch what an earlier one touches."""
-    chosen: list[Fix] = []
-    taken: dict[str, list[tuple[int, int]]] = {}
-    whole: set[str] = set()
-    for one in dict.fromkeys(fixes):
-        spans = [(c.path, c.start, c.end) for c in one.changes if isinstance(c, Edit)]
-        files = {c.path for c in one.changes if isinstance(c, CreateFile | Remove)}
-        clash = any(
-            path in whole or any(start <= b and a <= end for a, b in taken.get(path, ()))
-            for path, start, end in spans
-        )
-        if clash or files & (whole | taken.keys()):
-            continue
-        for path, start, end in spans:
-            taken.setdefault(path, []).append((start, end))
-        whole |= files
-        chosen.append(one)
-    return chosen
+def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
+    """Return the order of edits; at one place dependencies stand as people sort them."""
+    if edit.path != MANIFEST or edit.start != edit.end:
+        return edit.start, edit.end, (0, "")
+    from scaffold.model.manifest_edit import inserted_dependency
+
+    inserted = inserted_dependency(edit)
+    return edit.start, edit.end, (inserted.rank, inserted.name) if inserted else (0, "")
 
 
-def _on(package: Package, overlay: Overlay) -> Package:
-    return Package(overlay, directory=package.directory, workspace=package.known_workspace)
+# -- no file breaks
 
 
-def _had(package: Package, path: str) -> bytes | None:
+def _sound(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, bytes]]:
+    """Return the fixes that break no file, and the new content of the files they edit."""
+    while True:
+        edits: dict[str, list[Edit]] = {}
+        for change in _changes(fixes):
+            if isinstance(change, Edit):
+                edits.setdefault(change.path, []).append(change)
+        texts = {path: _edited(package, path, ones) for path, ones in edits.items()}
+        broken = next((path for path, data in texts.items() if data is None), None)
+        if broken is None:
+            return fixes, {path: data for path, data in texts.items() if data is not None}
+        touching = [one for one in fixes if _edits_of(one, broken)]
+        kept = {id(one) for one in _largest(package, broken, touching)}
+        fixes = [one for one in fixes if not _edits_of(one, broken) or id(one) in kept]
+
+
+def _largest(package: Package, path: str, fixes: Sequence[Fix]) -> Sequence[Fix]:
+    """Return many of some fixes that together do not break a file."""
+    edits = [edit for one in fixes for edit in _edits_of(one, path)]
+    if not fixes or _edited(package, path, dict.fromkeys(edits)) is not None:
+        return fixes
+    if len(fixes) == 1:
+        return ()
+    middle = len(fixes) // 2
+    first = _largest(package, path, fixes[:middle])
+    second = _largest(package, path, fixes[middle:])
+    both = [*first, *second]
+    edits = [edit for one in both for edit in _edits_of(one, path)]
+    is_sound = _edited(package, path, dict.fromkeys(edits)) is not None
+    return both if is_sound else first or second
+
+
+def _edits_of(fix: Fix, path: str) -> list[Edit]:
+    return [change for change in fix.changes if isinstance(change, Edit) and change.path == path]
+
+
+def _edited(package: Package, path: str, edits: Iterable[Edit]) -> bytes | None:
+    """Return the new content of a file; ``None`` if it would be broken."""
     try:
-        return package.tree.read(path)
-    except OSError:
+        source = package.editable(path)
+        before = source.text.encode(source.encoding)
+        text = splice(source.text, edits)
+        after = text.encode(source.encoding)
+    except (ViewError, UnicodeError, LookupError):
         return None
-
-
-def _slashes(path: str) -> list[int]:
-    return [at for at, character in enumerate(path) if character == "/"]
+    if before != package.tree.read(path) or breaks(path, source.text, text):
+        return None
+    return after

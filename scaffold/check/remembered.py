@@ -103,7 +103,7 @@ class Memory:
         if not (disk.is_settled and holds(disk.seen)):
             return
         identities = [one.package.identity for one in self._targets]
-        needs = _Needs([one.package for one in self._targets], identities)
+        needs = Needs([one.package for one in self._targets], identities)
         trees: list[Seen | None] = []
         found: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
@@ -135,7 +135,7 @@ def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
     return disk.seen if holds(disk.seen) else None
 
 
-class _Needs:
+class Needs:
     """Which packages a verdict depends on, directly or through others."""
 
     def __init__(self, packages: Sequence[Package], identities: Sequence[Identity]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
@@ -58,6 +58,10 @@ class Summary(NamedTuple):
         )
 
 
+def _do_nothing() -> None:
+    pass
+
+
 class Session:
     """Rules and a selection, ready to run over packages."""
 
@@ -66,6 +70,8 @@ class Session:
         self._areas = {rule.code[:2] for rule in [*rules, *INTERNAL_RULES]}
         self._rules = [rule() for rule in rules if selection.wants(rule.code)]
         self._ran = {rule.code for rule in self._rules}
+        self.after_rule: Callable[[], None] = _do_nothing
+        """Called after each rule that ran over a package, for who shows how far it is."""
 
     def run(self, targets: Sequence[Target]) -> Iterator[Result]:
         """Check packages, several at a time where that pays; yield in the order given."""
@@ -99,6 +105,25 @@ class Session:
         (result,) = self.run_batch([Target(package)], style)
         return result.diagnostics
 
+    def check_style(self, package: Package) -> list[Diagnostic]:
+        """Check the style of one package only; see `check`."""
+        style = self._start_style([package])
+        if style is None:
+            return []
+        result = self._report(Target(package), style.diagnostics(package))
+        package.forget()
+        return result
+
+    @property
+    def rule_count(self) -> int:
+        """How many rules run over a package."""
+        return len(self._rules)
+
+    def _counted_rules(self) -> Iterator[Rule]:
+        for rule in self._rules:
+            yield rule
+            self.after_rule()
+
     def _start_style(self, packages: Sequence[Package]) -> StyleCheck | None:
         chosen = self.selection.select
         if chosen and all(prefix[:2] in self._areas for prefix in chosen):
@@ -112,7 +137,7 @@ class Session:
             # They were met for other packages: the verdict must not depend on who came first.
             package.forget()
             _ = package.name  # which everybody asks for: a malformed manifest is told of
-        said = runner.check(package, self._rules)
+        said = runner.check(package, self._counted_rules())
         return suppression.apply(package, said, self._ran)
 
     def _report(self, target: Target, found: list[Diagnostic]) -> list[Diagnostic]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from io import StringIO
 from typing import TYPE_CHECKING
@@ -43,12 +44,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--ignore", action="append", metavar="CODES", help="do not report these codes"
     )
     parser.add_argument(
-        "--fix", action="store_true", help="mend what can be mended without changing behaviour"
+        "--fix", action="store_true", help="apply the fixes that do not change behavior"
     )
     parser.add_argument(
         "--unsafe-fixes",
         action="store_true",
-        help="with --fix: also what the author should look at afterwards",
+        help="with --fix or --diff: also fixes to look at afterwards; else: count them, too",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument(
@@ -92,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
     memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = _Copy()
-    reporters.get(options.format)(results, output)
+    reporters.get(options.format)(results, output, unsafe=options.unsafe_fixes)
     terminal.write_report(output.getvalue())
     code = exit_code(results)
     if slot is not None:
@@ -109,27 +110,35 @@ class _Copy(StringIO):
 
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
-    """Mend, or show what would be mended; report what remains."""
-    from scaffold.check import fixer
+    """Fix, or show what would be fixed; report what remains."""
+    from scaffold.check import workspace_fixer
     from scaffold.check.session import Result
+    from scaffold.cli.progress import Bar
+
+    _refuse_files(targets)
+    roots = [target.package.root or "." for target in targets]
+    with Bar() as bar:
+        fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
+    plans = [_plan(root, one) for root, one in zip(roots, fixed, strict=True)]
+    if options.diff:
+        terminal.show_patch(_patch(plans))
+    else:
+        for plan in plans:
+            plan.write(force=True)
+    results = [Result(one.package, len(one.package.files), one.diagnostics) for one in fixed]
+    return _report_fixes(options, results, fixed)
+
+
+def _refuse_files(targets: Sequence[Target]) -> None:
     from scaffold.errors import InputError
 
-    remaining: list[Result] = []
-    count = 0
     for target in targets:
-        package = target.package
-        if package.root is None or target.only is not None:
-            raise InputError("--fix and --diff want whole packages, not single files")
-        fixed = fixer.fix(package, session.check, unsafe=options.unsafe_fixes)
-        count += fixed.applied
-        plan = _plan(package.root, fixed)
-        if options.diff:
-            terminal.show_patch(plan.diff())
-        else:
-            plan.write(force=True)
-        found = session.check(fixed.package)
-        remaining.append(Result(package, len(fixed.package.files), found))
-    return _tell(options, remaining, count)
+        if target.only is not None:
+            path = os.path.join(target.package.directory, min(target.only))
+            raise InputError(
+                f"{os.path.normpath(path)}: --fix and --diff work on whole packages, not on single "
+                "files; name the directory of a package"
+            )
 
 
 def _plan(root: str, fixed: Fixed) -> WritePlan:
@@ -138,16 +147,32 @@ def _plan(root: str, fixed: Fixed) -> WritePlan:
     return WritePlan.of(root, fixed.changed, executable=fixed.executable, remove=fixed.removed)
 
 
-def _tell(options: argparse.Namespace, results: list[Result], count: int) -> int:
+def _patch(plans: Sequence[WritePlan]) -> str:
+    from scaffold import patch
+
+    base = patch.base([plan.root for plan in plans])
+    return "".join(plan.diff(relative_to=base) for plan in plans)
+
+
+def _report_fixes(
+    options: argparse.Namespace, results: list[Result], fixed: Sequence[Fixed]
+) -> int:
     from scaffold import reporters
+    from scaffold.check.fixer import MAX_ROUNDS
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
+    count = sum(one.applied for one in fixed)
+    terminal.say(f"{_fixes(count)}{', nothing written' if options.diff else ' applied'}")
+    unsettled = sorted({code for one in fixed for code in one.unsettled})
+    if unsettled:
+        terminal.note(
+            f"{MAX_ROUNDS} rounds of fixes were not enough for {', '.join(unsettled)}: their fixes "
+            "may undo each other; fix these by hand"
+        )
     if options.diff:
-        terminal.say(f"{_fixes(count)}, nothing written")
         return FINDINGS if count else CLEAN
-    terminal.say(f"{_fixes(count)} applied")
     output = _Copy()
-    reporters.get(options.format)(results, output)
+    reporters.get(options.format)(results, output, unsafe=options.unsafe_fixes)
     terminal.write_report(output.getvalue())
     return exit_code(results)
 

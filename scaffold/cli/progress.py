@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import TYPE_CHECKING, NoReturn, TypeVar, final
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 Item = TypeVar("Item")
 
+_PARTS = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}"
 WORTH_IT = 40
 """Items from which on people would wonder whether anything happens."""
 
@@ -20,3 +24,38 @@ def shown(items: Iterable[Item], total: int, unit: str) -> Iterator[Item]:
     from tqdm import tqdm
 
     yield from tqdm(items, total=total, unit=f" {unit}", leave=False, file=sys.stderr)
+
+
+@final
+class Bar:
+    """A bar for work in several parts, the length of which is not known before.
+
+    It is a context: the bar is gone after it.
+    """
+
+    def __init__(self) -> None:
+        self._bar: tqdm[NoReturn] | None = None
+
+    def begin(self, label: str, total: int) -> None:
+        """Start another part of the work."""
+        if not sys.stderr.isatty():
+            return
+        if self._bar is None:
+            from tqdm import tqdm
+
+            self._bar = tqdm(leave=False, file=sys.stderr, bar_format=_PARTS, mininterval=0.2)
+        self._bar.set_description(label, refresh=False)
+        self._bar.reset(total)
+
+    def step(self) -> None:
+        """Count one of the total as done."""
+        if self._bar is not None:
+            self._bar.update()
+
+    def __enter__(self) -> Bar:
+        return self
+
+    def __exit__(self, *details: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+            self._bar = None

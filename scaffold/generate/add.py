@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
-from scaffold.check.fixer import Overlay
+from scaffold.check.overlay import Overlay
 from scaffold.errors import ConflictError, InputError, MissingFileError, ParseError, ViewError
 from scaffold.generate import neighbours, own, piece
 from scaffold.generate.edit.addition import ByHand

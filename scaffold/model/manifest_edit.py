@@ -8,6 +8,7 @@ from itertools import pairwise
 from scaffold.check.diagnostic import Edit
 from scaffold.model.manifest import DEPENDENCY_TAGS, Manifest
 from scaffold.model.xml_tree import Element
+from scaffold.record import NamedTuple
 
 SCHEMA = "http://download.ros.org/schema/package_format{}.xsd"
 _DEPENDENCIES = (*DEPENDENCY_TAGS, "conflict", "replace")
@@ -97,6 +98,29 @@ def reorder(manifest: Manifest) -> Edit | None:
     first = next(i for i, pair in enumerate(zip(chunks, in_order, strict=True)) if len({*pair}) > 1)
     start = root.open_end + sum(len(text) for _, text in chunks[:first])
     return Edit(source.path, start, at, "".join(text for _, text in in_order[first:]))
+
+
+class InsertedDependency(NamedTuple):
+    """What an edit inserts: a dependency on a line of its own."""
+
+    name: str
+    rank: int
+    """Where its tag is by custom among those of dependencies."""
+    is_before: bool
+    """Whether the line is put before another, and not after it."""
+
+
+def inserted_dependency(edit: Edit) -> InsertedDependency | None:
+    """Return what an edit inserts, if it is one dependency on a line of its own."""
+    import re
+
+    inserted = re.fullmatch(r"(\s*)<([a-z_]+)[^<>]*>([^<>]+)</\2>(\s*)", edit.text)
+    if inserted is None or inserted[2] not in _DEPENDENCIES:
+        return None
+    ahead, after = ("\n" in inserted[1], "\n" in inserted[4])
+    if ahead == after:
+        return None
+    return InsertedDependency(inserted[3].strip(), _custom(inserted[2]), is_before=after)
 
 
 def rename(manifest: Manifest, element: Element, tag: str) -> tuple[Edit, ...]:

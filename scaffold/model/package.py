@@ -369,6 +369,12 @@ class Package:
         if isinstance(self.tree, DiskTree):
             self.tree.forget()
 
+    def change(self, tree: Tree) -> None:
+        """Put other files in place of those of the package; see `Workspace.forget`."""
+        self.tree = tree
+        self._identity = None
+        self.forget()
+
     # -- inside
 
     @property

@@ -29,6 +29,14 @@ class Workspace:
         """Add a package; only before the first look at the workspace."""
         self._packages.append(package)
 
+    def forget(self) -> None:
+        """Drop what was made of the packages: the files of one have changed."""
+        for name in ("by_name", "interfaces"):
+            self.__dict__.pop(name, None)
+        for package in self._packages:
+            package.forget()
+            package.workspace.forget()
+
     def __iter__(self) -> Iterator[Package]:
         return iter(self._packages)
 
@@ -82,6 +90,10 @@ class Neighbourhood:
         self.uses_all = True
         yield from self._workspace
         yield from self._workspace.around or ()
+
+    def forget(self) -> None:
+        """Drop what was made of the packages, but not whom the verdict needed."""
+        self.__dict__.pop("interfaces", None)
 
     @property
     def names(self) -> list[str]:

@@ -11,7 +11,7 @@ from scaffold.printable import json_text
 from scaffold.reporters.paths import shown
 
 
-def report(results: Sequence[Result], out: TextIO) -> None:
+def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:  # noqa: ARG001  same shape as the other
     """Write ``{"diagnostics": [...], "summary": {...}}``."""
     diagnostics = [
         _as_data(diagnostic, shown(result.package, diagnostic.location.path))

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TextIO
 
-from scaffold.check.diagnostic import Severity
+from scaffold.check.diagnostic import Safety, Severity
 from scaffold.check.session import Result, Summary
 from scaffold.printable import printable
 from scaffold.reporters.paths import shown
@@ -14,8 +14,8 @@ from scaffold.reporters.paths import shown
 _COLOURS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
 
 
-def report(results: Sequence[Result], out: TextIO) -> None:
-    """Write the diagnostics and a summary."""
+def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:
+    """Write the diagnostics and a summary; see `Reporter`."""
     paint = _painter(out)
     for result in results:
         for diagnostic in result.diagnostics:
@@ -25,10 +25,10 @@ def report(results: Sequence[Result], out: TextIO) -> None:
             code = paint(diagnostic.code, "1")
             message = printable(diagnostic.message)
             out.write(f"{place} {severity} {code} {message} [{diagnostic.name}]\n")
-    out.write(_summary(results) + "\n")
+    out.write(_summary(results, unsafe=unsafe) + "\n")
 
 
-def _summary(results: Sequence[Result]) -> str:
+def _summary(results: Sequence[Result], *, unsafe: bool) -> str:
     summary = Summary.of(results)
     checked = f"{_count(summary.packages, 'package')}, {_count(summary.files, 'file')}"
     if not any(result.diagnostics for result in results):
@@ -42,9 +42,19 @@ def _summary(results: Sequence[Result]) -> str:
         )
         if number
     ]
-    fixable = sum(d.fix is not None for result in results for d in result.diagnostics)
-    fix = f"; {fixable} can be mended with --fix" if fixable else ""
-    return f"{checked}: {', '.join(found)}{fix}"
+    return f"{checked}: {', '.join(found)}{_fixable(results, unsafe=unsafe)}"
+
+
+def _fixable(results: Sequence[Result], *, unsafe: bool) -> str:
+    """Say how many fixes there are, and which flags apply them."""
+    fixes = [d.fix for result in results for d in result.diagnostics if d.fix is not None]
+    careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
+    others = len(fixes) - careful
+    parts = [f"{careful} fixable with --fix"] if careful else []
+    if others:
+        what = "more" if careful else "fixable"
+        parts.append(f"{others} {what} with --fix --unsafe-fixes")
+    return f"; {', '.join(parts)}" if parts else ""
 
 
 def _count(number: int, noun: str) -> str:

@@ -1,0 +1,108 @@
+"""Files of a package with changes in memory on top of them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+
+from scaffold.model.disk import MOST_BYTES
+from scaffold.model.tree import Tree, within
+
+MOST_KEPT = 2_000_000
+"""Bytes of a file up to which it is read only once; nobody edits larger ones."""
+
+
+class Overlay:
+    """A tree with changes on top of it, none of them on disk.
+
+    A file below the changes is what it was when it was first read, however it changes meanwhile.
+    A change of a link is a change of the file that it leads to.
+    """
+
+    def __init__(self, base: Tree) -> None:
+        self._base = base
+        self.place: str | None = getattr(base, "root", None)
+        """The directory of what is below the changes, if it is on disk."""
+        self.changed: dict[str, bytes] = {}
+        self.removed: set[str] = set()
+        self.executable: set[str] = set()
+        self._read: dict[str, bytes] = {}
+        self._real: dict[str, str | None] = {}
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The paths of all files."""
+        return tuple(sorted({*self._base.files, *self.changed} - self.removed))
+
+    @property
+    def directories(self) -> frozenset[str]:
+        """The paths of all directories."""
+        parents = {path[:at] for path in self.changed for at in _slashes(path)}
+        return frozenset({*self._base.directories, *parents})
+
+    @property
+    def nested(self) -> tuple[str, ...]:
+        """The directories that hold a package of their own."""
+        return tuple(self._base.nested)
+
+    @property
+    def broken_links(self) -> Sequence[str]:
+        """The links to files that are not there."""
+        return tuple(getattr(self._base, "broken_links", ()))
+
+    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file of so many bytes at most; raises OSError."""
+        if path in self.removed:
+            raise FileNotFoundError(path)
+        if self.changed and path not in self.changed:
+            path = self.real(path) or path
+        if path in self.changed:
+            return within(most, path, self.changed[path])
+        return self.before(path, most)
+
+    def before(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file below the changes; see `read`."""
+        if path in self._read:
+            return within(most, path, self._read[path])
+        data = self._base.read(path, most)
+        if len(data) <= MOST_KEPT:
+            self._read[path] = data
+        return data
+
+    def is_executable(self, path: str) -> bool:
+        """Tell whether the file has, or gets, an executable bit."""
+        return path in self.executable or self._base.is_executable(path)
+
+    def real(self, path: str) -> str | None:
+        """Return the path of the file that a path leads to, ``None`` outside of the root."""
+        if self.place is None:
+            return path
+        if path not in self._real:
+            root = os.path.realpath(self.place)
+            target = os.path.realpath(os.path.join(root, path))
+            is_inside = target.startswith(os.path.join(root, ""))
+            self._real[path] = os.path.relpath(target, root) if is_inside else None
+        return self._real[path]
+
+    @property
+    def differing(self) -> Mapping[str, bytes]:
+        """The changed files that are new or differ from what is below."""
+        return {path: data for path, data in self.changed.items() if [*self.had(path)] != [data]}
+
+    def had(self, path: str) -> Iterator[bytes]:
+        """Yield what was in a file before the changes, if it existed."""
+        with suppress(OSError):
+            yield self.before(path)
+
+    def copy(self) -> Overlay:
+        """Return an independent copy."""
+        twin = Overlay(self._base)
+        twin.changed, twin.removed = dict(self.changed), set(self.removed)
+        twin.executable = set(self.executable)
+        twin._read, twin._real = self._read, self._real
+        return twin
+
+
+def _slashes(path: str) -> list[int]:
+    return [at for at, character in enumerate(path) if character == "/"]

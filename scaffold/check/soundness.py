@@ -1,0 +1,80 @@
+"""Whether an edited file can still be read: better no fix than a broken file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from scaffold.errors import ParseError
+from scaffold.model.source import Source
+
+
+def reader_of(path: str) -> Callable[[str, str], None] | None:
+    """Return what reads files of this kind, by path and text; it raises for one that is broken.
+
+    ``None`` for files that nothing here can judge.
+    """
+    name = path.rpartition("/")[2]
+    if name == "CMakeLists.txt":
+        return _read_cmake
+    return _READERS.get(name.rpartition(".")[2]) if "." in name else None
+
+
+def breaks(path: str, before: str, after: str) -> bool:
+    """Tell whether a file can be read before an edit and not after it."""
+    read = reader_of(path)
+    return read is not None and _is_read(read, path, before) and not _is_read(read, path, after)
+
+
+def _is_read(read: Callable[[str, str], None], path: str, text: str) -> bool:
+    try:
+        read(path, text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError, ParseError):
+        return False
+    return True
+
+
+def _read_python(path: str, text: str) -> None:
+    import ast
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ast.parse(text.removeprefix("\ufeff"), path)
+
+
+def _read_xml(path: str, text: str) -> None:
+    from scaffold.model import xml_tree
+
+    xml_tree.parse(Source(path, text))
+
+
+def _read_cmake(path: str, text: str) -> None:
+    from scaffold.model.cmake import CMakeLists
+
+    for at, message in CMakeLists.parse(Source(path, text)).errors:
+        raise ParseError(at, message)
+
+
+def _read_yaml(path: str, text: str) -> None:
+    from scaffold.model import yaml_tree
+
+    yaml_tree.parse(Source(path, text))
+
+
+def _read_ini(path: str, text: str) -> None:
+    from scaffold.model.ini import IniFile
+
+    IniFile.parse(Source(path, text))
+
+
+_READERS: dict[str, Callable[[str, str], None]] = {
+    "py": _read_python,
+    "xml": _read_xml,
+    "xacro": _read_xml,
+    "urdf": _read_xml,
+    "launch": _read_xml,
+    "cmake": _read_cmake,
+    "yaml": _read_yaml,
+    "yml": _read_yaml,
+    "cfg": _read_ini,
+}

@@ -1,0 +1,129 @@
+"""Fixes the packages of a workspace in memory, until nothing more can be fixed in any of them.
+
+A fix in one package may change what is found in another. So all packages are checked, then all
+are fixed, and those that changed or that looked at a changed one are checked again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from scaffold.check import fixer
+from scaffold.check.fixer import MAX_ROUNDS, Fixed
+from scaffold.check.overlay import Overlay
+from scaffold.check.remembered import Needs
+from scaffold.check.session import PARALLEL_FROM
+
+if TYPE_CHECKING:
+    from scaffold.check.diagnostic import Diagnostic
+    from scaffold.check.session import Session
+    from scaffold.model.discovery import Target
+
+
+class Progress(Protocol):
+    """Shows people how far the work is."""
+
+    def begin(self, label: str, total: int) -> None:
+        """Start another part of the work."""
+
+    def step(self) -> None:
+        """Count one of the total as done."""
+
+
+class _Piece:
+    """A package that is being fixed."""
+
+    def __init__(self, target: Target) -> None:
+        self.target = target
+        self.package = target.package
+        self.overlay = Overlay(target.package.tree)
+        self.diagnostics: list[Diagnostic] = []
+        self.applied = 0
+
+    def apply(self, diagnostics: list[Diagnostic], *, unsafe: bool) -> bool:
+        """Apply fixes; tell whether there were any."""
+        self.overlay, applied = fixer.apply(self.package, self.overlay, diagnostics, unsafe=unsafe)
+        self.applied += applied
+        if applied:
+            self.package.change(self.overlay)
+        return applied > 0
+
+
+def fix(
+    targets: Sequence[Target], session: Session, progress: Progress, *, unsafe: bool = False
+) -> list[Fixed]:
+    """Fix packages that see each other; nothing is written.
+
+    Args:
+        targets: Whole packages. Their files are those of memory afterwards.
+        session: Checks them.
+        progress: Hears how far it is.
+        unsafe: Apply the fixes that the author should look at, too.
+    """
+    pieces = [_Piece(target) for target in targets]
+    pending = pieces
+    for number in range(1, MAX_ROUNDS + 1):
+        _check(pending, session, progress, f"round {number}")
+        changed = [one for one in pending if one.apply(one.diagnostics, unsafe=unsafe)]
+        for one in changed:
+            _fix_style(one, session, unsafe=unsafe)
+        pending = _affected(pieces, changed)
+        if not pending:
+            break
+    if pending:
+        _check(pending, session, progress, "last look")
+    return [
+        fixer.outcome(
+            one.package,
+            one.overlay,
+            one.diagnostics,
+            one.applied,
+            unsafe=unsafe,
+            is_settled=one not in pending,
+        )
+        for one in pieces
+    ]
+
+
+def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
+    """Bring the style of a package to rest: that takes much less time than its rules."""
+    for _ in range(MAX_ROUNDS):
+        if not piece.apply(session.check_style(piece.package), unsafe=unsafe):
+            return
+
+
+def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piece]:
+    """Return the changed packages and those whose verdict may be another because of them."""
+    if not changed:
+        return []
+    packages = [one.package for one in pieces]
+    needs = Needs(packages, [package.identity for package in packages])
+    places = {at for at, one in enumerate(pieces) if one in changed}
+    affected: list[_Piece] = []
+    for at, one in enumerate(pieces):
+        needed = needs.of(one.package)
+        if at in places or needed is None or not places.isdisjoint(needed):
+            affected.append(one)
+    for workspace in {id(one.known_workspace): one.known_workspace for one in packages}.values():
+        if workspace is not None:
+            workspace.forget()
+    return affected
+
+
+def _check(pieces: Sequence[_Piece], session: Session, progress: Progress, label: str) -> None:
+    targets = [one.target for one in pieces]
+    is_on_disk = all(not isinstance(one.package.tree, Overlay) for one in pieces)
+    if len(targets) >= PARALLEL_FROM and is_on_disk:
+        progress.begin(label, len(targets))
+        for piece, result in zip(pieces, session.run(targets), strict=True):
+            piece.diagnostics = result.diagnostics
+            progress.step()
+        return
+    progress.begin(label, len(targets) * session.rule_count)
+    before, session.after_rule = session.after_rule, progress.step
+    try:
+        for piece in pieces:
+            piece.diagnostics = session.check(piece.package)
+    finally:
+        session.after_rule = before
