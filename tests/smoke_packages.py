@@ -260,6 +260,7 @@ BAD = {
     "hangs": HANGS,
     "ignores": IGNORES_SIGINT,
     "late_once": LATE_ONCE,
+    "leaves": talker("/leaves", period="0.5", tick="raise SystemExit"),
     "parent": PARENT,
     "silent": talker("/silent", tick="return"),
     "slow": talker("/slow", imports="import time", tick="time.sleep(0.2)"),

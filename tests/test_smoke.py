@@ -6,11 +6,7 @@ import json
 import os
 import signal
 import subprocess
-import sys
-import time
 import venv
-from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -30,54 +26,14 @@ from tests.smoke_packages import (
     talker,
     write,
 )
+from tests.smoke_runs import NEEDS_ROS, ROOT, command_line, processes_of, variables, wait_until
 
-ROOT = Path(__file__).parent.parent
-NEEDS_ROS = pytest.mark.skipif(
-    find_spec("rclpy") is None and not Path("/opt/ros").exists(),
-    reason="no ROS 2: install the extra 'ros' of this project",
-)
 pytestmark = [pytest.mark.build, NEEDS_ROS]
 
 Result = dict[str, Any]
 
 TIMEOUT = 20.0
 """Seconds that executables get to appear; one of those of the tests never does."""
-
-
-def command_line(*arguments: str | Path) -> list[str]:
-    return [sys.executable, "-m", "scaffold.cli.main", "smoke", *map(str, arguments)]
-
-
-def variables(tmp: Path, **more: str) -> dict[str, str]:
-    """Return variables by which the processes of a test can be told from all others."""
-    return {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp), **more}
-
-
-def processes_of(tmp: Path) -> list[str]:
-    """Return the command lines of all living processes whose TMPDIR this is."""
-    wanted = f"TMPDIR={tmp}".encode()
-    found = []
-    for directory in Path("/proc").glob("[0-9]*"):
-        try:
-            if wanted in (directory / "environ").read_bytes().split(b"\0"):
-                found.append((directory / "cmdline").read_bytes().replace(b"\0", b" ").decode())
-        except OSError:
-            continue
-    return [command for command in found if command]
-
-
-def segments() -> set[str]:
-    """Return the data segments of Fast DDS that exist."""
-    names = os.listdir(shared_memory.DIRECTORY)
-    data = [name for name in names if name.startswith("fastrtps_") and not name.endswith("_el")]
-    return {f"{shared_memory.DIRECTORY}/{name}" for name in data}
-
-
-def wait_until(condition: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline, "it did not happen"
-        time.sleep(0.05)
 
 
 @pytest.fixture(scope="session")
@@ -113,7 +69,7 @@ def packages(
 ) -> dict[str, Result]:
     """Return the reports on all packages, by name, of one run."""
     assert listing
-    before = segments()
+    before = shared_memory.segments()
     tmp = tmp_path_factory.mktemp("scratch")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TMPDIR", str(tmp))
@@ -124,8 +80,7 @@ def packages(
         result = smoke(found, Options(duration=2.0, timeout=TIMEOUT, jobs=6))
     assert processes_of(tmp) == []
     assert list(tmp.iterdir()) == []
-    in_use = shared_memory.used_by(int(name) for name in os.listdir("/proc") if name.isdigit())
-    assert segments() - before - in_use == set()
+    assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
     data = json.loads(json.dumps(as_data(result)))
     return {package["name"]: package for package in data["packages"]}
 
@@ -274,6 +229,15 @@ def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
     _, problem = bad(packages, "unspun")
     assert problem.startswith("finished by itself after ")
     assert "before any message came on /unspun: bad_py/unspun.py publishes" in problem
+
+
+def test_node_that_leaves_before_it_has_published(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "leaves")
+    assert problem.startswith("finished by itself after ")
+    assert problem.endswith(
+        "before any message came on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
+    )
+    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
 
 
 def test_does_not_build(packages: dict[str, Result]) -> None:

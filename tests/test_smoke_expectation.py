@@ -240,6 +240,41 @@ def test_programs_that_ros2_run_has_to_find(lines: str, names: list[str]) -> Non
     assert list(expectations(package)) == names
 
 
+LEAVES = "def tick(self):\n    raise SystemExit\n    self.pub.publish(String())\n"
+LEAVES_IN_TIME = (
+    "def tick(self):\n    if self.is_full:\n        raise SystemExit\n"
+    "    self.pub.publish(String())\n"
+)
+SELDOM = "def tick(self):\n    if self.is_full:\n        self.pub.publish(String())\n"
+TIMER = "self.create_timer(0.5, self.tick)"
+
+
+@pytest.mark.parametrize(
+    ("init", "methods", "rate"),
+    [
+        (TIMER, TICK, 2.0),
+        (TIMER, LEAVES, 2.0),
+        (TIMER, LEAVES_IN_TIME, 2.0),
+        (TIMER, SELDOM, None),
+        ("", TICK, None),
+        ("self.create_subscription(String, 'heard', self.tick, 10)", TICK, None),
+    ],
+    ids=["always", "leaves at once", "may leave", "condition", "no timer", "relay"],
+)
+def test_program_that_ends_before_its_timer_has_published(
+    init: str, methods: str, rate: float | None
+) -> None:
+    expectation = expectations(node(init, methods))["run"]
+    assert expectation.publications[0].timer_hz == rate
+    problems, _ = compare(expectation, Observation(), 0.6, finished=True)
+    problem = (
+        "finished by itself after 0.6 s, before any message came on /words: "
+        f"demo/run.py publishes {STRING} at 2 Hz"
+    )
+    assert list(map(str, problems)) == ([problem] if rate else [])
+    assert compare(expectation, seen(1, None, 0.0), 0.6, finished=True)[0] == []
+
+
 # -- comparison
 
 

@@ -19,6 +19,7 @@ import pytest
 from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
 from scaffold.smoke import build, domain, environment, output, probe, process, shared_memory, trial
+from scaffold.smoke.process import Origin
 from scaffold.smoke.report import report
 from scaffold.smoke.result import (
     Build,
@@ -155,7 +156,7 @@ def asynchronously(run: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
 async def started(code: str, directory: Path, mark: str) -> process.Running:
     """Start a Python program and wait until it has said something."""
     command = [sys.executable, "-u", "-S", "-c", code]
-    running = await process.start(command, dict(os.environ), directory, mark)
+    running = await process.start(command, dict(os.environ), directory, Origin(mark))
     while not output.read(running.out):
         assert running.exit_code is None, output.read(running.err)
         await asyncio.sleep(0.01)
@@ -165,7 +166,10 @@ async def started(code: str, directory: Path, mark: str) -> process.Running:
 def test_signal_that_is_obeyed(tmp_path: Path) -> None:
     async def run() -> tuple[process.Ending, int | None]:
         running = await started("print(1); input_ = __import__('time').sleep(60)", tmp_path, "a")
-        return await process.end(running, signal.SIGINT), running.exit_code
+        try:
+            return await process.end(running, signal.SIGINT), running.exit_code
+        finally:
+            await running.close()
 
     ending, code = asynchronously(run)
     assert (ending.sent, ending.was_ignored, code) == (("SIGINT",), False, -2)
@@ -181,7 +185,10 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
 
     async def run() -> tuple[process.Ending, int | None]:
         running = await started(code, tmp_path, "a")
-        return await process.end(running, signal.SIGINT, grace=2.0), running.exit_code
+        try:
+            return await process.end(running, signal.SIGINT, grace=2.0), running.exit_code
+        finally:
+            await running.close()
 
     ending, exit_code = asynchronously(run)
     assert (ending.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
@@ -199,7 +206,10 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
 
     async def run() -> process.Ending:
         running = await started(code, tmp_path, "a")
-        return await process.end(running, signal.SIGTERM, grace=2.0)
+        try:
+            return await process.end(running, signal.SIGTERM, grace=2.0)
+        finally:
+            await running.close()
 
     ending = asynchronously(run)
     assert (ending.sent, ending.was_missed) == (("SIGTERM", "SIGTERM"), True)
@@ -214,16 +224,18 @@ def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
         "print(1)\n"
     )
 
-    async def run() -> None:
+    async def run() -> list[str]:
         running = await started(code, tmp_path, f"{mark}/one")
-        assert await running.ended_within(30)
+        try:
+            assert await running.ended_within(30)
+            commands = list(process.marked(mark).values())
+            assert process.marked(f"{mark}/other") == {}
+            assert len(process.sweep(mark)) == 1
+            return commands
+        finally:
+            await running.close()
 
-    asynchronously(run)
-    assert [command.endswith("time.sleep(600)") for command in process.marked(mark).values()] == [
-        True
-    ]
-    assert process.marked(f"{mark}/other") == {}
-    assert len(process.sweep(mark)) == 1
+    assert [one.endswith("time.sleep(600)") for one in asynchronously(run)] == [True]
     assert process.marked(mark) == {}
 
 
@@ -238,8 +250,9 @@ def test_only_unused_segments_are_removed(tmp_path: Path, monkeypatch: pytest.Mo
         (tmp_path / f"sem.{name}_mutex").touch()
     with (tmp_path / "fastrtps_used_el").open() as lock:
         fcntl.flock(lock, fcntl.LOCK_SH)
-        segments = [f"{tmp_path}/fastrtps_{name}" for name in ("used", "left", "gone")]
-        removed = shared_memory.remove_unused(segments)
+        removed = shared_memory.remove_unused(
+            ["fastrtps_used", "fastrtps_left", "fastrtps_gone", "../elsewhere"]
+        )
     left = ["fastrtps_left", "fastrtps_left_el", "sem.fastrtps_left_mutex"]
     assert [os.path.basename(path) for path in removed] == left
     assert sorted(path.name for path in tmp_path.iterdir()) == [

@@ -5,8 +5,13 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
+from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from scaffold.printable import printable
+
+if TYPE_CHECKING:
+    from scaffold.smoke.interruption import Interruption
 
 FORMATS = ("text", "json")
 SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM")}
@@ -75,37 +80,54 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Build, run and observe packages; return the exit code."""
+    from signal import Signals
+
+    from scaffold.smoke.interruption import InterruptedBySignalError, Interruption
+
+    interruption = Interruption()
+    try:
+        with interruption, interruption.at_once():
+            return _run(options, interruption)
+    except InterruptedBySignalError as end:
+        _announce(f"interrupted by {Signals(end.number).name}")
+        return 128 + end.number
+
+
+def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from pathlib import Path
     from signal import Signals
 
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.model import discovery
     from scaffold.smoke.report import report
-    from scaffold.smoke.smoke import InterruptedBySignalError, Options, packages_of, smoke
+    from scaffold.smoke.smoke import Options, packages_of, smoke
 
     packages = packages_of(discovery.find(options.paths))
     with _Progress() as progress:
-        try:
-            result = smoke(
-                packages,
-                Options(
-                    duration=options.duration,
-                    timeout=options.timeout,
-                    build_timeout=options.build_timeout,
-                    signals=tuple(Signals[name] for name in SIGNALS[options.signal]),
-                    workspace=Path(options.workspace).absolute() if options.workspace else None,
-                    keep=options.keep,
-                    jobs=options.jobs,
-                ),
-                progress=progress,
-            )
-        except InterruptedBySignalError as end:
-            sys.stderr.write(f"ros2-scaffold: interrupted by {Signals(end.number).name}\n")
-            return 128 + end.number
+        result = smoke(
+            packages,
+            Options(
+                duration=options.duration,
+                timeout=options.timeout,
+                build_timeout=options.build_timeout,
+                signals=tuple(Signals[name] for name in SIGNALS[options.signal]),
+                workspace=Path(options.workspace).absolute() if options.workspace else None,
+                keep=options.keep,
+                jobs=options.jobs,
+            ),
+            progress=progress,
+            announce=_announce,
+            interruption=interruption,
+        )
     report(result, options.format, sys.stdout)
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS
+
+
+def _announce(text: str) -> None:
+    with suppress(OSError):  # the terminal may be gone
+        sys.stderr.write(f"ros2-scaffold: {printable(text)}\n")
 
 
 class _Progress:
@@ -118,14 +140,16 @@ class _Progress:
         return self._show
 
     def __exit__(self, *_: object) -> None:
-        if self._shown:
-            sys.stderr.write("\r\033[K")
-            sys.stderr.flush()
+        self._write("\r\033[K")
 
     def _show(self, text: str) -> None:
+        self._write(f"\r\033[K{printable(text)[:100]} ...")
+
+    def _write(self, text: str) -> None:
         if self._shown:
-            sys.stderr.write(f"\r\033[K{printable(text)[:100]} ...")
-            sys.stderr.flush()
+            with suppress(OSError):  # the terminal may be gone
+                sys.stderr.write(text)
+                sys.stderr.flush()
 
 
 def _seconds(text: str) -> float:

@@ -42,12 +42,19 @@ def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] 
         return None
 
 
-def publish_rates(facts: NodeFacts, publisher: Publisher) -> Sequence[float] | None:
+def publish_rates(
+    facts: NodeFacts, publisher: Publisher, *, may_leave: bool = False
+) -> Sequence[float] | None:
     """Return the rates in Hz that add up to how often a publisher publishes, one per message.
 
     Known if all that publishes are callbacks of timers, directly or through other functions of the
     file, under no condition, and nothing stops or changes the timers. Else ``None``; without any
     rate, it publishes at the start or never.
+
+    Args:
+        facts: The file.
+        publisher: What publishes.
+        may_leave: Whether callbacks may return or raise before they publish.
     """
     if publisher.is_conditional or publisher.is_lifecycle:
         return None
@@ -55,7 +62,7 @@ def publish_rates(facts: NodeFacts, publisher: Publisher) -> Sequence[float] | N
         return [
             _rate(facts, timer)
             for call in _uses(facts, publisher, "publish")
-            for timer in _timers_behind(facts, call, 0)
+            for timer in _timers_behind(facts, call, 0, may_leave=may_leave)
         ]
     except _Doubt:
         return None
@@ -178,11 +185,15 @@ def _is_placeholder(store: Store, entity: Entity) -> bool:
     return is_none and store.node.lineno < entity.call.lineno
 
 
-def _timers_behind(facts: NodeFacts, call: ast.AST, depth: int) -> Iterator[Timer]:
+def _timers_behind(
+    facts: NodeFacts, call: ast.AST, depth: int, *, may_leave: bool
+) -> Iterator[Timer]:
     """Yield a timer for every way to come to a call; doubt for any other way."""
     module = facts.module
     function = facts.function_of(call)
-    if depth > _MAX_CALLS or function is None or not _is_certain(facts, call, function):
+    if depth > _MAX_CALLS or function is None:
+        raise _Doubt
+    if _is_conditional(facts, call, function) or not (may_leave or _gets_to(facts, call, function)):
         raise _Doubt
     if not isinstance(function, ast.Lambda) and function.name == "__init__":
         return  # once, at the start
@@ -197,7 +208,7 @@ def _timers_behind(facts: NodeFacts, call: ast.AST, depth: int) -> Iterator[Time
         parent = module.parent(reference)
         if not isinstance(parent, ast.Call) or parent.func is not reference:
             raise _Doubt
-        yield from _timers_behind(facts, parent, depth + 1)
+        yield from _timers_behind(facts, parent, depth + 1, may_leave=may_leave)
 
 
 def _timer_with(facts: NodeFacts, reference: ast.expr) -> Timer | None:
@@ -263,22 +274,32 @@ def _is_certain_call(facts: NodeFacts, reference: ast.expr) -> bool:
 
 def _is_certain(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether a node is run exactly once whenever its function is."""
+    return not _is_conditional(facts, node, function) and _gets_to(facts, node, function)
+
+
+def _is_conditional(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether a node is inside of something that may skip or repeat it."""
     child = node
     for parent in facts.module.parents(node):
         if parent is function:
             break
         match parent:
             case ast.If() | ast.For() | ast.While() | ast.AsyncFor() | ast.IfExp():
-                return False
+                return True
             case ast.ExceptHandler() | ast.match_case() | ast.comprehension() | ast.Assert():
-                return False
+                return True
             case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
-                return False
+                return True
             case ast.BoolOp(values=[first, *_]) if child is not first:
-                return False
+                return True
             case ast.Try(body=[first, *_], handlers=[_, *_]) if child is not first:
-                return False
+                return True
         child = parent
+    return False
+
+
+def _gets_to(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether nothing leaves a function before a node of it."""
     return not any(
         facts.function_of(leaving) is function and _is_before(leaving, node)
         for kind in (ast.Return, ast.Raise, ast.Yield)

@@ -8,12 +8,13 @@ import re
 import shutil
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scaffold.model.package import Package as Source
 from scaffold.smoke import output, process
 from scaffold.smoke.environment import Environment
+from scaffold.smoke.process import Origin
 from scaffold.smoke.result import Build
 
 _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")
@@ -49,7 +50,7 @@ async def build(
     layout: Layout,
     scratch: Path,
     *,
-    mark: str,
+    origin: Origin,
     timeout: float,
 ) -> dict[str, Build]:
     """Build packages; return what became of each, by name.
@@ -61,24 +62,25 @@ async def build(
         packages: They are built where they are; nothing is written to them.
         layout: The directories for build, install and log.
         scratch: A directory for the output of colcon itself.
-        mark: Marks the processes of this run.
+        origin: The run that it belongs to.
         timeout: Seconds after which the build is given up.
     """
     deadline = time.monotonic() + timeout
     done: dict[str, Build] = {}
     left = list(packages)
     while left:
-        said, exit_code = await _run(
+        said, exit_code, left_running = await _run(
             command(environment, left, layout),
             variables(environment, scratch),
             scratch / "colcon",
-            mark,
+            origin,
             deadline,
         )
         in_time = exit_code is not None
         if not in_time:
             said += f"\nthe build did not end within {timeout:g} s\n"
         log = _Log.read(layout.log / "latest_build", said, succeeded=exit_code == 0)
+        log = replace(log, left_running=tuple(left_running))
         # A package that makes colcon itself fail ends the build also of those that come later.
         later = [one for one in left if log.had_no_turn(one.name)] if in_time else []
         if len(later) == len(left):
@@ -89,16 +91,23 @@ async def build(
 
 
 async def _run(
-    command: list[str], variables: Mapping[str, str], out: Path, mark: str, deadline: float
-) -> tuple[str, int | None]:
-    """Return what colcon says, and its exit code; ``None`` for it if time was up before."""
-    run = await process.start(command, variables, out, mark)
+    command: list[str], variables: Mapping[str, str], out: Path, origin: Origin, deadline: float
+) -> tuple[str, int | None, list[str]]:
+    """Return what colcon says, its exit code, and the processes that it has left running.
+
+    The exit code is ``None`` if time was up before.
+    """
+    run = await process.start(command, variables, out, origin)
     try:
         in_time = await run.ended_within(deadline - time.monotonic())
+        left_running = await run.finish() if in_time else []
     finally:
-        await run.kill()
-        process.sweep(mark)
-    return output.read(run.out) + output.read(run.err), run.exit_code if in_time else None
+        await run.close()
+    return (
+        output.read(run.out) + output.read(run.err),
+        run.exit_code if in_time else None,
+        left_running,
+    )
 
 
 def command(environment: Environment, packages: Sequence[Source], layout: Layout) -> list[str]:
@@ -202,6 +211,8 @@ class _Log:
     said: str
     """On its own stdout and stderr."""
     succeeded: bool
+    left_running: tuple[str, ...] = ()
+    """Processes that have outlived the build."""
 
     @classmethod
     def read(cls, directory: Path, said: str, *, succeeded: bool) -> _Log:
@@ -234,7 +245,8 @@ class _Log:
         name = package.name
         written = output.read(self.directory / name / "stdout_stderr.log")
         of_colcon = output.complaints(self.said, os.path.realpath(package.directory))
-        warnings = (*of_colcon, *output.warnings(written))
+        left = (f"left a process running: {command}" for command in self.left_running)
+        warnings = (*of_colcon, *output.warnings(written), *left)
         if self.jobs is None:
             errors = () if self.succeeded else tuple(output.errors(self.said))
             return Build(ok=self.succeeded, errors=errors, warnings=warnings)

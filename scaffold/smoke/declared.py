@@ -74,6 +74,7 @@ def _publications(
                 rates = publish_rates(owner.facts, publisher) if alone else None
                 rate = sum(rates) if rates else None
                 reach = reaches.of(publisher)
+                timers = publish_rates(owner.facts, publisher, may_leave=True) if alone else None
                 yield Publication(
                     topic,
                     publisher.message_type,
@@ -81,6 +82,7 @@ def _publications(
                     certain=rate is not None or reach is Reach.ALWAYS,
                     never=reach is Reach.NEVER,
                     sources=len(rates) if rates else 1,
+                    timer_hz=sum(timers) if timers else None,
                 )
 
 
@@ -166,4 +168,5 @@ def _joined(one: Publication, other: Publication) -> Publication:
         certain=one.certain or other.certain,
         never=one.never and other.never,
         sources=one.sources + other.sources,
+        timer_hz=one.timer_hz or other.timer_hz,
     )

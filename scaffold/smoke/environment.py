@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -18,10 +17,14 @@ from pathlib import Path
 
 from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
+from scaffold.smoke import process
+from scaffold.smoke.process import Captured, Origin
 
 INSTALLED = Path("/opt/ros")
 PREFERRED_DISTRO = "jazzy"
 DEFAULT_RMW = "rmw_fastrtps_cpp"
+TIMEOUT = 120.0
+"""Seconds for the start of an interpreter or a shell, on a machine that is busy."""
 
 _PASSED_ON = frozenset(
     {
@@ -44,6 +47,8 @@ _FROM_OUTSIDE = frozenset(
     }
 )  # fmt: skip
 """What would let an executable under test reach other machines, or change how it is built."""
+
+_NO_RUN = Origin("environment")
 
 _BOOTSTRAPPED = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 """Set by the ROS wheels once LD_LIBRARY_PATH names their libraries."""
@@ -75,6 +80,7 @@ def select(
     *,
     installed: Path = INSTALLED,
     own_prefix: str = sys.prefix,
+    origin: Origin = _NO_RUN,
 ) -> Environment:
     """Return the first environment that can be used.
 
@@ -82,12 +88,13 @@ def select(
         variables: The environment variables of this process.
         installed: Where installations are, one directory for each distribution.
         own_prefix: The Python environment that may hold the ROS wheels.
+        origin: The run that it is for.
 
     Raises:
         EnvironmentMissingError: there is none.
     """
     reasons: list[str] = []
-    for find in _candidates(_without_bootstrap(variables), installed, own_prefix):
+    for find in _candidates(_without_bootstrap(variables), installed, own_prefix, origin):
         try:
             return replace(find(), notes=tuple(reasons))
         except _UnusableError as reason:
@@ -99,36 +106,44 @@ def select(
     )
 
 
-def source(setup: Path, variables: Mapping[str, str]) -> dict[str, str]:
+def source(setup: Path, variables: Mapping[str, str], origin: Origin = _NO_RUN) -> dict[str, str]:
     """Return the variables as they are after a shell has read a setup file.
 
     Raises:
         EnvironmentMissingError: the shell gave up.
     """
-    shell = "bash" if setup.suffix == ".bash" else "sh"
-    done = subprocess.run(
-        [shell, "-c", '. "$1" && exec env -0', shell, str(setup)],
-        env=dict(variables),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        errors="surrogateescape",
-        check=False,
-    )
-    if done.returncode:
-        last = done.stderr.strip().rpartition("\n")[2] or f"exit code {done.returncode}"
+    done = process.capture(*sourcing(setup, variables), origin, TIMEOUT)
+    return sourced_variables(setup, done)
+
+
+def sourcing(setup: Path, variables: Mapping[str, str]) -> tuple[list[str], Mapping[str, str]]:
+    """Return the command that has a shell read a setup file, and the variables for it."""
+    name = "bash" if setup.suffix == ".bash" else "sh"
+    shell = shutil.which(name, path=variables.get("PATH") or os.defpath) or f"/bin/{name}"
+    return [shell, "-c", '. "$1" && exec env -0', shell, str(setup)], variables
+
+
+def sourced_variables(setup: Path, done: Captured) -> dict[str, str]:
+    """Return the variables that such a command has printed.
+
+    Raises:
+        EnvironmentMissingError: the shell gave up.
+    """
+    if done.exit_code:
+        last = done.err.strip().rpartition("\n")[2] or f"exit code {done.exit_code}"
         raise EnvironmentMissingError(f"{setup} cannot be sourced: {last}")
-    pairs = (entry.partition("=") for entry in done.stdout.split("\0") if entry)
-    return {name: value for name, _, value in pairs if name not in {"_", "SHLVL"}}
+    pairs = (entry.partition("=") for entry in done.out.split("\0") if entry)
+    ignored = {"_", "SHLVL", process.MARK}
+    return {name: value for name, _, value in pairs if name not in ignored}
 
 
 def _candidates(
-    variables: Mapping[str, str], installed: Path, own_prefix: str
+    variables: Mapping[str, str], installed: Path, own_prefix: str, origin: Origin
 ) -> Iterator[Callable[[], Environment]]:
     if variables.get("AMENT_PREFIX_PATH"):
-        yield partial(_sourced, variables)
+        yield partial(_sourced, variables, origin)
     for setup in sorted(installed.glob("*/setup.bash"), key=_preference):
-        yield partial(_installed, variables, setup, own_prefix)
+        yield partial(_installed, variables, setup, own_prefix, origin)
     if _has_package(own_prefix, "rclpy"):
         yield partial(_wheels, variables, own_prefix)
 
@@ -137,12 +152,15 @@ def _preference(setup: Path) -> tuple[bool, str]:
     return setup.parent.name != PREFERRED_DISTRO, setup.parent.name
 
 
-def _sourced(variables: Mapping[str, str]) -> Environment:
+def _sourced(variables: Mapping[str, str], origin: Origin) -> Environment:
     kept = {name: value for name, value in variables.items() if name not in _FROM_OUTSIDE}
-    return _from_variables("sourced", kept, "the sourced environment (AMENT_PREFIX_PATH is set)")
+    what = "the sourced environment (AMENT_PREFIX_PATH is set)"
+    return _from_variables("sourced", kept, what, origin)
 
 
-def _installed(variables: Mapping[str, str], setup: Path, own_prefix: str) -> Environment:
+def _installed(
+    variables: Mapping[str, str], setup: Path, own_prefix: str, origin: Origin
+) -> Environment:
     base = {
         name: value
         for name, value in variables.items()
@@ -155,10 +173,10 @@ def _installed(variables: Mapping[str, str], setup: Path, own_prefix: str) -> En
         base["PATH"] = os.pathsep.join(part for part in parts if os.path.normpath(part) != own)
         base.pop("VIRTUAL_ENV", None)
     try:
-        sourced = source(setup, base)
+        sourced = source(setup, base, origin)
     except EnvironmentMissingError as error:
         raise _UnusableError(str(error)) from error
-    return _from_variables("installed", sourced, str(setup.parent))
+    return _from_variables("installed", sourced, str(setup.parent), origin)
 
 
 def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
@@ -199,7 +217,9 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
     )
 
 
-def _from_variables(kind: str, variables: Mapping[str, str], what: str) -> Environment:
+def _from_variables(
+    kind: str, variables: Mapping[str, str], what: str, origin: Origin
+) -> Environment:
     """Return the environment that these variables make.
 
     Raises:
@@ -216,17 +236,9 @@ def _from_variables(kind: str, variables: Mapping[str, str], what: str) -> Envir
     rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
     # One that is not installed would keep rclpy from being imported.
     usable = {**variables, "RMW_IMPLEMENTATION": rmw}
-    done = subprocess.run(
-        [python, "-c", "import rclpy"],
-        env=usable,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        check=False,
-    )
-    if done.returncode:
-        last = done.stderr.strip().rpartition("\n")[2]
+    imported = process.capture([python, "-c", "import rclpy"], usable, origin, TIMEOUT)
+    if imported.exit_code:
+        last = imported.err.strip().rpartition("\n")[2]
         raise _UnusableError(f"{what} cannot be used: {python} does not import rclpy: {last}")
     return Environment(
         kind=kind,

@@ -38,6 +38,8 @@ class Publication:
     """Its source makes the publisher, and nothing that is run publishes."""
     sources: int = 1
     """Timers and calls that make up the rate: so many messages may come at once."""
+    timer_hz: float | None = None
+    """How often timers publish it, unless their callbacks return or raise before."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,8 @@ def _finished_early(
         return [Problem(f"finished by itself: nothing in {expectation.source} runs its node")]
     for publication in expectation.publications:
         topic = observation.topic(publication.topic)
-        if publication.certain and (topic is None or not topic.count):
+        is_due = publication.certain or publication.timer_hz
+        if is_due and (topic is None or not topic.count):
             said = _said(publication, expectation)
             return [
                 Problem(
@@ -148,7 +151,8 @@ def _finished_early(
 
 def _said(publication: Publication, expectation: Expectation) -> str:
     what = publication.type or "it"
-    rate = f" at {publication.rate_hz:g} Hz" if publication.rate_hz else ""
+    hertz = publication.rate_hz or publication.timer_hz
+    rate = f" at {hertz:g} Hz" if hertz else ""
     return f"{expectation.source or 'the source'} publishes {what}{rate}"
 
 

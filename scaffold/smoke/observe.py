@@ -12,6 +12,7 @@ from typing import Any, cast
 
 from scaffold.smoke import output, process
 from scaffold.smoke.expectation import Offer
+from scaffold.smoke.process import Origin
 from scaffold.smoke.result import Observation, Topic
 
 PROBE = Path(__file__).with_name("probe.py")
@@ -42,7 +43,7 @@ class ObserverError(Exception):
 
 @asynccontextmanager
 async def observing(
-    python: str, variables: Mapping[str, str], directory: Path, mark: str
+    python: str, variables: Mapping[str, str], directory: Path, origin: Origin
 ) -> AsyncIterator[Observer]:
     """Run the probe; it is ready when the block begins, and gone when it ends.
 
@@ -50,56 +51,43 @@ async def observing(
         python: The interpreter that has rclpy.
         variables: The environment variables: they choose the domain.
         directory: For the files of the probe.
-        mark: Marks the process.
+        origin: The run that it belongs to.
 
     Raises:
         ObserverError: the probe does not start.
     """
     # A copy: beside the original stand modules that would shadow those of ROS.
     script = directory / PROBE.name
-    with process.writing(script) as copy, process.writing(directory / "stderr.log") as errors:
+    with process.writing(script) as copy:
         copy.write(PROBE.read_bytes())
-        copy.flush()
-        probe = await asyncio.create_subprocess_exec(
-            python,
-            str(script),
-            env={**variables, process.MARK: mark},
-            cwd=directory,
-            stdin=asyncio.subprocess.PIPE,
-            stdout=asyncio.subprocess.PIPE,
-            stderr=errors,
-            start_new_session=True,
-            limit=LONGEST_LINE,
+    try:
+        probe = await process.start_with_pipes(
+            [python, str(script)], variables, directory, origin, limit=LONGEST_LINE
         )
-    observer = Observer(probe, directory / "stderr.log")
+    except OSError as error:
+        raise ObserverError(f"the observer cannot be started: {error.strerror}") from error
+    observer = Observer(probe)
     reader = asyncio.create_task(observer.read())
     try:
         await observer.get_ready()
         yield observer
     finally:
-        await _close(probe)
+        observer.dismiss()
+        if observer.is_ready:
+            await probe.ended_within(END_TIMEOUT)
+        await probe.close()
         reader.cancel()
-
-
-async def _close(probe: asyncio.subprocess.Process) -> None:
-    cast("asyncio.StreamWriter", probe.stdin).close()
-    try:
-        await asyncio.wait_for(probe.wait(), END_TIMEOUT)
-    except asyncio.TimeoutError:
-        probe.kill()
-        await probe.wait()
 
 
 class Observer:
     """What the probe has told so far."""
 
-    def __init__(self, probe: asyncio.subprocess.Process, errors: Path) -> None:
-        self._probe = probe
+    def __init__(self, probe: process.Running) -> None:
         self._stdin = cast("asyncio.StreamWriter", probe.stdin)
         self._stdout = cast("asyncio.StreamReader", probe.stdout)
-        self._errors = errors
+        self._errors = probe.err
         self._changed = asyncio.Event()
-        self._ready = False
+        self.is_ready = False
         self._ended = False
         self._nodes: set[str] = set()
         self._topics: dict[str, dict[str, Any]] = {}
@@ -107,11 +95,6 @@ class Observer:
         self._counts: dict[str, int] = {}
         self._reports: list[Mapping[str, Any]] = []
         self._graph_changed = time.monotonic()
-
-    @property
-    def pid(self) -> int:
-        """The process of the probe."""
-        return self._probe.pid
 
     def has_seen_anything(self) -> bool:
         """Tell whether a node or a publisher has appeared."""
@@ -135,7 +118,7 @@ class Observer:
             ObserverError: the probe has ended.
         """
         deadline = time.monotonic() + timeout
-        ended = asyncio.ensure_future(running.process.wait())
+        ended = asyncio.ensure_future(running.wait())
         try:
             while not condition():
                 left = deadline - time.monotonic()
@@ -160,13 +143,8 @@ class Observer:
                 return
             await self.pause(left, running)
 
-    def guard(self, group: int) -> None:
-        """Have the process group killed if this process goes away without a word."""
-        self._tell(f"guard {group}")
-
-    def dismiss(self, group: int) -> None:
-        """End the guard, and let the probe go: nothing more is to be seen."""
-        self._tell(f"release {group}")
+    def dismiss(self) -> None:
+        """Let the probe go: nothing more is to be seen."""
         self._stdin.close()
 
     async def observation(self) -> Observation:
@@ -192,7 +170,7 @@ class Observer:
             ObserverError: it does not.
         """
         deadline = time.monotonic() + START_TIMEOUT
-        while not self._ready:
+        while not self.is_ready:
             left = deadline - time.monotonic()
             if left <= 0:
                 raise ObserverError(f"the observer did not start within {START_TIMEOUT:g} s")
@@ -208,7 +186,7 @@ class Observer:
 
     # -- inside
 
-    async def _event_or(self, other: asyncio.Future[int] | None, timeout: float) -> None:
+    async def _event_or(self, other: asyncio.Future[None] | None, timeout: float) -> None:
         """Wait for an event of the probe, for something else, or for the time to pass."""
         if self._ended:
             last = "".join(output.tail(output.read(self._errors), 1))
@@ -228,7 +206,7 @@ class Observer:
     def _take(self, event: Mapping[str, Any]) -> None:
         kind = event["event"]
         if kind == "ready":
-            self._ready = True
+            self.is_ready = True
         elif kind == "message":
             self._counts[event["topic"]] = event["count"]
         elif kind == "report":

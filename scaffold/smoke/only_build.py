@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import os
-import tempfile
-import uuid
 from collections.abc import Sequence
-from pathlib import Path
 
 from scaffold.model.package import Package
-from scaffold.smoke import environment, process
+from scaffold.smoke import environment, leftovers
 from scaffold.smoke.build import Layout, build
 from scaffold.smoke.result import Build
 
@@ -24,12 +21,9 @@ def only_build(packages: Sequence[Package]) -> dict[str, Build]:
     Raises:
         EnvironmentMissingError: there is no ROS 2 to do it with.
     """
-    found = environment.select(os.environ)
-    mark = uuid.uuid4().hex
-    with tempfile.TemporaryDirectory(prefix="ros2-scaffold-build-") as directory:
-        scratch = Path(directory)
-        layout = Layout.below(scratch / "workspace")
-        try:
-            return asyncio.run(build(found, packages, layout, scratch, mark=mark, timeout=TIMEOUT))
-        finally:
-            process.sweep(mark)
+    with leftovers.recorded_run() as run:
+        selected = environment.select(os.environ, origin=run.origin)
+        layout = Layout.below(run.scratch / "workspace")
+        return asyncio.run(
+            build(selected, packages, layout, run.scratch, origin=run.origin, timeout=TIMEOUT)
+        )

@@ -8,8 +8,7 @@ the standard library and rclpy. Events on stdout::
     {"event": "message", "topic": "/t", "count": 1}               the first ones of every topic
     {"event": "report", "now": 0.0, "topics": {"/t": {"count", "first", "last", ...}}}
 
-Commands on stdin: ``report`` asks for the last of these events; ``guard PID`` names a process
-group to be killed if the one who asked goes away; the end of stdin ends the probe.
+Commands on stdin: ``report`` asks for the last of these events; the end of stdin ends the probe.
 """
 
 from __future__ import annotations
@@ -38,9 +37,6 @@ GRAPH_PERIOD = 0.05
 """Seconds between two looks at the graph."""
 QUEUE_DEPTH = 1000
 """Messages that may wait: two seconds of a topic at 500 Hz."""
-
-GRACE = 2.0
-"""Seconds that a guarded group has to obey."""
 
 _UNWATCHED = ("/rosout", "/parameter_events")
 
@@ -92,6 +88,7 @@ class Probe:
 
     def run(self) -> None:
         """Observe until stdin ends."""
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # from now on there is something to clean up
         say({"event": "ready"})
         commands = Commands()
         next_look = 0.0
@@ -221,46 +218,17 @@ class Commands:
     def __init__(self) -> None:
         self.ended = False
         self._rest = b""
-        self._guarded: set[int] = set()
 
     def read(self) -> list[str]:
-        """Return the commands that are for the node; obey the others."""
+        """Return the commands that have come."""
         if not select.select([0], [], [], 0)[0]:
             return []
         data = os.read(0, 4096)
         if not data:
             self.ended = True
-            self._kill_guarded()
             return []
         *lines, self._rest = (self._rest + data).split(b"\n")
-        commands = []
-        for line in lines:
-            word, _, argument = line.decode().partition(" ")
-            if word == "guard":
-                self._guarded.add(int(argument))
-            elif word == "release":
-                self._guarded.discard(int(argument))
-            else:
-                commands.append(word)
-        return commands
-
-    def _kill_guarded(self) -> None:
-        """End the guarded groups: first so that they can leave nothing behind, then for good."""
-        for number in (signal.SIGTERM, signal.SIGKILL):
-            alive = {group for group in self._guarded if send(group, number)}
-            deadline = time.monotonic() + GRACE
-            while alive and time.monotonic() < deadline:
-                time.sleep(GRAPH_PERIOD)
-                alive = {group for group in alive if send(group, 0)}
-
-
-def send(group: int, number: int) -> bool:
-    """Send a signal to a process group; tell whether there is one."""
-    try:
-        os.killpg(group, number)
-    except ProcessLookupError:
-        return False
-    return True
+        return [line.decode() for line in lines]
 
 
 def say(event: dict[str, object]) -> None:

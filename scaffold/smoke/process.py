@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import signal
+import socket
+import subprocess
+import sys
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO, Any, BinaryIO
+
+from scaffold.smoke import process_table
 
 MARK = "ROS2_SCAFFOLD_SMOKE"
 """The variable by which a process of a run is known, whatever has become of its parent."""
@@ -20,52 +27,179 @@ GRACE_OF_NEXT = 2.0
 """Seconds that it has to obey the next one, once it has ignored the first."""
 GRACE_OF_KILL = 5.0
 """Seconds that the kernel has to end a process."""
+GRACE_OF_SUPERVISOR = 15.0
+"""Seconds that a supervisor has to end what it has started, and itself."""
+GRACE_OF_CHILDREN = 1.0
+"""Seconds that the children of a command may live on after it."""
+
+LONGEST_EVENT = 2**24
+"""Bytes of an event of a supervisor: it may hold many command lines."""
+
+_ROOT = str(Path(__file__).parent.parent.parent)
+_SUPERVISE = (
+    f"import sys; sys.path.append({_ROOT!r}); from scaffold.smoke.supervisor import main; main()"
+)
+"""Run without the site module: that of the ROS wheels would start Python twice."""
 
 
-@dataclass
+@dataclass(frozen=True)
+class Origin:
+    """The run that a process belongs to."""
+
+    mark: str
+    """Marks the process and its children, whatever becomes of their parent."""
+    ledger: Path | None = None
+    """Where its leftovers are written down, for a later run to remove them."""
+
+    def below(self, label: str) -> Origin:
+        """Return the origin of a part of the run."""
+        return Origin(f"{self.mark}/{label}", self.ledger)
+
+
 class Running:
-    """A process that leads a session, and so a process group, of its own."""
+    """A command that leads a session, and so a process group, of its own.
 
-    process: asyncio.subprocess.Process
-    out: Path
-    err: Path
-    started: float
+    Between it and this process is a supervisor, which ends all that the command has started.
+    """
 
-    @property
-    def group(self) -> int:
-        """The process group."""
-        return self.process.pid
-
-    @property
-    def exit_code(self) -> int | None:
+    def __init__(
+        self,
+        supervisor: asyncio.subprocess.Process,
+        control: tuple[asyncio.StreamReader, asyncio.StreamWriter],
+        out: Path,
+        err: Path,
+    ) -> None:
+        self.out = out
+        self.err = err
+        self.started = time.monotonic()
+        self.group = 0
+        self.exit_code: int | None = None
         """Negative for a signal that killed it; ``None`` while it runs."""
-        return self.process.returncode
+        self.lost_supervisor = False
+        """Whether the supervisor was killed, which nobody but the command does."""
+        self._supervisor = supervisor
+        self._events, self._requests = control
+        self._left: list[str] = []
+        self._is_closing = False
+        self._is_started = asyncio.Event()
+        self._is_ended = asyncio.Event()
+        self._error: OSError | None = None
+        self._reading = asyncio.create_task(self._read())
+
+    @property
+    def stdin(self) -> asyncio.StreamWriter | None:
+        """The standard input of the command, if it is a pipe."""
+        return self._supervisor.stdin
+
+    @property
+    def stdout(self) -> asyncio.StreamReader | None:
+        """The standard output of the command, if it is a pipe."""
+        return self._supervisor.stdout
+
+    async def begin(
+        self, command: Sequence[str], variables: Mapping[str, str], origin: Origin
+    ) -> None:
+        """Have the supervisor start the command.
+
+        Raises:
+            OSError: it cannot be started.
+        """
+        self._request(_configuration(command, variables, origin))
+        await self._is_started.wait()
+        if self._error is not None:
+            raise self._error
+
+    async def wait(self) -> None:
+        """Wait for the end of the command."""
+        await self._is_ended.wait()
 
     async def ended_within(self, seconds: float) -> bool:
         """Wait for the end at most so long; tell whether it came."""
-        if self.process.returncode is not None:
-            return True
-        try:
-            await asyncio.wait_for(self.process.wait(), max(seconds, 0.0))
-        except asyncio.TimeoutError:
-            return False
-        return True
+        if not self._is_ended.is_set():
+            with suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self.wait(), max(seconds, 0.0))
+        return self._is_ended.is_set()
 
     def signal(self, number: int) -> None:
         """Send a signal to the whole group, as ^C in a terminal does."""
-        try:
-            os.killpg(self.group, number)
-        except ProcessLookupError:
-            return
+        self._request({"signal": int(number)})
 
     async def kill(self) -> None:
         """End the group in the way that cannot be ignored."""
         self.signal(signal.SIGKILL)
         await self.ended_within(GRACE_OF_KILL)
 
+    async def finish(self, grace: float = GRACE_OF_CHILDREN) -> list[str]:
+        """End all that the command has left behind; return the command lines of that.
+
+        Args:
+            grace: Seconds in which it may end by itself.
+        """
+        self._request({"finish": grace})
+        await self._await_supervisor(grace)
+        return self._left
+
+    def captured(self) -> Captured:
+        """Return the exit code and all that was written to the files."""
+        out = self.out.read_bytes().decode(errors="surrogateescape")
+        err = self.err.read_bytes().decode(errors="replace")
+        return Captured(self.exit_code or 0, out, err)
+
+    async def close(self) -> None:
+        """End the command and all that it has started, if that has not been done."""
+        self._is_closing = True
+        with suppress(OSError):
+            self._requests.close()
+        await self._await_supervisor(0.0)
+
+    async def _await_supervisor(self, grace: float) -> None:
+        try:
+            await asyncio.wait_for(self._supervisor.wait(), grace + GRACE_OF_SUPERVISOR)
+        except asyncio.TimeoutError:
+            self._supervisor.kill()
+            await self._supervisor.wait()
+        await self._reading
+        if self.lost_supervisor:
+            _end_orphans()
+        with suppress(OSError):
+            self._requests.close()
+
+    def _request(self, request: Mapping[str, object]) -> None:
+        if not self._requests.is_closing():
+            self._requests.write(json.dumps(request).encode() + b"\n")
+
+    async def _read(self) -> None:
+        """Take in what the supervisor tells until it ends."""
+        is_finished = False
+        with suppress(OSError):
+            async for line in self._events:
+                event = json.loads(line)
+                self._take(event)
+                is_finished = is_finished or "left" in event
+        self.lost_supervisor = not is_finished and not self._is_closing
+        if self.exit_code is None:
+            self.exit_code = -signal.SIGKILL
+        self._error = self._error or (None if self.group else OSError(0, "no supervisor"))
+        self._is_started.set()
+        self._is_ended.set()
+
+    def _take(self, event: Mapping[str, Any]) -> None:
+        if "started" in event:
+            self.group = event["started"]
+            self.started = time.monotonic()
+            self._is_started.set()
+        elif "errno" in event:
+            self._error = OSError(event["errno"], os.strerror(event["errno"]))
+            self._is_started.set()
+        elif "ended" in event:
+            self.exit_code = event["ended"]
+            self._is_ended.set()
+        else:
+            self._left = event["left"]
+
 
 async def start(
-    command: Sequence[str], variables: Mapping[str, str], directory: Path, mark: str
+    command: Sequence[str], variables: Mapping[str, str], directory: Path, origin: Origin
 ) -> Running:
     """Start a process in a session of its own; its output goes to files in the directory.
 
@@ -74,16 +208,137 @@ async def start(
     """
     out, err = directory / "stdout.log", directory / "stderr.log"
     with writing(out) as out_file, writing(err) as err_file:
-        process = await asyncio.create_subprocess_exec(
-            *command,
-            env={**variables, MARK: mark},
-            cwd=directory,
-            stdin=asyncio.subprocess.DEVNULL,
-            stdout=out_file,
-            stderr=err_file,
+        files = (asyncio.subprocess.DEVNULL, out_file, err_file)
+        return await _start(command, variables, directory, origin, files)
+
+
+async def start_with_pipes(
+    command: Sequence[str],
+    variables: Mapping[str, str],
+    directory: Path,
+    origin: Origin,
+    *,
+    limit: int,
+) -> Running:
+    """Start a process that is talked to; its errors go to a file in the directory.
+
+    Args:
+        command: What to run.
+        variables: Its whole environment.
+        directory: Where it runs.
+        origin: The run that it belongs to.
+        limit: Bytes of the longest line that it may write.
+
+    Raises:
+        OSError: it cannot be started.
+    """
+    with writing(directory / "stderr.log") as errors:
+        files = (asyncio.subprocess.PIPE, asyncio.subprocess.PIPE, errors)
+        return await _start(command, variables, directory, origin, files, limit=limit)
+
+
+async def _start(
+    command: Sequence[str],
+    variables: Mapping[str, str],
+    directory: Path,
+    origin: Origin,
+    files: tuple[int, int | IO[bytes], IO[bytes]],
+    *,
+    limit: int = 2**16,
+) -> Running:
+    ours, theirs = socket.socketpair()
+    events, requests = await asyncio.open_connection(sock=ours, limit=LONGEST_EVENT)
+    try:
+        with theirs:
+            supervisor = await asyncio.create_subprocess_exec(
+                *_supervisor(theirs),
+                cwd=directory,
+                stdin=files[0],
+                stdout=files[1],
+                stderr=files[2],
+                pass_fds=[theirs.fileno()],
+                start_new_session=True,
+                limit=limit,
+            )
+    except BaseException:
+        requests.close()
+        raise
+    out, err = directory / "stdout.log", directory / "stderr.log"
+    running = Running(supervisor, (events, requests), out, err)
+    try:
+        await running.begin(command, variables, origin)
+    except BaseException:
+        await running.close()
+        raise
+    return running
+
+
+@dataclass(frozen=True)
+class Captured:
+    """What became of a short command."""
+
+    exit_code: int
+    """Negative for a signal that killed it, as it is when its time was up."""
+    out: str
+    err: str
+
+
+def capture(
+    command: Sequence[str], variables: Mapping[str, str], origin: Origin, timeout: float
+) -> Captured:
+    """Run a short command to its end; nothing that it has started lives on.
+
+    Raises:
+        OSError: it cannot be started.
+    """
+    ours, theirs = socket.socketpair()
+    with (
+        ours,
+        theirs,
+        subprocess.Popen(
+            _supervisor(theirs),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            pass_fds=[theirs.fileno()],
             start_new_session=True,
-        )
-    return Running(process, out, err, time.monotonic())
+        ) as supervisor,
+    ):
+        theirs.close()
+        configuration = {**_configuration(command, variables, origin), "finish": 0.0}
+        try:
+            ours.sendall(json.dumps(configuration).encode() + b"\n")
+            out, err = supervisor.communicate(timeout=timeout)
+            events = [json.loads(line) for line in ours.makefile("rb")]
+        except subprocess.TimeoutExpired:
+            ours.close()
+            out, err = supervisor.communicate()
+            events = []
+            err += f"\nit did not end within {timeout:g} s\n".encode()
+        finally:
+            ours.close()  # whatever has happened: the supervisor sees to the rest
+    told = {name: value for event in events for name, value in event.items()}
+    if "errno" in told:
+        raise OSError(told["errno"], os.strerror(told["errno"]))
+    return Captured(
+        told.get("ended", -signal.SIGKILL),
+        out.decode(errors="surrogateescape"),
+        err.decode(errors="replace"),
+    )
+
+
+def _supervisor(control: socket.socket) -> list[str]:
+    return [sys.executable, "-I", "-S", "-c", _SUPERVISE, str(control.fileno())]
+
+
+def _configuration(
+    command: Sequence[str], variables: Mapping[str, str], origin: Origin
+) -> dict[str, object]:
+    return {
+        "command": list(command),
+        "variables": {**variables, MARK: origin.mark},
+        "ledger": None if origin.ledger is None else str(origin.ledger),
+    }
 
 
 def writing(path: Path) -> BinaryIO:
@@ -135,12 +390,10 @@ def marked(mark: str) -> dict[int, str]:
             continue
         try:
             environment = Path("/proc", name, "environ").read_bytes()
-            if not any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
-                continue
-            command = Path("/proc", name, "cmdline").read_bytes()
         except OSError:  # it has ended meanwhile, or belongs to somebody else
             continue
-        found[int(name)] = command.replace(b"\0", b" ").decode("utf-8", "replace").strip()
+        if any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
+            found[int(name)] = process_table.command_line(int(name))
     found.pop(os.getpid(), None)
     return found
 
@@ -160,6 +413,27 @@ def sweep(mark: str) -> list[str]:
             killed.append(command)
         _await_end(alive)
     return killed
+
+
+def _end_orphans() -> None:
+    """Kill what a killed supervisor has left to this process, which is a subreaper as well."""
+    deadline = time.monotonic() + GRACE_OF_KILL
+    while time.monotonic() < deadline:
+        table = process_table.snapshot()
+        own = table[os.getpid()]
+        orphans = [
+            child
+            for child in table.values()
+            if child.parent == own.pid and child.session != own.session
+            if child.is_alive and _SUPERVISE not in process_table.command_line(child.pid)
+        ]
+        if not orphans:
+            return
+        below = [one for child in orphans for one in process_table.descendants(child.pid, table)]
+        for process in (*below, *orphans):
+            with suppress(OSError):
+                os.kill(process.pid, signal.SIGKILL)
+        time.sleep(0.01)
 
 
 def _await_end(pids: Mapping[int, str]) -> None:

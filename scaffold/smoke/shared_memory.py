@@ -4,58 +4,148 @@ from __future__ import annotations
 
 import fcntl
 import os
-from collections.abc import Iterable
+import re
+import stat
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 DIRECTORY = "/dev/shm"  # noqa: S108  not a temporary file of ours: where Linux keeps them
-_PREFIX = f"{DIRECTORY}/fastrtps_"
-_LOCK = "_el"
+_NAME = re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)_[\w.-]+)")
+_SUFFIXES = ("_mutex", "_el", "_sl")
+_LOCKS = ("_el", "_sl")
+
+
+def segments() -> set[str]:
+    """Return the names of all segments that exist."""
+    try:
+        names = os.listdir(DIRECTORY)
+    except OSError:
+        return set()
+    return {segment for name in names if (segment := _segment(name))}
+
+
+def last_change() -> int:
+    """Return a number that differs after a segment was created or removed."""
+    try:
+        return os.stat(DIRECTORY).st_mtime_ns
+    except OSError:
+        return 0
 
 
 def used_by(pids: Iterable[int]) -> set[str]:
-    """Return the segments that living processes have mapped."""
-    found: set[str] = set()
+    """Return the segments that living processes have mapped or keep open."""
+    used: set[str] = set()
     for pid in pids:
-        try:
-            with open(f"/proc/{pid}/maps", encoding="utf-8", errors="replace") as lines:
-                found.update(
-                    line[line.index(_PREFIX) :].rstrip().removesuffix(" (deleted)")
-                    for line in lines
-                    if _PREFIX in line
-                )
-        except OSError:
-            continue
-    return found
+        paths = [*_mapped(pid), *_open_files(pid)]
+        used.update(segment for path in paths if (segment := _segment(os.path.basename(path))))
+    return used
 
 
-def remove_unused(segments: Iterable[str]) -> list[str]:
+def used_by_anybody() -> set[str]:
+    """Return the segments that any process uses, as far as this user may see that."""
+    return used_by(int(name) for name in os.listdir("/proc") if name.isdigit())
+
+
+def remove_unused(names: Iterable[str]) -> list[str]:
     """Remove those of the segments that no process uses any more; return their paths.
 
-    A living user holds a lock on the file beside the segment, also of one that is shared with
-    processes which are not ours.
+    A living user has the segment mapped, or holds a lock on the file next to it: the latter is
+    seen also where the user is not ours. Files of other users are left alone.
     """
+    existing = segments()
+    wanted = [name for name in names if name in existing]
+    used = used_by_anybody() if wanted else set()
+    return [path for name in wanted if name not in used for path in _remove(name)]
+
+
+def _remove(name: str) -> list[str]:
+    """Remove a segment with the files that belong to it, unless somebody has locked it."""
+    base = os.path.join(DIRECTORY, name)
+    semaphore = os.path.join(DIRECTORY, f"sem.{name}_mutex")
+    locks = [base + suffix for suffix in _LOCKS]
+    held: list[int] = []
     removed: list[str] = []
-    for segment in segments:
-        if not os.path.exists(segment) or _is_locked(segment + _LOCK):
-            continue
-        semaphore = f"{DIRECTORY}/sem.{os.path.basename(segment)}_mutex"
-        for path in (segment, segment + _LOCK, semaphore):
-            try:
-                os.unlink(path)
-            except OSError:
+    try:
+        for path in locks:
+            descriptor = _lock(path)
+            if descriptor is None:
                 continue
-            removed.append(path)
+            if descriptor < 0:
+                return []
+            held.append(descriptor)
+        for path in (base, *locks, semaphore):
+            if _is_own_file(path):
+                os.unlink(path)
+                removed.append(path)
+    except OSError:
+        return removed  # somebody else removes it at this moment
+    finally:
+        for descriptor in held:
+            os.close(descriptor)
     return removed
 
 
-def _is_locked(path: str) -> bool:
+def _lock(path: str) -> int | None:
+    """Lock a file; return its descriptor, -1 if it is in use, ``None`` if there is none."""
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
-        return False
+        return None
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
-        return True
-    finally:
         os.close(descriptor)
-    return False
+        return -1
+    return descriptor
+
+
+def _is_own_file(path: str) -> bool:
+    try:
+        status = os.lstat(path)
+    except OSError:
+        return False
+    return stat.S_ISREG(status.st_mode) and status.st_uid == os.geteuid()
+
+
+def _segment(name: str) -> str | None:
+    """Return the segment that a file belongs to; ``None`` if it is none of Fast DDS."""
+    match = _NAME.fullmatch(name)
+    if match is None:
+        return None
+    segment = match["segment"]
+    for suffix in _SUFFIXES:
+        segment = segment.removesuffix(suffix)
+    return segment
+
+
+def _mapped(pid: int) -> list[str]:
+    try:
+        with open(f"/proc/{pid}/maps", "rb") as file:
+            maps = file.read()
+    except OSError:
+        return []
+    if f" {DIRECTORY}/".encode() not in maps:
+        return []  # most processes: the whole table is looked through again and again
+    return [
+        line[line.index(DIRECTORY) :].removesuffix(" (deleted)")
+        for line in maps.decode("utf-8", "replace").splitlines()
+        if f" {DIRECTORY}/" in line
+    ]
+
+
+def _open_files(pid: int) -> list[str]:
+    try:
+        descriptors = os.listdir(f"/proc/{pid}/fd")
+    except OSError:
+        return []
+    paths: list[str] = []
+    for descriptor in descriptors:
+        try:
+            path = os.readlink(f"/proc/{pid}/fd/{descriptor}")
+        except OSError:
+            continue
+        if path.startswith(f"{DIRECTORY}/"):
+            paths.append(path.removesuffix(" (deleted)"))
+    return paths

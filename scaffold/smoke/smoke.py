@@ -5,12 +5,9 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-import tempfile
-import threading
 import time
-import uuid
 from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -20,13 +17,16 @@ from scaffold.model.discovery import Target
 from scaffold.model.package import Package as Source
 from scaffold.model.tree import MANIFEST
 from scaffold.smoke import environment as environments
-from scaffold.smoke import process, trial
+from scaffold.smoke import leftovers, process, supervisor, trial
 from scaffold.smoke.build import Layout, build
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.expectation import Expectation, compare, wrong_rates
+from scaffold.smoke.interruption import Interruption
+from scaffold.smoke.leftovers import Run
 from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
 from scaffold.smoke.station import Stations
 from scaffold.smoke.trial import Plan, Trial
+from scaffold.smoke.workspace_lock import WAIT, locked
 
 Result = TypeVar("Result")
 
@@ -51,16 +51,10 @@ class Options:
     workspace: Path | None = None
     """Where build, install and log go; ``None``: into the scratch directory."""
     keep: bool = False
+    workspace_wait: float = WAIT
+    """For another run in the same workspace to end."""
     jobs: int = 4
     """Executables that run at the same time, each in its own domain."""
-
-
-class InterruptedBySignalError(BaseException):
-    """The run was asked to end; all it had started is gone. ``number`` is the signal."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
-        self.number = number
 
 
 def smoke(
@@ -69,6 +63,8 @@ def smoke(
     *,
     variables: Mapping[str, str] | None = None,
     progress: Progress | None = None,
+    announce: Progress | None = None,
+    interruption: Interruption | None = None,
 ) -> Smoke:
     """Build packages, run what they install, and compare it with what the sources say.
 
@@ -77,24 +73,38 @@ def smoke(
         options: How it is done.
         variables: The environment variables to start from; those of this process.
         progress: Is told what goes on.
+        announce: Is told what the user should know, such as what a run waits for.
+        interruption: Takes the signals that ask for the end; without it, only this run does.
 
     Raises:
+        InputError: another run holds the workspace.
         EnvironmentMissingError: there is no ROS 2 to do it with.
         InterruptedBySignalError: a signal asked for the end.
     """
     begun = time.monotonic()
-    found = environments.select(os.environ if variables is None else variables)
-    mark = uuid.uuid4().hex
-    with _scratch(keep=options.keep) as scratch:
-        try:
-            packages = _interruptible(_Session(found, scratch, mark, options, progress), sources)
-        finally:
-            process.sweep(mark)
+    interruption = interruption or Interruption()
+    with ExitStack() as stack:
+        stack.enter_context(interruption)
+        stack.enter_context(_subreaper())
+        with interruption.at_once():
+            leftovers.sweep()
+            if options.workspace is not None:
+                tell = announce or (lambda _: None)
+                stack.enter_context(locked(options.workspace, options.workspace_wait, tell))
+        run = stack.enter_context(leftovers.recorded_run(keep=options.keep))
+        with interruption.at_once():
+            selected = environments.select(
+                os.environ if variables is None else variables, origin=run.origin
+            )
+        session = _Session(selected, run, options, progress)
+        packages = interruption.run(lambda: session.run(sources))
+        stack.close()
+        interruption.check()
     return Smoke(
-        environment={"kind": found.kind, "prefix": found.prefix, "rmw": found.rmw},
+        environment={"kind": selected.kind, "prefix": selected.prefix, "rmw": selected.rmw},
         packages=packages,
-        notes=found.notes,
-        scratch=str(scratch) if options.keep else None,
+        notes=selected.notes,
+        scratch=str(run.scratch) if options.keep else None,
         seconds=time.monotonic() - begun,
     )
 
@@ -112,58 +122,30 @@ def packages_of(targets: Sequence[Target]) -> list[Source]:
 
 
 @contextmanager
-def _scratch(*, keep: bool) -> Iterator[Path]:
-    prefix = "ros2-scaffold-smoke-"
-    if keep:
-        yield Path(tempfile.mkdtemp(prefix=prefix))
-        return
-    with tempfile.TemporaryDirectory(prefix=prefix, ignore_cleanup_errors=True) as directory:
-        yield Path(directory)
-
-
-def _interruptible(session: _Session, sources: Sequence[Source]) -> tuple[Package, ...]:
-    """Run a session so that the first of some signals ends it in good order."""
-    received: list[int] = []
-
-    async def main() -> tuple[Package, ...]:
-        task = asyncio.current_task()
-        loop = asyncio.get_running_loop()
-
-        def on_signal(number: int) -> None:
-            # Once is enough: a second ^C must not cut the cleaning up short.
-            if not received and task is not None:
-                received.append(number)
-                task.cancel()
-
-        if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                loop.add_signal_handler(number, on_signal, number)
-        return await session.run(sources)
-
+def _subreaper() -> Iterator[None]:
+    """Let what has lost its supervisor come to this process."""
+    supervisor.become_subreaper()
     try:
-        return asyncio.run(main())
-    except asyncio.CancelledError:
-        if received:
-            raise InterruptedBySignalError(received[0]) from None
-        raise
+        yield
+    finally:
+        supervisor.become_subreaper(enabled=False)
 
 
 class _Session:
     def __init__(
         self,
         environment: Environment,
-        scratch: Path,
-        mark: str,
+        run: Run,
         options: Options,
         progress: Progress | None,
     ) -> None:
         self._environment = environment
-        self._scratch = scratch
-        self._mark = mark
+        self._scratch = run.scratch
+        self._origin = run.origin
         self._options = options
         self._progress = progress
-        self._layout = Layout.below(options.workspace or scratch)
-        self._stations = Stations(environment.python, scratch, mark)
+        self._layout = Layout.below(options.workspace or run.scratch)
+        self._stations = Stations(environment.python, run.scratch, run.origin)
         self._slots = asyncio.Semaphore(options.jobs)
         self._running: set[str] = set()
         self._expected: dict[str, dict[str, Expectation]] = {}
@@ -189,7 +171,7 @@ class _Session:
                 sources,
                 self._layout,
                 self._scratch,
-                mark=f"{self._mark}/build",
+                origin=self._origin.below("build"),
                 timeout=self._options.build_timeout,
             )
         )
@@ -206,11 +188,11 @@ class _Session:
 
     async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
         plan = Plan(
-            variables=self._sourced(),
+            variables=await self._sourced(),
             stations=self._stations,
             install=self._layout.install,
             scratch=self._scratch,
-            mark=self._mark,
+            origin=self._origin,
             duration=self._options.duration,
             timeout=self._options.timeout,
         )
@@ -223,11 +205,19 @@ class _Session:
             found.setdefault(name, []).append(executable)
         return {name: tuple(executables) for name, executables in found.items()}
 
-    def _sourced(self) -> dict[str, str]:
+    async def _sourced(self) -> dict[str, str]:
         """Return the variables with the built packages in them."""
         install = self._layout.install
+        setup = install / "local_setup.sh"
         begin = {**self._environment.variables, "COLCON_CURRENT_PREFIX": str(install)}
-        sourced = environments.source(install / "local_setup.sh", begin)
+        command, variables = environments.sourcing(setup, begin)
+        origin = self._origin.below("setup")
+        shell = await process.start(command, variables, self._scratch / "setup", origin)
+        try:
+            await shell.ended_within(environments.TIMEOUT)
+        finally:
+            await shell.close()
+        sourced = environments.sourced_variables(setup, shell.captured())
         sourced.pop("COLCON_CURRENT_PREFIX", None)
         return sourced
 

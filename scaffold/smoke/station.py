@@ -10,6 +10,7 @@ from pathlib import Path
 
 from scaffold.smoke import domain, observe
 from scaffold.smoke.observe import Observer
+from scaffold.smoke.process import Origin
 
 FAST_DISCOVERY = """\
 <?xml version="1.0" encoding="UTF-8"?>
@@ -67,13 +68,13 @@ class Stations:
     Args:
         python: The interpreter that has rclpy.
         scratch: The directory of the run.
-        mark: Marks the processes of the run.
+        origin: The run that the observers belong to.
     """
 
-    def __init__(self, python: str, scratch: Path, mark: str) -> None:
+    def __init__(self, python: str, scratch: Path, origin: Origin) -> None:
         self._python = python
         self._scratch = scratch
-        self._mark = mark
+        self._origin = origin
         self._opened = 0
         self._waiting: list[asyncio.Task[tuple[AsyncExitStack, Station]]] = []
 
@@ -121,7 +122,7 @@ class Stations:
                 self._python,
                 isolated(variables, number, self._scratch),
                 self._scratch / label,
-                f"{self._mark}/{label}",
+                self._origin.below(label),
             )
             observer = await stack.enter_async_context(observing)
             return stack.pop_all(), Station(number, observer, self._scratch)

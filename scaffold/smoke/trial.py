@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import re
 import signal
 import time
@@ -10,18 +9,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from scaffold.smoke import output, process, shared_memory
+from scaffold.smoke import output, process
 from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.observe import ObserverError
+from scaffold.smoke.process import Origin
 from scaffold.smoke.result import Observation, Problem, Stop
 from scaffold.smoke.station import Station, Stations
 
 RETRIES = 2
 SETTLING = 1.0
 """Seconds between the last change of the graph and the signal."""
-CHILDREN_LOOKS = 20
-CHILDREN_PERIOD = 0.05
-"""The children of an executable may live so often so many seconds longer than itself."""
+ENDING = 2.0
+"""Seconds that a program may take to end because of an exception."""
 
 _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 """rclpy ends the context at once on a signal, also in the middle of a callback."""
@@ -36,7 +35,7 @@ class Plan:
     stations: Stations
     install: Path
     scratch: Path
-    mark: str
+    origin: Origin
     duration: float
     timeout: float
 
@@ -109,15 +108,12 @@ async def _run_once(
     brief: bool,
 ) -> Trial:
     trial = Trial()
-    segments: set[str] = set()
     try:
         async with plan.stations.one(plan.variables) as station:
-            one = _Run(plan, expectation, number, trial, station, segments, brief=brief)
+            one = _Run(plan, expectation, number, trial, station, brief=brief)
             await one.execute(executable, label)
     except ObserverError as error:
         trial.problems.append(Problem(str(error)))
-    finally:
-        shared_memory.remove_unused(segments)
     return trial
 
 
@@ -129,7 +125,6 @@ class _Run:
         number: signal.Signals,
         trial: Trial,
         station: Station,
-        segments: set[str],
         *,
         brief: bool,
     ) -> None:
@@ -139,35 +134,37 @@ class _Run:
         self._trial = trial
         self._station = station
         self._observer = station.observer
-        self._segments = segments
         self._brief = brief
         self._hangs = ""
 
     async def execute(self, executable: Path, label: str) -> None:
-        mark = f"{self._plan.mark}/{label}"
+        origin = self._plan.origin.below(label)
         variables = self._station.variables(self._plan.variables)
         directory = self._plan.scratch / "runs" / label
         try:
-            running = await process.start([str(executable)], variables, directory, mark)
+            running = await process.start([str(executable)], variables, directory, origin)
         except OSError as error:
             self._report(f"cannot be started: {error.strerror}")
             return
-        self._observer.guard(running.group)
         try:
             await self._watch(running)
-            self._remember_segments(running, mark)
             self._trial.observation = await self._observer.observation()
             self._trial.seconds = time.monotonic() - running.started
             self._trial.joined = self._trial.observation.alive and running.exit_code is None
-            self._observer.dismiss(running.group)
+            self._observer.dismiss()
+            if output.traceback(output.read(running.err)) is not None:
+                # It may be about to end because of that: a signal would hide it.
+                await running.ended_within(ENDING)
             if running.exit_code is None:
                 await self._stop(running)
             else:
                 self._ended_by_itself(running)
-            await self._look_for_children(mark)
+            for command in await running.finish():
+                self._report(f"leaves a process running: {command}")
+            if running.lost_supervisor:
+                self._report("killed the process that started it")
         finally:
-            await running.kill()
-            process.sweep(mark)
+            await running.close()
 
     async def _watch(self, running: process.Running) -> None:
         observer, plan = self._observer, self._plan
@@ -252,18 +249,6 @@ class _Run:
         self._trial.problems.append(problem)
         if doubtful:
             self._trial.doubtful = problem
-
-    async def _look_for_children(self, mark: str) -> None:
-        for _ in range(CHILDREN_LOOKS):
-            if not process.marked(mark):
-                return
-            await asyncio.sleep(CHILDREN_PERIOD)
-        for command in process.sweep(mark):
-            self._report(f"leaves a process running: {command}")
-
-    def _remember_segments(self, running: process.Running, mark: str) -> None:
-        pids = [running.group, self._observer.pid, *process.marked(mark)]
-        self._segments.update(shared_memory.used_by(pids))
 
 
 def is_late_call(exception: str) -> bool:

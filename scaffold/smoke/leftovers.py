@@ -1,0 +1,159 @@
+"""What killed runs have left behind: found in their ledgers, and removed by the next run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import stat
+import tempfile
+import time
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from scaffold.smoke import ledger, process, process_table, shared_memory
+from scaffold.smoke.process import Origin
+
+MARKER = ".ros2-scaffold-smoke"
+"""The file in a scratch directory that holds the mark of its run."""
+_PREFIX = "ros2-scaffold-smoke-"
+_PATIENCE = 8.0
+"""Seconds that the supervisors of a killed run have to clean up by themselves."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run that is written down."""
+
+    origin: Origin
+    scratch: Path
+
+
+@contextmanager
+def recorded_run(*, keep: bool = False) -> Iterator[Run]:
+    """Give out a scratch directory; after the block, nothing of the run is left.
+
+    Args:
+        keep: Leave the scratch directory where it is.
+    """
+    mark = uuid.uuid4().hex
+    scratch = Path(tempfile.gettempdir(), _PREFIX + mark)
+    with ledger.opened(mark, None if keep else scratch) as path:
+        scratch.mkdir(mode=0o700)
+        try:
+            (scratch / MARKER).write_text(mark, encoding="ascii")
+            yield Run(Origin(mark, path), scratch)
+        finally:
+            _clean_up(mark, path)
+            if not keep:
+                remove_scratch(scratch, mark)
+
+
+def _clean_up(mark: str, path: Path | None) -> None:
+    """Remove what the supervisors of a run should have removed, had nobody killed them."""
+    process.sweep(mark)
+    if path is None:
+        return
+    with suppress(OSError):
+        entries = ledger.read(path)
+        _end(entries, patience=0.0)
+        shared_memory.remove_unused(entries.segments)
+
+
+def sweep() -> None:
+    """Remove what dead runs of this user have left: processes, shared memory, directories.
+
+    Only what is provably theirs: processes with the recorded start time or the mark of the run,
+    segments that those had in use and nobody uses now, and directories that hold the mark.
+    """
+    with ledger.abandoned() as ledgers:
+        for path, entries in ledgers:
+            if entries.is_of_this_boot:
+                _end(entries)
+                shared_memory.remove_unused(entries.segments)
+            if entries.scratch is None or remove_scratch(entries.scratch, entries.mark):
+                with suppress(OSError):
+                    path.unlink()
+
+
+def remove_scratch(scratch: Path, mark: str) -> bool:
+    """Remove the directory of a run, if it is that; tell whether it is gone."""
+    if not _is_scratch(scratch, mark):
+        return not os.path.lexists(scratch)
+    for unlock in (False, True):
+        if unlock:
+            _unlock(scratch)
+        with os.scandir(scratch) as entries:
+            for entry in entries:
+                # The marker goes last: a run that is killed here can be taken up again.
+                if entry.name != MARKER:
+                    _remove(entry)
+        with suppress(OSError):
+            if os.listdir(scratch) in ([], [MARKER]):
+                (scratch / MARKER).unlink(missing_ok=True)
+                scratch.rmdir()
+                return True
+    return False
+
+
+def _is_scratch(path: Path, mark: str) -> bool:
+    """Tell whether a directory was made by the run of this mark, and by this user."""
+    if path.name != _PREFIX + mark or not path.is_absolute():
+        return False
+    try:
+        status = os.lstat(path)
+        if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
+            return False
+        if not os.listdir(path):
+            return True  # killed before it could write the marker
+        descriptor = os.open(path / MARKER, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return False
+    with os.fdopen(descriptor, "rb") as marker:
+        return marker.read(len(mark) + 1) == mark.encode()
+
+
+def _remove(entry: os.DirEntry[str]) -> None:
+    if entry.is_dir(follow_symlinks=False):
+        shutil.rmtree(entry.path, ignore_errors=True)
+        return
+    with suppress(OSError):
+        os.unlink(entry.path)
+
+
+def _unlock(root: Path) -> None:
+    """Give back the permissions that executables have taken from their directories."""
+    os.chmod(root, stat.S_IRWXU)
+    for parent, names, _ in os.walk(root):
+        for name in names:
+            path = os.path.join(parent, name)
+            with suppress(OSError):
+                if stat.S_ISDIR(os.lstat(path).st_mode):
+                    os.chmod(path, stat.S_IRWXU)
+
+
+def _end(entries: ledger.Entries, patience: float = _PATIENCE) -> None:
+    """End the processes of a dead run; its supervisors do so by themselves, if they live."""
+    deadline = time.monotonic() + patience
+    while _living(entries) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    deadline = time.monotonic() + process.GRACE_OF_KILL
+    while (pids := _living(entries)) and time.monotonic() < deadline:
+        for pid in pids:
+            with suppress(OSError):
+                os.kill(pid, signal.SIGKILL)
+        time.sleep(0.01)
+
+
+def _living(entries: ledger.Entries) -> set[int]:
+    table = process_table.snapshot()
+    recorded = {
+        pid
+        for pid, started in entries.processes
+        if pid in table and table[pid].started == started and table[pid].is_alive
+    }
+    below = {one.pid for pid in recorded for one in process_table.descendants(pid, table)}
+    return (recorded | below | set(process.marked(entries.mark))) - {os.getpid()}

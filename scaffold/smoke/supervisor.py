@@ -1,0 +1,312 @@
+"""Runs one command so that nothing of it outlives the run, whatever the command or we do.
+
+This is a process of its own, between ``smoke`` and the command. It is the subreaper of all that the
+command starts: what detaches itself comes back here. Its life hangs on a socket. When that closes,
+because ``smoke`` was interrupted or killed, it ends what it has started and removes the shared
+memory that those processes used. It imports nothing but the standard library and its neighbors,
+because it runs in an isolated interpreter.
+
+Lines of JSON come in: first ``{"command": [...], "variables": {...}, "ledger": path or null}``,
+then ``{"signal": number}`` for the process group of the command, and ``{"finish": seconds}`` once
+the command has ended: so long its children may live on. With ``finish`` in the first of them, the
+end of the command is the end. Lines of JSON go out: ``{"started": pid}``
+or ``{"errno": number}``, ``{"ended": status}``, and last ``{"left": [command lines]}``.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import select
+import signal
+import socket
+import stat
+import sys
+import time
+
+from scaffold.smoke import process_table, shared_memory
+from scaffold.smoke.process_table import Process
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Any
+
+PERIOD = 0.05
+"""Seconds between two looks at what has no event: shared memory, and the children's end."""
+GRACE = 2.0
+"""Seconds that processes have to obey SIGTERM."""
+GRACE_OF_KILL = 5.0
+"""Seconds that the kernel has to end a process."""
+LISTING_PERIOD = 1.0
+"""Seconds between two looks at the processes."""
+SECOND_LOOK = 0.5
+"""Seconds after a change of the shared memory at which its users are looked for once more: a file
+is created before it is mapped."""
+
+SHOWN_COMMAND = 500
+"""Characters of a command line."""
+
+MOST_OUTPUT = 2**26
+"""Bytes of output that are kept on disk; what came before is given back to the file system."""
+_KEEP_SIZE_PUNCH_HOLE = 3
+
+_SET_CHILD_SUBREAPER = 36
+_OWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGXFSZ)
+
+
+def become_subreaper(*, enabled: bool = True) -> bool:
+    """Have orphaned descendants of this process become its children; tell whether that works."""
+    try:
+        done: int = ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, int(enabled), 0, 0, 0)
+    except (OSError, AttributeError):
+        return False
+    return done == 0
+
+
+class Supervisor:
+    """Starts a command, watches it and ends it.
+
+    Args:
+        control: The socket that connects it with ``smoke``.
+    """
+
+    def __init__(self, control: socket.socket) -> None:
+        self._control = control
+        self._received = b""
+        self._abandoned = False
+        self._child = 0
+        self._ended = False
+        self._finish: float | None = None
+        self._finish_after_command: float | None = None
+        self._ledger: str | None = None
+        self._segments: set[str] = set()
+        self._processes: set[tuple[int, int]] = set()
+        self._next_listing = 0.0
+        self._last_change = shared_memory.last_change()
+        self._second_look: float | None = None
+
+    def run(self) -> None:
+        """Serve until the command has ended and nothing of it is left."""
+        become_subreaper()
+        wakeup, wakeup_writer = socket.socketpair()
+        wakeup_writer.setblocking(False)  # noqa: FBT003  takes no keyword
+        signal.set_wakeup_fd(wakeup_writer.fileno(), warn_on_full_buffer=False)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        while self._finish is None and not self._abandoned:
+            readable, _, _ = select.select([self._control, wakeup], [], [], PERIOD)
+            if self._control in readable:
+                self._receive()
+            if wakeup in readable:
+                wakeup.recv(4096)
+            self._reap()
+            self._watch_segments()
+            self._note_processes()
+            self._bound_output()
+        self._await_children(self._finish or 0.0)
+        self._note_segments()
+        left = self._end_all()
+        shared_memory.remove_unused(self._segments)
+        self._tell({"left": left, "segments": sorted(self._segments)})
+
+    # -- what smoke asks for
+
+    def _receive(self) -> None:
+        try:
+            data = self._control.recv(2**16)
+        except OSError:
+            data = b""
+        if not data:
+            self._abandoned = True
+            return
+        *lines, self._received = (self._received + data).split(b"\n")
+        for line in lines:
+            self._obey(json.loads(line))
+
+    def _obey(self, request: Mapping[str, Any]) -> None:
+        if "command" in request:
+            self._start(request)
+        elif "signal" in request:
+            self._signal(request["signal"])
+        else:
+            self._finish = request["finish"]
+
+    def _start(self, request: Mapping[str, Any]) -> None:
+        self._ledger = request["ledger"]
+        self._finish_after_command = request.get("finish")
+        command = request["command"]
+        try:
+            self._child = os.posix_spawn(
+                command[0],
+                command,
+                {name: os.fsencode(value) for name, value in request["variables"].items()},
+                setsid=True,
+                setsigmask=[],
+                setsigdef=[*_OWN_SIGNALS, signal.SIGCHLD],
+            )
+        except OSError as error:
+            self._tell({"errno": error.errno})
+            self._end_of_command()
+            return
+        _leave_pipes()
+        self._next_listing = 0.0
+        self._tell({"started": self._child})
+
+    def _signal(self, number: int) -> None:
+        if self._child and not self._ended:
+            _send(self._child, number, group=True)
+
+    def _tell(self, event: Mapping[str, object]) -> None:
+        try:
+            self._control.sendall(json.dumps(event).encode() + b"\n")
+        except OSError:
+            self._abandoned = True
+
+    # -- while it runs
+
+    def _reap(self) -> None:
+        """Take the exit status of what has ended: the command's, and those of orphans."""
+        while True:
+            try:
+                pid, status = os.waitpid(-1, os.WNOHANG)
+            except ChildProcessError:
+                return
+            if not pid:
+                return
+            if pid == self._child:
+                self._tell({"ended": os.waitstatus_to_exitcode(status)})
+                self._end_of_command()
+
+    def _end_of_command(self) -> None:
+        self._ended = True
+        if self._finish is None:
+            self._finish = self._finish_after_command
+
+    def _watch_segments(self) -> None:
+        """Look for the users of shared memory after a change of it."""
+        now = time.monotonic()
+        change = shared_memory.last_change()
+        if change != self._last_change:
+            self._last_change = change
+            self._second_look = now + SECOND_LOOK
+            self._note_segments()
+        elif self._second_look is not None and now >= self._second_look:
+            self._second_look = None
+            self._note_segments()
+
+    def _note_segments(self) -> None:
+        """Write down which segments the processes use: kept, should we be killed ourselves."""
+        pids = [process.pid for process in process_table.descendants(os.getpid())]
+        new = sorted(shared_memory.used_by(pids) - self._segments)
+        if not new:
+            return
+        self._segments.update(new)
+        self._write_down({"segments": new})
+
+    def _note_processes(self) -> None:
+        """Write down the processes, this one included: kept, should we be killed ourselves."""
+        if time.monotonic() < self._next_listing:
+            return
+        self._next_listing = time.monotonic() + LISTING_PERIOD
+        own = process_table.of_pid(os.getpid())
+        processes = [*process_table.descendants(os.getpid()), *([own] if own else [])]
+        new = {(process.pid, process.started) for process in processes} - self._processes
+        if new:
+            self._processes.update(new)
+            self._write_down({"processes": sorted(new)})
+
+    def _write_down(self, line: Mapping[str, object]) -> None:
+        if self._ledger is None:
+            return
+        try:
+            descriptor = os.open(self._ledger, os.O_WRONLY | os.O_APPEND | os.O_CLOEXEC)
+        except OSError:
+            return
+        try:
+            os.write(descriptor, json.dumps(line).encode() + b"\n")
+        except OSError:
+            return
+        finally:
+            os.close(descriptor)
+
+    def _bound_output(self) -> None:
+        """Give back the disk space of output that nobody will read."""
+        for descriptor in (1, 2):
+            status = os.fstat(descriptor)
+            if status.st_blocks * 512 > 2 * MOST_OUTPUT:
+                _punch_hole(descriptor, status.st_size - MOST_OUTPUT)
+
+    # -- the end
+
+    def _await_children(self, seconds: float) -> None:
+        """Give what the command has started the time to end by itself."""
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline and self._living():
+            time.sleep(PERIOD)
+
+    def _living(self) -> list[Process]:
+        self._reap()
+        return process_table.descendants(os.getpid())
+
+    def _end_all(self) -> list[str]:
+        """End all descendants; return the command lines of those that had outlived the command."""
+        living = self._living()
+        left = [process_table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
+        for process in living:
+            _send(process.pid, signal.SIGTERM)
+            _send(process.pid, signal.SIGCONT)
+        deadline = time.monotonic() + GRACE
+        while self._living() and time.monotonic() < deadline:
+            time.sleep(PERIOD / 5)
+        self._note_segments()
+        deadline = time.monotonic() + GRACE_OF_KILL
+        while (living := self._living()) and time.monotonic() < deadline:
+            # What is stopped starts no others, while the list is worked off.
+            for number in (signal.SIGSTOP, signal.SIGKILL):
+                for process in living:
+                    _send(process.pid, number)
+            time.sleep(PERIOD / 10)
+        return left
+
+
+def _leave_pipes() -> None:
+    """Let go of the pipes of the command: who reads them waits for their end."""
+    null = os.open(os.devnull, os.O_RDWR | os.O_CLOEXEC)
+    for descriptor in range(3):
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            os.dup2(null, descriptor)
+    os.close(null)
+
+
+def _send(pid: int, number: int, *, group: bool = False) -> None:
+    try:
+        (os.killpg if group else os.kill)(pid, number)
+    except (ProcessLookupError, PermissionError):
+        return
+
+
+def _punch_hole(descriptor: int, end: int) -> None:
+    """Free the blocks of a file up to an offset; its size and its offsets stay as they are."""
+    try:
+        ctypes.CDLL(None).fallocate(
+            descriptor,
+            _KEEP_SIZE_PUNCH_HOLE,
+            ctypes.c_int64(0),
+            ctypes.c_int64(end),
+        )
+    except (OSError, AttributeError):
+        return
+
+
+def main() -> None:
+    """Serve the socket whose descriptor is the only argument."""
+    for number in _OWN_SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    control = socket.socket(fileno=int(sys.argv[1]))
+    control.set_inheritable(False)
+    Supervisor(control).run()
+
+
+if __name__ == "__main__":
+    main()
