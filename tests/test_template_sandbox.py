@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import os
+import signal
+from datetime import date
 from pathlib import Path
 
 import pytest
 
 from scaffold import content
 from scaffold.check import registry
-from scaffold.generate import examples, template
+from scaffold.cli.main import main
+from scaffold.errors import ContentError
+from scaffold.generate import examples, foreign, template
+from scaffold.generate.defaults import User
+from scaffold.generate.draft import draft
+from scaffold.generate.questions import Given
 
 MANIFEST = """summary: A lamp
 role: extra
@@ -89,3 +97,103 @@ def test_links_between_templates(lamp: Path) -> None:
     (other / "lamp.txt").write_text("{{ nothing }}\n")
     (lamp / "lamp.txt.jinja").symlink_to("../_shared/lamp.txt")
     assert "'nothing' is undefined" in said(lamp)
+
+
+# -- bounds on memory and time
+
+ENDLESS = "{% set xs = lipsum(n=200, html=false) %}{% for a in xs %}{% for b in xs %}x"
+GREEDY = {
+    "ljust": "{{ 'a'.ljust(10 ** 10) }}",
+    "center": "{{ 'a'.center(10 ** 10) }}",
+    "the filter center": "{{ 'a' | center(10 ** 10) }}",
+    "a width of format": "{{ '{:>9999999999}'.format('a') }}",
+    "a width of %": "{{ '%9999999999d' % 1 }}",
+    "the filter format": "{{ '%9999999999d' | format(1) }}",
+    "zfill": "{{ 'a'.zfill(10 ** 10) }}",
+    "indent": "{{ ('a\\n' * 90000) | indent(10 ** 6) }}",
+    "replace": "{{ ('a' * 10 ** 6).replace('a', 'b' * 10 ** 6) }}",
+    "join": "{{ (('a' * 10 ** 6) | list) | join('b' * 10 ** 6) }}",
+    "long output": "{% for i in range(10) %}{{ 'a' * 10 ** 6 }}{% endfor %}",
+    "doubling": "{% set ns = namespace(x='aaaa') %}{% for i in range(60) %}"
+    "{% set ns.x = ns.x + ns.x %}{% endfor %}",
+}
+"""Templates that ask for gigabytes."""
+
+
+@pytest.mark.parametrize("name", GREEDY)
+def test_memory_has_a_bound(name: str, lamp: Path) -> None:
+    (lamp / "lamp.txt.jinja").write_text(f"first line\n{GREEDY[name]}\n")
+    message = said(lamp)
+    assert "lamp.txt.jinja" in message
+    assert "too much memory" in message or "renders more than" in message or "Error" in message
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{ENDLESS}{{% endfor %}}{{% endfor %}}",
+        "{% set xs = 'a' * 99999 %}{% for a in xs %}{% for b in xs %}{% endfor %}{% endfor %}",
+    ],
+)
+def test_time_has_a_bound(text: str, lamp: Path) -> None:
+    (lamp / "lamp.txt.jinja").write_text(text)
+    assert "lamp.txt.jinja: takes more than 5 s of processor time" in said(lamp)
+
+
+def test_conditions_and_defaults_have_bounds(lamp: Path) -> None:
+    (lamp / "lamp.txt.jinja").write_text("text\n")
+    (lamp / "template.yaml").write_text(MANIFEST.replace("PLACE", "{{ 'a'.ljust(10 ** 10) }}"))
+    assert "too much memory" in said(lamp)
+
+
+def test_a_greedy_template_is_one_line_and_nothing_is_written(
+    lamp: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (lamp / "lamp.txt.jinja").write_text("{{ 'a'.ljust(10 ** 10) }}\n")
+    where = tmp_path / "made"
+    where.mkdir()
+    words = ["new", "talker", "--extras", "lamp", "--content", str(tmp_path)]
+
+    assert main([*words, "--destination-directory", str(where)]) == 2
+
+    error = capsys.readouterr().err
+    assert error.startswith("ros2-scaffold: error: template 'lamp/lamp.txt.jinja', ")
+    assert error.count("\n") == 1
+    assert list(where.iterdir()) == []
+
+
+def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
+    (lamp / "lamp.txt.jinja").write_text("text\n")
+    roots = content.roots("templates", (str(lamp.parents[1]),))
+    engine = foreign.ForeignEngine(roots, {"lamp": str(lamp)}, is_tutorial=False)
+    assert engine.text("{{ 1 + 1 }}", {}) == "2"
+    process = engine._process  # noqa: SLF001  what a kernel out of memory does
+    assert process is not None
+    os.kill(process.pid, signal.SIGSEGV)
+    process.wait()
+
+    with pytest.raises(ContentError, match=r"lamp.txt.jinja: ends the process .*\(SIGSEGV\)$"):
+        engine.file("lamp/lamp.txt.jinja", {})
+    assert engine.file("lamp/lamp.txt.jinja", {}) == "text\n"
+
+
+def test_a_pipe_in_place_of_a_template(lamp: Path) -> None:
+    os.mkfifo(lamp / "lamp.txt.jinja")
+    assert "lamp.txt.jinja: is no file" in said(lamp)
+
+
+def test_both_processes_render_the_same(tmp_path: Path) -> None:
+    (tmp_path / "templates").mkdir()
+    own = content.roots("templates")
+    templates = template.load(own)
+    answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
+    for one in templates.values():
+        for example in list(examples.of(one, templates))[:1]:
+            given = {
+                name: Given(value, name) for name, value in {**answers, **example.answers}.items()
+            }
+            here, there = (
+                draft(roots, templates, given, User("."), date(2025, 1, 1))
+                for roots in (own, content.roots("templates", (str(tmp_path),)))
+            )
+            assert here == there
