@@ -27,6 +27,7 @@ WRITERS = {
     "scaffold/check/memory.py": "asks whether there is a terminal",
     "scaffold/cli/smoke.py": "draws one line again and again",
     "scaffold/generate/foreign_worker.py": "a process of its own; its output is for the parent",
+    "scaffold/model/xml_validate.py": "a process of its own; its output is JSON for the parent",
     "scaffold/smoke/probe.py": "a process of its own; its output is JSON for the parent",
 }
 """The modules that mention standard output or error, and why they may."""
