@@ -16,6 +16,8 @@ SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
 MOST_BYTES = 200_000_000
 """Of all files of a kind."""
+_ABANDONED_AFTER = 3600
+"""Seconds after which nobody is still writing a temporary file."""
 
 _SEAL = len(digest(b""))
 
@@ -68,12 +70,20 @@ def _is_in_repository(path: str) -> bool:
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:
     """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
-    aside = f"{path}.{os.getpid()}"
+    from scaffold import temporary
+
+    directory = os.path.dirname(path)
+    aside = os.path.join(directory, temporary.name())
     try:
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(aside, "wb") as file:
-            file.write(head + digest(data).encode() + data)
-        os.replace(aside, path)
+        os.makedirs(directory, exist_ok=True)
+        with open(temporary.create(aside), "wb") as file:
+            try:
+                file.write(head + digest(data).encode() + data)
+                file.flush()
+                os.replace(aside, path)
+            except BaseException:
+                os.unlink(aside)
+                raise
     except OSError:
         return False
     return True
@@ -88,11 +98,20 @@ def trim(kept: str, most: int) -> None:
         kept: The directory.
         most: How many files it may hold.
     """
+    from time import time
+
+    from scaffold import temporary
+
     files: list[tuple[float, int, str]] = []
+    oldest = time() - _ABANDONED_AFTER
     try:
         with os.scandir(kept) as entries:
             for entry in entries:
-                status = entry.stat()
+                status = entry.stat(follow_symlinks=False)
+                if temporary.is_temporary(entry.name):
+                    if status.st_mtime < oldest:
+                        os.unlink(entry.path)  # its writer was killed
+                    continue
                 files.append((status.st_mtime, status.st_size, entry.path))
         if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
             return

@@ -27,6 +27,10 @@ class ConflictError(ScaffoldError):
     """Writing would destroy something that exists."""
 
 
+class LockedError(ScaffoldError):
+    """Another process is changing the package."""
+
+
 class EnvironmentMissingError(ScaffoldError):
     """No ROS 2 environment was found."""
 

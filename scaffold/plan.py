@@ -1,23 +1,26 @@
 """Writing files: everything is decided first, then all of it happens or nothing.
 
-``new`` and ``fix`` write through it. A new directory appears whole: it is written beside its
-place under a hidden name and renamed. In an existing one each file is replaced by a rename, and
-a failure puts back what was there.
+All verbs that write do it through a plan. A new directory appears whole: it is written beside its
+place under a hidden name and renamed. Changes of an existing one are a transaction, which compares
+each file with what was read when the plan was made.
 """
 
 from __future__ import annotations
 
 import os
-import shutil
 import stat
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from enum import Enum
+from typing import TYPE_CHECKING
 
+from scaffold import new_files, transaction
 from scaffold.errors import ConflictError, InputError
+from scaffold.model.disk import digest
 from scaffold.record import NamedTuple
 
-_EXECUTABLE = stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH
+if TYPE_CHECKING:
+    from scaffold.model.tree import DiskTree
 
 
 class State(Enum):
@@ -45,7 +48,9 @@ class PlannedFile(NamedTuple):
     """Whether it gets executable bits; the bits that a file has are kept."""
     state: State
     before: bytes | None
-    """What it holds now; ``None`` for a new file."""
+    """What it holds when the plan is made; ``None`` for a new file."""
+    seen: str | None
+    """The same with its executable bit, to be compared before the file is replaced."""
 
     @property
     def is_removed(self) -> bool:
@@ -70,6 +75,7 @@ class WritePlan:
         *,
         executable: Collection[str] = (),
         remove: Collection[str] = (),
+        tree: DiskTree | None = None,
     ) -> WritePlan:
         """Compare files with a directory; nothing is written.
 
@@ -79,23 +85,30 @@ class WritePlan:
             executable: Paths that get executable bits; one that is not in ``files`` keeps its
                 content.
             remove: Paths of files to remove.
+            tree: What the content was made from; a file that is not as it was there is refused.
 
         Raises:
             InputError: a path leads out of the root, or something cannot be read.
-            ConflictError: a file is planned where a directory is, or the other way round.
+            ConflictError: a file is planned where a directory is, or the other way round; or a
+                file has changed since the tree was read.
         """
         base = os.path.realpath(root)
         planned: list[PlannedFile] = []
         try:
             for path in sorted({*files, *executable, *remove}):
                 target = _resolve(base, path)
-                before = _read(target, path)
+                before, mode = _read(target, path)
+                if tree is not None:
+                    _refuse_changed(tree, path, before)
                 content = files.get(path, before if before is not None else b"")
                 data = content.encode() if isinstance(content, str) else content
-                state = _state(target, before, data, executable=path in executable)
+                seen = None if before is None else transaction.state_of(before, mode)
+                state = _state(before, mode, data, executable=path in executable)
                 if path in remove and path not in files:
                     state = State.REMOVED if before is not None else State.SAME
-                planned.append(PlannedFile(path, target, data, path in executable, state, before))
+                planned.append(
+                    PlannedFile(path, target, data, path in executable, state, before, seen)
+                )
         except OSError as error:
             raise InputError(f"{error.filename or root}: {error.strerror}") from error
         _refuse_files_inside_files(planned)
@@ -131,9 +144,10 @@ class WritePlan:
             force: Overwrite and remove files that exist.
 
         Raises:
-            ConflictError: files would be overwritten and ``force`` was not given; nothing is
-                written.
+            ConflictError: files would be overwritten and ``force`` was not given, or somebody
+                else has changed one meanwhile; nothing is written.
             InputError: the system refuses; what was there is as it was.
+            LockedError: another process is changing the directory.
         """
         if self.conflicts and not force:
             names = ", ".join(self.conflicts)
@@ -141,8 +155,9 @@ class WritePlan:
         try:
             if self.is_new:
                 self._write_whole()
-            else:
-                self._write_each()
+            elif self.changes:
+                with transaction.exclusive(self.root):
+                    transaction.replace_all(self.root, self._replacements())
         except OSError as error:
             message = f"{self.root} cannot be written: {error.strerror}; nothing was written"
             raise InputError(message) from error
@@ -152,56 +167,38 @@ class WritePlan:
         parent = os.path.dirname(self.root)
         while not os.path.lexists(parent):
             parent = os.path.dirname(parent)
-        stage = _hidden(parent, os.path.basename(self.root))
-        undo: list[Callable[[], None]] = [lambda: shutil.rmtree(stage, ignore_errors=True)]
-        with _Undone(undo):
-            os.mkdir(stage)
+        transaction.sweep(parent)
+        with transaction.Stage.made(parent) as stage:
+            place = stage.file(transaction.TREE)
+            os.mkdir(place)
+            new_files.adopt(place, parent)
             for file in self.changes:
-                target = os.path.join(stage, *file.path.split("/"))
-                os.makedirs(os.path.dirname(target), exist_ok=True)
-                _write(target, file)
-            _make_directories(os.path.dirname(self.root), undo)
+                _write_new(place, file)
+            _make_directories(os.path.dirname(self.root))
             if os.path.lexists(self.root):
                 raise ConflictError(f"{self.root} has appeared in the meantime")
-            os.rename(stage, self.root)
+            os.rename(place, self.root)
 
-    def _write_each(self) -> None:
-        """Write all files under hidden names, then rename each."""
-        undo: list[Callable[[], None]] = []
-        with _Undone(undo):
-            staged: list[tuple[str, PlannedFile]] = []
-            for file in self.changes:
-                directory = os.path.dirname(file.target)
-                _make_directories(directory, undo)
-                if file.state is State.REMOVED:
-                    continue
-                name = _hidden(directory, os.path.basename(file.target))
-                undo.append(_remover(name))
-                _write(name, file)
-                staged.append((name, file))
-            for name, file in staged:
-                undo.append(_restorer(file))
-                os.replace(name, file.target)
-            for file in self.changes:
-                if file.state is State.REMOVED:
-                    undo.append(_restorer(file))
-                    os.unlink(file.target)
+    def _replacements(self) -> list[transaction.Replacement]:
+        """Return the changes by real file: two paths may be links to the same one."""
+        found: dict[str, transaction.Replacement] = {}
+        for file in self.changes:
+            path = os.path.relpath(file.target, self.root).replace(os.sep, "/")
+            content = None if file.state is State.REMOVED else file.content
+            new = transaction.Replacement(path, file.seen, content, file.executable)
+            if found.setdefault(path, new) != new:
+                raise ConflictError(
+                    f"{file.path} in {self.root} is another name of a file that is to have other "
+                    "content; nothing was written"
+                )
+        return list(found.values())
 
 
-class _Undone:
-    """Runs the collected steps backwards when the block fails, however it fails."""
-
-    def __init__(self, steps: list[Callable[[], None]]) -> None:
-        self._steps = steps
-
-    def __enter__(self) -> None:
-        """Do nothing."""
-
-    def __exit__(self, kind: type[BaseException] | None, *rest: object) -> None:
-        if kind is not None:
-            for step in reversed(self._steps):
-                with suppress(OSError):
-                    step()
+def target_outside(root: str, path: str) -> str | None:
+    """Return where a path really leads if that is not below the root, as it is with some links."""
+    base = os.path.realpath(root)
+    target = os.path.realpath(os.path.join(base, *path.split("/")))
+    return None if os.path.commonpath([base, target]) == base != target else target
 
 
 def _resolve(base: str, path: str) -> str:
@@ -209,30 +206,44 @@ def _resolve(base: str, path: str) -> str:
     parts = path.split("/")
     if any(part in {"", ".", ".."} or "\0" in part or "\\" in part for part in parts):
         raise InputError(f"{path!r} is not a path below {base}")
-    target = os.path.realpath(os.path.join(base, *parts))
-    if os.path.commonpath([base, target]) != base or target == base:
-        raise InputError(f"{path!r} leads out of {base}, to {target}")
-    return target
+    outside = target_outside(base, path)
+    if outside is not None:
+        raise InputError(f"{path!r} leads out of {base}, to {outside}")
+    return os.path.realpath(os.path.join(base, *parts))
 
 
-def _read(target: str, path: str) -> bytes | None:
+def _read(target: str, path: str) -> tuple[bytes | None, int]:
+    """Return the content and the mode of a file; no content if it is not there."""
     if os.path.isdir(target):
         raise ConflictError(f"{path} is to be a file, and a directory is in its place")
     try:
-        with open(target, "rb") as file:
-            return file.read()
+        # A pipe would be waited for.
+        with open(os.open(target, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
+            mode = os.fstat(file.fileno()).st_mode
+            if not stat.S_ISREG(mode):
+                raise ConflictError(f"{path} is to be a file, and a device or pipe is in its place")
+            return file.read(), mode
     except FileNotFoundError:
-        return None
+        return None, 0
     except NotADirectoryError as error:
         message = f"{path} is to be in a directory, and a file is in its place"
         raise ConflictError(message) from error
 
 
-def _state(target: str, before: bytes | None, content: bytes, *, executable: bool) -> State:
+def _refuse_changed(tree: DiskTree, path: str, before: bytes | None) -> None:
+    """Raise if a file is not as it was when the new content was made from it."""
+    seen = tree.digest_read(path)
+    if seen is not None and seen != (digest(before) if before is not None else ""):
+        raise ConflictError(
+            f"{path} in {tree.root} has changed since it was read; "
+            "nothing was written: run this again"
+        )
+
+
+def _state(before: bytes | None, mode: int, content: bytes, *, executable: bool) -> State:
     if before is None:
         return State.NEW
-    is_executable = bool(os.stat(target).st_mode & stat.S_IXUSR)
-    if before == content and (is_executable or not executable):
+    if before == content and (mode & stat.S_IXUSR or not executable):
         return State.SAME
     return State.DIFFERING
 
@@ -246,56 +257,19 @@ def _refuse_files_inside_files(planned: list[PlannedFile]) -> None:
                 raise ConflictError(f"{'/'.join(parts[:depth])} is to be a file and a directory")
 
 
-def _hidden(directory: str, name: str) -> str:
-    """Return a name that colcon, git status and globs do not take for the real thing."""
-    return os.path.join(directory, f".{name[:100]}.{os.urandom(4).hex()}.tmp")
+def _write_new(root: str, file: PlannedFile) -> None:
+    """Write a file of a new directory."""
+    path = os.path.join(root, *file.path.split("/"))
+    _make_directories(os.path.dirname(path))
+    new_files.write(path, file.content, executable=file.executable, like=path, is_durable=False)
 
 
-def _write(name: str, file: PlannedFile) -> None:
-    """Write a new file with the bits of the one it replaces, and executable ones if wanted."""
-    with open(name, "xb") as stream:
-        stream.write(file.content)
-    mode = os.stat(file.target if file.before is not None else name).st_mode
-    mask = _EXECUTABLE & ~_umask() if file.executable else 0
-    os.chmod(name, stat.S_IMODE(mode) | mask)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _make_directories(directory: str, undo: list[Callable[[], None]]) -> None:
+def _make_directories(directory: str) -> None:
     missing: list[str] = []
     while not os.path.lexists(directory):
         missing.append(directory)
         directory = os.path.dirname(directory)
-    for one in reversed(missing):
-        os.mkdir(one)
-        undo.append(lambda one=one: os.rmdir(one))  # type: ignore[misc]  # a default binds it now
-
-
-def _remover(path: str) -> Callable[[], None]:
-    return lambda: os.unlink(path)
-
-
-def _restorer(file: PlannedFile) -> Callable[[], None]:
-    """Return what puts a file back as it is now."""
-    if file.before is None:
-        return _remover(file.target)
-    before = file.before
-    mode = stat.S_IMODE(os.stat(file.target).st_mode)
-
-    def restore() -> None:
-        name = _hidden(os.path.dirname(file.target), os.path.basename(file.target))
-        with open(name, "xb") as stream:
-            stream.write(before)
-        os.chmod(name, mode)
-        try:
-            os.replace(name, file.target)
-        except OSError:
-            os.unlink(name)
-            raise
-
-    return restore
+    for path in reversed(missing):
+        # Another process may make a package in the same new directory.
+        with suppress(FileExistsError):
+            new_files.make_directory(path)

@@ -60,21 +60,24 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
+    from scaffold.cli import writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.generate import add
 
     target, wanted = _order(options)
     session = Session(registry.load(content.roots("rules")), Selection())
-    before = session.check(target.package)
-    _refuse_broken(target.package, before, force=options.force)
-    added = add.add(target, wanted)
-    plan = _plan(target.package, added, is_named=wanted.name is not None, force=options.force)
-    said = _said(session, before, added)
-    if _is_defect(session, said, added):
-        _report(target.package, said)
-        return INTERNAL_ERROR
-    if not (options.diff or options.dry_run):
-        plan.write(force=True)
+    is_dry = options.diff or options.dry_run
+    with writing.held(target.package.directory, is_dry=is_dry):
+        before = session.check(target.package)
+        _refuse_broken(target.package, before, force=options.force)
+        added = add.add(target, wanted)
+        plan = _plan(target.package, added, is_named=wanted.name is not None, force=options.force)
+        said = _said(session, before, added)
+        if _is_defect(session, said, added):
+            _report(target.package, said)
+            return INTERNAL_ERROR
+        if not is_dry:
+            plan.write(force=True)
     for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
         terminal.note(note)
     _show(options, target.package, added, plan)
@@ -181,9 +184,11 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
     """Compare with what is there; files of others are edited, files of the part are not."""
     from scaffold.errors import ConflictError
+    from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
 
-    plan = WritePlan.of(package.root or ".", added.files, executable=added.executable)
+    tree = package.tree if isinstance(package.tree, DiskTree) else None
+    plan = WritePlan.of(package.root or ".", added.files, executable=added.executable, tree=tree)
     differing = [
         file.path
         for file in plan.files

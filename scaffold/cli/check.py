@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from scaffold.check.session import Result, Session
     from scaffold.config import Config
     from scaffold.model.discovery import Target
+    from scaffold.model.tree import Tree
     from scaffold.plan import WritePlan
 
 FORMATS = ("text", "json")
@@ -88,8 +89,9 @@ def run(options: argparse.Namespace) -> int:
         return _fix(options, session, targets)
     if options.reference:
         return _reference(targets)
-    # Nobody knows what else a rule of the user's own looks at.
-    slot = None if settings.content else getattr(options, "slot", None)
+    is_unfinished = _note_unfinished(targets)
+    # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
+    slot = None if settings.content or is_unfinished else getattr(options, "slot", None)
     memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = _Copy()
@@ -111,22 +113,74 @@ class _Copy(StringIO):
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
     """Fix, or show what would be fixed; report what remains."""
-    from scaffold.check import workspace_fixer
     from scaffold.check.session import Result
-    from scaffold.cli.progress import Bar
+    from scaffold.cli.exit_codes import USAGE_ERROR
 
     _refuse_files(targets)
-    roots = [target.package.root or "." for target in targets]
-    with Bar() as bar:
-        fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
-    plans = [_plan(root, one) for root, one in zip(roots, fixed, strict=True)]
+    written, has_failed = _write_fixes(options, session, targets)
+    for one in written:
+        _note_links(one)
+    results = [Result(one.package, len(one.package.files), one.diagnostics) for one in written]
+    code = _report_fixes(options, results, written)
+    return USAGE_ERROR if has_failed else code
+
+
+def _write_fixes(
+    options: argparse.Namespace, session: Session, targets: Sequence[Target]
+) -> tuple[list[Fixed], bool]:
+    """Fix packages, and write them or show the patch; tell whether any was refused.
+
+    A package that somebody else is changing does not cost the others.
+    """
+    from contextlib import ExitStack
+
+    from scaffold.check import workspace_fixer
+    from scaffold.cli import writing
+    from scaffold.cli.progress import Bar
+    from scaffold.errors import ScaffoldError
+    from scaffold.model import discovery
+
+    with ExitStack() as stack:
+        held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
+        if held.has_waited:  # what was found before may have changed
+            targets = discovery.find(options.paths)
+        targets = [one for one in targets if one.package.root in held.roots]
+        trees = [target.package.tree for target in targets]
+        with Bar() as bar:
+            fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
+        plans: list[WritePlan] = []
+        written: list[Fixed] = []
+        has_failed = held.has_failed
+        for one, tree in zip(fixed, trees, strict=True):
+            try:
+                plan = _plan(one, tree)
+                if not options.diff:
+                    plan.write(force=True)
+            except ScaffoldError as error:
+                terminal.error(str(error))
+                has_failed = True
+            else:
+                plans.append(plan)
+                written.append(one)
     if options.diff:
         terminal.show_patch(_patch(plans))
-    else:
-        for plan in plans:
-            plan.write(force=True)
-    results = [Result(one.package, len(one.package.files), one.diagnostics) for one in fixed]
-    return _report_fixes(options, results, fixed)
+    return written, has_failed
+
+
+def _note_links(fixed: Fixed) -> None:
+    """Say which files keep their findings because they are somewhere else."""
+    from scaffold.plan import target_outside
+
+    root = fixed.package.directory
+    for path in sorted({one.location.path for one in fixed.diagnostics}):
+        target = target_outside(root, path)
+        if target is not None:
+            place = os.path.join(root, path)
+            terminal.note(f"{place}: not fixed: a link to {target}, outside of the package")
+
+
+def _roots(targets: Sequence[Target]) -> list[str]:
+    return [target.package.root for target in targets if target.package.root is not None]
 
 
 def _refuse_files(targets: Sequence[Target]) -> None:
@@ -141,10 +195,39 @@ def _refuse_files(targets: Sequence[Target]) -> None:
             )
 
 
-def _plan(root: str, fixed: Fixed) -> WritePlan:
+def _note_unfinished(targets: Sequence[Target]) -> bool:
+    """Say which packages a run was cut off in while it changed them; tell whether there are any."""
+    from scaffold.cli import writing
+
+    unfinished = [root for root in _roots(targets) if writing.note_unfinished(root)]
+    return bool(unfinished)
+
+
+def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
+    """Compare with what is there, and with what the fixes were made for.
+
+    Raises:
+        ConflictError: a file has changed since it was read.
+    """
+    from scaffold.errors import ConflictError
+    from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
 
-    return WritePlan.of(root, fixed.changed, executable=fixed.executable, remove=fixed.removed)
+    plan = WritePlan.of(
+        fixed.package.directory,
+        fixed.changed,
+        executable=fixed.executable,
+        remove=fixed.removed,
+        tree=tree if isinstance(tree, DiskTree) else None,
+    )
+    for file in plan.files:
+        is_content = file.path in fixed.changed or file.path in fixed.removed
+        if is_content and file.before != fixed.before.get(file.path):
+            raise ConflictError(
+                f"{file.path} in {plan.root} has changed since it was read; "
+                "nothing was written: run this again"
+            )
+    return plan
 
 
 def _patch(plans: Sequence[WritePlan]) -> str:

@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
         _report_defects(defects)
         return INTERNAL_ERROR
     if not options.dry_run and not options.diff:
-        plan.write(force=options.force)
+        plan = _write(options, made, plan)
     for remark in (*made.remarks, *doubts):
         terminal.note(remark)
     if options.diff:
@@ -181,6 +181,19 @@ def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
     directory = _refuse_existing(options, made.name)
     files = {**made.rendered.files, provenance.NAME: provenance.Provenance.of(made).text()}
     return WritePlan.of(directory, files, executable=made.rendered.executable)
+
+
+def _write(options: argparse.Namespace, made: Draft, plan: WritePlan) -> WritePlan:
+    """Write; return the plan that was followed."""
+    from scaffold.cli import writing
+
+    if plan.is_new:
+        plan.write()
+        return plan
+    with writing.held(plan.root, is_dry=False):
+        plan = _plan(options, made)  # of what is there now that nobody else changes it
+        plan.write(force=options.force)
+    return plan
 
 
 def _refuse_existing(options: argparse.Namespace, name: str) -> str:

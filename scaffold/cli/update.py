@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Bring a package in step with the templates; 1 when there is something to decide."""
     from scaffold import content
-    from scaffold.cli import settings
+    from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import InputError
     from scaffold.generate import template, update
@@ -45,12 +45,15 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{directory}: no such directory")
     roots = content.roots("templates", settings.load(options.content).content)
     templates = template.load(roots)
-    updated = update.update(DiskTree(directory), directory, roots, templates, User(directory))
-    plan = WritePlan.of(directory, updated.files, executable=updated.executable)
+    is_dry = options.diff or options.dry_run
+    with writing.held(directory, is_dry=is_dry):
+        tree = DiskTree(directory)
+        updated = update.update(tree, directory, roots, templates, User(directory))
+        plan = WritePlan.of(directory, updated.files, executable=updated.executable, tree=tree)
+        if not is_dry:
+            plan.write(force=True)
     if options.diff:
         terminal.show_patch(plan.diff(hidden=[NAME]))
-    elif not options.dry_run:
-        plan.write(force=True)
     for remark in updated.remarks:
         terminal.note(remark)
     if not options.diff:

@@ -18,8 +18,9 @@ from scaffold import __version__, installation
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
 from scaffold.record import NamedTuple
+from scaffold.transaction import RECORD
 
-NAME = ".ros2-scaffold.json"
+NAME = RECORD
 """The record's path in a package."""
 
 _ABOUT = (

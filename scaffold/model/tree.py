@@ -106,6 +106,29 @@ class DiskTree:
         """Return what is in a file of so many bytes at most; raises OSError."""
         return self.disk.read(os.path.join(self.root, path), most)
 
+    def digest_read(self, path: str) -> str | None:
+        """Return the digest of a file when it was first read; empty if it was not there then.
+
+        ``None`` if nobody has looked for it.
+        """
+        question = ("content", os.path.join(self.root, path))
+        if question in self.disk.seen:
+            return str(self.disk.seen[question] or "")
+        is_listed = "_listing" in self.__dict__ and self._is_covered(path)
+        return "" if is_listed and path not in self._listing[0] else None
+
+    def _is_covered(self, path: str) -> bool:
+        """Tell whether a file would be in the listing if it was there."""
+        *above, _ = path.split("/")
+        for depth, name in enumerate(above, 1):
+            parent = "/".join(above[:depth])
+            if parent not in self.directories:
+                is_skipped = self._is_skipped(parent, name, at_root=depth == 1)
+                own = os.path.join(self.disk.real(self.root), parent)
+                is_link = self.disk.real(own) != own
+                return not (is_skipped or parent in self.nested or is_link)
+        return True
+
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
         return self.disk.is_executable(os.path.join(self.root, path))

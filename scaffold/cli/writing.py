@@ -1,0 +1,110 @@
+"""What verbs that write do alike: hold the package, and say what an earlier run left."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+
+from scaffold.cli import terminal
+from scaffold.errors import ScaffoldError
+from scaffold.record import NamedTuple
+
+_OTHER_FILES = 256
+"""Open files besides the directories of packages."""
+
+
+@contextmanager
+def held(directory: str, *, is_dry: bool) -> Iterator[None]:
+    """Hold a package from the first read to the last write; a dry run only looks.
+
+    Args:
+        directory: The root of the package.
+        is_dry: Whether nothing is going to be written.
+
+    Raises:
+        LockedError: another process holds the package for too long.
+    """
+    from scaffold import transaction
+
+    if is_dry:
+        note_unfinished(directory)
+        yield
+        return
+    with transaction.exclusive(directory, terminal.note):
+        yield
+
+
+class Held(NamedTuple):
+    """Packages that this run holds."""
+
+    roots: frozenset[str]
+    has_waited: bool
+    """Whether something may have changed since before."""
+    has_failed: bool
+    """Whether another process holds some of the packages for too long."""
+
+
+def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
+    """Hold packages until a stack is closed, as `held` does; those that are not to be had are said.
+
+    Args:
+        stack: Lets them go.
+        roots: The directories of the packages.
+        is_dry: Whether nothing is going to be written.
+    """
+    from scaffold import transaction
+
+    if is_dry:
+        for root in roots:
+            note_unfinished(root)
+        return Held(frozenset(roots), has_waited=False, has_failed=False)
+    _allow_open_files(len(roots))
+    notes: list[str] = []
+
+    def note(line: str) -> None:
+        terminal.note(line)
+        notes.append(line)
+
+    got: set[str] = set()
+    # In the same order in every process: two that wait for each other would wait for ever.
+    for root in sorted(roots, key=os.path.realpath):
+        try:
+            stack.enter_context(transaction.exclusive(root, note))
+        except ScaffoldError as error:
+            terminal.error(str(error))
+        else:
+            got.add(root)
+    return Held(frozenset(got), has_waited=bool(notes), has_failed=len(got) < len({*roots}))
+
+
+def _allow_open_files(count: int) -> None:
+    """Let this process have as many more files open, as far as the system allows."""
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if soft != resource.RLIM_INFINITY and soft < count + _OTHER_FILES:
+        wanted = count + _OTHER_FILES
+        wanted = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+
+
+def note_unfinished(directory: str) -> bool:
+    """Say so if a run was cut off while it changed a package; tell whether that is so."""
+    from scaffold import temporary
+
+    try:
+        names = os.listdir(directory)
+    except OSError:
+        return False
+    if not any(map(temporary.is_temporary, names)):
+        return False  # without the imports of the next line: so it nearly always is
+    from scaffold import transaction
+
+    is_unfinished = transaction.is_unfinished(directory)
+    if is_unfinished:
+        terminal.note(
+            f"{directory}: a run was cut off while it changed this package; "
+            "the next add, update or check --fix completes or undoes it"
+        )
+    return is_unfinished

@@ -1,0 +1,165 @@
+"""A lock per directory: one process at a time reads a package, decides and writes it.
+
+The lock is on the directory itself. It leaves no file behind, every container that mounts the
+directory sees it, and the kernel releases it when its holder ends, however it ends. A file system
+that cannot lock directories, such as NFS, gets a lock file in the user's cache instead.
+"""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+
+from scaffold.errors import InputError, LockedError
+from scaffold.model.disk import digest
+
+PATIENCE = 30.0
+"""Seconds to wait for one holder; another one that is faster gets as many."""
+_PAUSE = 0.03
+"""Seconds between two attempts."""
+
+_UNSUPPORTED = {errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
+
+
+@contextmanager
+def locked(directory: str, notify: Callable[[str], None]) -> Iterator[None]:
+    """Hold the lock of a directory; wait for another holder.
+
+    Args:
+        directory: The directory, which exists.
+        notify: Gets a line when there is somebody to wait for.
+
+    Raises:
+        LockedError: another process has held the lock for too long.
+        InputError: the directory is not there.
+    """
+    descriptor = _acquire(directory, notify)
+    try:
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def try_lock(directory: str) -> int | None:
+    """Return a descriptor that holds the lock of a directory, ``None`` if somebody else has it.
+
+    Raises:
+        OSError: there is no such directory, or it cannot be locked.
+    """
+    flags = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+    descriptor = os.open(directory, flags)
+    try:
+        if _is_ours(descriptor) and _is_current(descriptor, directory):
+            return descriptor
+    except OSError:
+        os.close(descriptor)
+        raise
+    os.close(descriptor)
+    return None
+
+
+def _acquire(directory: str, notify: Callable[[str], None]) -> int:
+    while True:
+        descriptor, path = _open(directory)
+        try:
+            _wait(descriptor, directory, notify)
+            if _is_current(descriptor, path):
+                return descriptor
+        except BaseException:
+            os.close(descriptor)
+            raise
+        os.close(descriptor)  # the directory was replaced while this process waited
+
+
+def _open(directory: str) -> tuple[int, str]:
+    """Return a descriptor that can be locked, and the path that it is of."""
+    try:
+        descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    except PermissionError:
+        return _open_file(directory)
+    except OSError as error:
+        raise InputError(f"{directory}: {error.strerror}") from error
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        fcntl.flock(descriptor, fcntl.LOCK_UN)
+    except OSError as error:
+        if error.errno in _UNSUPPORTED:
+            os.close(descriptor)
+            return _open_file(directory)
+    return descriptor, directory
+
+
+def _open_file(directory: str) -> tuple[int, str]:
+    """Return the lock file of a directory in the user's cache."""
+    status = os.stat(directory)
+    key = f"{os.path.realpath(directory)}\0{status.st_dev}\0{status.st_ino}"
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    path = os.path.join(home, "ros2-scaffold", "locks", digest(os.fsencode(key)))
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
+        return os.open(path, flags, 0o600), path
+    except OSError as error:
+        raise InputError(
+            f"{directory} cannot be locked, neither can {path}: {error.strerror}"
+        ) from error
+
+
+def _wait(descriptor: int, directory: str, notify: Callable[[str], None]) -> None:
+    if _is_ours(descriptor):
+        return
+    holder = _holder(descriptor)
+    notify(f"waiting for {holder}, which is changing {directory}")
+    deadline = time.monotonic() + PATIENCE
+    while not _is_ours(descriptor):
+        time.sleep(_PAUSE)
+        current = _holder(descriptor)
+        if current != holder:
+            holder, deadline = current, time.monotonic() + PATIENCE
+        elif time.monotonic() > deadline:
+            raise LockedError(
+                f"{directory} is locked by {holder} for more than {PATIENCE:.0f} s; "
+                "nothing was written: wait for it or end it, and run this again"
+            )
+
+
+def _is_ours(descriptor: int) -> bool:
+    """Take the lock; tell whether that went well."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _is_current(descriptor: int, path: str) -> bool:
+    """Tell whether a path still leads to what was opened there."""
+    try:
+        return os.path.samestat(os.fstat(descriptor), os.stat(path))
+    except FileNotFoundError:
+        return False
+
+
+def _holder(descriptor: int) -> str:
+    """Return which process holds a lock, as far as the kernel shows it."""
+    inode = str(os.fstat(descriptor).st_ino)
+    with suppress(OSError), open("/proc/locks", encoding="ascii", errors="replace") as locks:
+        for line in locks:
+            fields = line.split()
+            # 1: FLOCK  ADVISORY  WRITE 4711 fe:00:131073 0 EOF; waiters have an arrow.
+            if fields[1] == "FLOCK" and fields[5].rpartition(":")[2] == inode:
+                return _description(fields[4])
+    return "another process"
+
+
+def _description(process: str) -> str:
+    try:
+        with open(f"/proc/{process}/cmdline", "rb") as file:
+            words = file.read().decode(errors="replace").rstrip("\0").split("\0")
+    except OSError:
+        return f"process {process}"
+    return f"process {process} ({' '.join(words)[:200]})"

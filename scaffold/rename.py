@@ -1,0 +1,91 @@
+"""Renames that never overwrite anything: into a free place, or an exchange of two files.
+
+Linux does both in one step. Elsewhere, and on file systems that cannot, several steps come close.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from contextlib import suppress
+
+_NO_REPLACE = 1
+_EXCHANGE = 2
+_CURRENT_DIRECTORY = -100
+
+_UNSUPPORTED = {errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP, errno.EPERM}
+"""EPERM is what some containers say of a call that they do not know; the other way will tell."""
+
+
+def move(source: str, target: str) -> None:
+    """Rename a file to a name that is free.
+
+    Raises:
+        FileExistsError: the name is taken.
+        OSError: the system refuses.
+    """
+    try:
+        if not try_rename(source, target, _NO_REPLACE):
+            _link_and_unlink(source, target)
+    except FileExistsError:
+        if not os.path.samefile(source, target):
+            raise
+        os.unlink(source)  # an earlier attempt was cut off between its two steps
+
+
+def _link_and_unlink(source: str, target: str) -> None:
+    try:
+        os.link(source, target, follow_symlinks=False)
+    except (FileExistsError, FileNotFoundError):
+        raise
+    except OSError:  # no hard links on this file system
+        if os.path.lexists(target):
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), target) from None
+        os.rename(source, target)
+    else:
+        os.unlink(source)
+
+
+def exchange(first: str, second: str, spare: str) -> None:
+    """Exchange two files.
+
+    Args:
+        first: A file.
+        second: Another one, which is there at every moment.
+        spare: A name that is free, for file systems that need it. If the process is killed there,
+            the old ``second`` has it when ``first`` is missing.
+
+    Raises:
+        FileNotFoundError: one of them is missing.
+        OSError: the system refuses.
+    """
+    if try_rename(first, second, _EXCHANGE):
+        return
+    with suppress(FileNotFoundError):
+        os.unlink(spare)
+    try:
+        os.link(second, spare, follow_symlinks=False)
+    except FileNotFoundError:
+        raise
+    except OSError:
+        shutil.copy2(second, spare, follow_symlinks=False)
+    os.replace(first, second)
+    os.rename(spare, first)
+
+
+def try_rename(source: str, target: str, flags: int) -> bool:
+    """Rename with the call of Linux; tell whether there is one for these files."""
+    import ctypes  # only for those who write into an existing directory
+
+    call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
+    if call is None:
+        return False
+    here = ctypes.c_int(_CURRENT_DIRECTORY)
+    old, new = ctypes.c_char_p(os.fsencode(source)), ctypes.c_char_p(os.fsencode(target))
+    if call(here, old, here, new, ctypes.c_uint(flags)) == 0:
+        return True
+    number = ctypes.get_errno()
+    if number in _UNSUPPORTED:
+        return False
+    raise OSError(number, os.strerror(number), source, None, target)
