@@ -51,7 +51,7 @@ class MinimumVersionOutdated(Rule):
         for command in package.cmake.find("cmake_minimum_required"):
             match command.arguments:
                 case [word, version, *_] if word.value == "VERSION":
-                    numbers = re.fullmatch(r"(\d+)\.(\d+)[\d.]*", version.value)
+                    numbers = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version.value)
                     if (
                         numbers is None
                         or ".." in version.value

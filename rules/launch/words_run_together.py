@@ -108,6 +108,7 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
         return ""
     if item.value.startswith("--ros-args "):
         return "this is one argument with spaces in it: write one text for each word"
+    # linear: the quote that ends the first text is not among its characters
     written = re.match(_TWO_TEXTS, launch.module.text(item))
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
         return f"Python joins this to {item.value!r}: a comma is missing between the texts"

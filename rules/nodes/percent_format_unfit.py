@@ -11,7 +11,7 @@ from scaffold.model.handlers import is_harmless
 from scaffold.model.message_types import MessageTypes
 from scaffold.model.message_values import Kinds
 
-_PLACE = r"%(?:%|[-+ #0]*(?:\*|\d+)?(?:\.(?:\*|\d+))?[diouxXeEfFgGcrsa])"
+_PLACE = r"%(?:%|[-+ #0]*(?:\*|[1-9]\d*)?(?:\.(?:\*|\d+))?[diouxXeEfFgGcrsa])"
 _SINGLE = frozenset({"bool", "float", "int", "str"})
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

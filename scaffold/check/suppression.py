@@ -17,7 +17,7 @@ from scaffold.model.package import Package
 from scaffold.model.source import Source
 
 _COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
-_CODE = r"[A-Z]+[0-9]+"
+_CODE = r"\b[A-Z]+[0-9]+"
 
 
 def apply(

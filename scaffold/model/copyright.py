@@ -205,6 +205,7 @@ def _back(block: str, at: int, floor: int) -> int:
 
 
 def _holder(notice: str) -> str:
+    # linear: whatever is left of the line matches
     match = re.fullmatch(_NOTICE, notice, re.IGNORECASE)
     return match[2].strip() if match else ""
 

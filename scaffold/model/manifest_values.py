@@ -44,6 +44,7 @@ def is_uri(value: str) -> bool:
     for start, path in ((r"[A-Za-z][A-Za-z0-9+.-]*:", rootless), ("", schemeless)):
         whole = rf"{start}(?:{authority}{segments}|{absolute}|{path}|){tail}"
         match = re.fullmatch(whole, plain)
-        if match and int(match["port"] or 0) <= _HIGHEST_PORT:
+        port = (match["port"] or "").lstrip("0") if match else ""
+        if match and len(port) <= len(str(_HIGHEST_PORT)) and int(port or 0) <= _HIGHEST_PORT:
             return True
     return False

@@ -29,8 +29,8 @@ BOOLEANS = frozenset({form for word in _WORDS for form in (word, word.capitalize
 _LONGEST_NUMBER = 100
 _INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
 _DOUBLE = (
-    r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?i:inf|infinity|nan)|\.(?:inf|Inf|INF))"
-    r"|\.(?:nan|NaN|NAN)|[+-]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)[pP][+-]?\d{1,4}"
+    r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:inf|infinity|nan)|\.(?:inf|Inf|INF))"
+    r"|\.(?:nan|NaN|NAN)|[+-]?0[xX](?:[0-9a-fA-F]+(?:\.[0-9a-fA-F]*)?|\.[0-9a-fA-F]+)[pP][+-]?\d{1,4}"
 )
 
 

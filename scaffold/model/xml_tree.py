@@ -13,7 +13,9 @@ from scaffold.record import NamedTuple
 
 BLANK = " \t\r\n"
 BOM = "\ufeff"
-_ATTRIBUTE = re.compile(r"""([^ \t\r\n=]+)[ \t\r\n]*=[ \t\r\n]*(?:"([^"]*)"|'([^']*)')""")
+_ATTRIBUTE = re.compile(
+    r"""(?<![^ \t\r\n])([^ \t\r\n=]+)[ \t\r\n]*=[ \t\r\n]*(?:"([^"]*)"|'([^']*)')"""
+)
 _DECLARED_ENCODING = (
     rb"""(?:\xef\xbb\xbf)?<\?xml[^>]*?[ \t\r\n]encoding[ \t\r\n]*=[ \t\r\n]*["']([\w.-]+)"""
 )

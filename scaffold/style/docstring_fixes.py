@@ -16,7 +16,7 @@ Splice = tuple[int, int, str]
 _DEFINITION = r"\s*(?:(?:class|def|async def)\s|@)"
 _SENTENCE_END = r"[A-Za-z0-9_)\]}\"'`>%]$"
 _NEXT_SENTENCE = r"\s*[A-Z\d:@*>`\"'(\[-]"
-_NO_SENTENCE = r">>>|[:@*-]|\S*[./]\S*$"
+_NO_SENTENCE = r">>>|[:@*-]|(?=[^\s./]*[./])\S+$"
 
 
 def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str]:

@@ -68,7 +68,7 @@ GOOGLE: Names = (
 
 _LOWER = {names: frozenset(name.lower() for name in names) for names in (NUMPY, GOOGLE)}
 _PARAGRAPH_ENDS = (",", ";", ".", "-", "\\", "/", "]", "}", ")")
-_ARGUMENT = r"^\s*(\w+)\s*(\(.*?\))?\s*:\n?\s*.+"
+_ARGUMENT = r"^\s*(\w+)\s*(?:\(.*?\)\s*)?:\n?\s*.+"
 
 
 class Section(NamedTuple):

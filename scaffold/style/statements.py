@@ -21,9 +21,10 @@ _BLOCK = (
 )
 _BEFORE_IMPORTS = ("try", "except", "else", "finally", "with", "if", "elif")
 _DUNDER = r"__([^\s]+)__(?::\s*[a-zA-Z.0-9_\[\]\"]+)? = "
-_SINGLETON = r"(\bNone|\bFalse|\bTrue)?\s*([=!]=)\s*(?(1)|(None|False|True))\b"
-_NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{ ]+\s+(in|is)\s"
-_TYPES = r"[=!]=\s+type(?:\s*\(\s*([^)]*[^ )])\s*\))|\btype(?:\s*\(\s*([^)]*[^ )])\s*\))\s+[=!]="
+_SINGLETON = r"(?:(\bNone|\bFalse|\bTrue)\s*)?([=!]=)\s*(?(1)|(None|False|True))\b"
+_NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{\s]+\s+(in|is)\s"
+# linear: Python refuses more than 200 parentheses that are open at a time
+_TYPES = r"[=!]=\s+type\s*\(([^)]*[^ )]) *\)|\btype\s*\([^)]*[^ )] *\)\s+[=!]="
 _SPACE = r"[\[({][ \t]|[ \t][\]}),;:](?!=)"
 _AMBIGUOUS = ("l", "O", "I")
 
@@ -169,8 +170,8 @@ def comparisons(line: str) -> Said:
         yield found.start(2), code, f"comparison to {value} with '{found[2]}', not '{wanted}'"
     types = re.search(_TYPES, line)
     if types:
-        inside = types[1]
-        if not (inside and inside.isidentifier() and inside not in ("None", "True", "False")):
+        inside = (types[1] or "").strip()
+        if not (inside.isidentifier() and inside not in ("None", "True", "False")):
             yield types.start(), "E721", "types compared with '==', not with 'is' or isinstance()"
 
 

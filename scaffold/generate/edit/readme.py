@@ -10,7 +10,7 @@ from scaffold.check.diagnostic import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
 from scaffold.model.source import Source
 
-_DELIMITER = re.compile(r"\s*\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)*\|?\s*")
+_DELIMITER = re.compile(r"\s*(?:\|\s*)?:?-+:?\s*(?:\|\s*:?-+:?\s*)*(?:\|\s*)?")
 _FRAME = ("Prerequisites", "Build", "Test", "Author", "License")
 """The sections that say nothing of the parts of a package; a README with all is like ours."""
 _FENCE = ("```", "~~~")

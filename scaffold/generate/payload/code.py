@@ -69,7 +69,8 @@ class Block:
         A local name that is taken for something else gets the name of the target before it.
         """
         text = (
-            re.sub(r"\n(\s*\n)+", "\n", dedent(code))
+            # linear: blanks with two line ends among them match
+            re.sub(r"\n\s*\n", "\n", dedent(code))
             .strip()
             .replace(COUNTER, COUNT)
             .replace(_CLOCK, NOW)

@@ -61,7 +61,7 @@ class Payload(NamedTuple):
     @property
     def log_received(self) -> str:
         """The same as ``log`` for a message of anybody, whose arrays may be empty."""
-        arrays = dict.fromkeys(re.findall(r"\bmsg\.([\w.]+)\[", self.log))
+        arrays = dict.fromkeys(re.findall(r"(?<![\w.])msg\.([\w.]+)\[", self.log))
         if not arrays:
             return self.log
         return ", ".join(f"{path.rpartition('.')[2]}: {{len(msg.{path})}}" for path in arrays)

@@ -19,7 +19,7 @@ STEPS = 10
 """Of an action that does not tell how many it has."""
 _DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
 _WHY = re.compile("(.*_)?(answer|message|msg|reason|description|info|details|text|status_message)$")
-_ERROR = re.compile("(.*_)?(error|failure)(_.*)?$")
+_ERROR = re.compile("(?:^|_)(?:error|failure)(?:_|$)")
 _NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
 
 
@@ -46,7 +46,7 @@ def answered(types: Types, section: Section, given: Sequence[Section]) -> Sectio
 
 def _is_failure(section: Section, field: Field) -> bool:
     """Tell whether a field is a code of errors without one for success: 0 is the default."""
-    if field.type.name not in INTEGER_RANGES or not _ERROR.match(field.name):
+    if field.type.name not in INTEGER_RANGES or not _ERROR.search(field.name):
         return False
     return not any(enums.is_good(one) for one in enums.constants_of(section, field))
 
@@ -97,7 +97,7 @@ def _answer(field: Field, given: Sequence[Section]) -> str | None:
     if field.type.name == "bool":
         return "True" if _DONE.match(field.name) else None
     if field.type.name == "string" and field.type.text_bound is None:
-        return "''" if _ERROR.match(field.name) else "'done'" if _WHY.match(field.name) else None
+        return "''" if _ERROR.search(field.name) else "'done'" if _WHY.match(field.name) else None
     return _sum(field, given) if field.name in {"sum", "total"} else None
 
 
