@@ -121,8 +121,8 @@ FIXED = {
     ),
     "D415": ('"""Go"""\n', '"""Go."""\n'),
     "D416": (
-        '"""\nGo.\n\nTip\n---\nThere.\n\n"""\n',
-        '"""\nGo.\n\nTip:\n---\nThere.\n\n"""\n',
+        '"""\nGo.\n\nTip\n    There.\n\n"""\n',
+        '"""\nGo.\n\nTip:\n    There.\n\n"""\n',
     ),
     "E203": ("x = [1, 2]\nx[0 : 1]\n", "x = [1, 2]\nx[0:1]\n"),
     "E701": ("x = 1\nif x: x = 2\n", "x = 1\nif x:\n    x = 2\n"),
@@ -202,6 +202,11 @@ def test_unsafe_fix(code: str) -> None:
         f'def f():\n    """\n    {"Go " * 29}there.\n    """\n    return 1\n',
         # behind dashes the arguments would not be found
         'def f(x):\n    """\n    Go.\n\n    Args:\n        x: it\n\n    """\n    return x\n',
+        # half of it would be of another convention afterwards
+        '"""\nGo.\n\nArgs:\n    x: It.\n\nReturns:\n    That.\n\n"""\n',
+        '"""\nGo.\n\nReturns:\n    That.\n\n"""\n',
+        '"""\nGo.\n\nNotes:\nThere.\n\nExample:\nHere.\n\n"""\n',
+        '"""\nGo.\n\nTip\n---\nThere.\n\n"""\n',
         # the blanks are seen
         "x = 1\nprint(f'{x = }')\n",
         # something is aligned with it

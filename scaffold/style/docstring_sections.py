@@ -101,6 +101,11 @@ def sections(definition: Definition) -> list[Section]:
     return _sections(lines, NUMPY) or _sections(lines, GOOGLE)
 
 
+def google_sections(definition: Definition) -> list[Section]:
+    """Return the sections of a docstring that have names of Google's style, whatever its own."""
+    return _sections(definition.docstring.split("\n"), GOOGLE)
+
+
 def _sections(lines: Sequence[str], names: Names) -> list[Section]:
     known = _LOWER[names]
     rows = [

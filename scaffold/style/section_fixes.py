@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import takewhile
 
 from scaffold.style.definitions import Definition, leading_space
-from scaffold.style.docstring_sections import Section, sections
+from scaffold.style.docstring_sections import NUMPY, Section, google_sections, sections
 
 Splice = tuple[int, int, str]
 """Offsets in the literal and the text that replaces what is between them."""
@@ -35,7 +35,7 @@ class _Place:
 
 def mend(code: str, definition: Definition) -> Iterator[Splice]:
     """Yield what mends a code in all sections of a docstring."""
-    if code not in _MENDING:
+    if code not in _MENDING or (code in _TO_NUMPY and not _is_numpy_afterwards(definition)):
         return
     lines = definition.docstring.split("\n")
     starts = [0]
@@ -44,6 +44,23 @@ def mend(code: str, definition: Definition) -> Iterator[Splice]:
     for section in sections(definition):
         if section.row:
             yield from _MENDING[code][0](_Place(section, lines, starts))
+
+
+def _is_numpy_afterwards(definition: Definition) -> bool:
+    """Tell whether nothing of Google's style is left once all names are alone above dashes.
+
+    Sections that only Google has keep their colons, and descriptions below names stay indented:
+    dashes beside those would mix two conventions that no tool reads.
+    """
+    if any(section.title not in NUMPY for section in google_sections(definition)):
+        return False
+    return not any(_is_indented(section) for section in sections(definition))
+
+
+def _is_indented(section: Section) -> bool:
+    """Tell whether what is below a name is further right than the name."""
+    rows = [row for row in section.after if row.strip() and set(row.strip()) != {"-"}]
+    return bool(rows) and len(leading_space(rows[0])) > len(leading_space(section.line))
 
 
 def _name(place: _Place) -> Iterator[Splice]:
@@ -60,15 +77,14 @@ def _name_alone(place: _Place) -> Iterator[Splice]:
 
 def _colon(place: _Place) -> Iterator[Splice]:
     name = place.section.name
+    if place.dashes:
+        return  # of NumPy's style
     if not place.section.is_numpy and place.section.line.strip() != f"{name}:":
         yield place.at + len(name), place.end, ":"
 
 
 def _underline(place: _Place) -> Iterator[Splice]:
     section = place.section
-    if not section.is_numpy and section.title in ("Args", "Arguments"):
-        # Behind dashes pydocstyle does not find the arguments: D417 would follow.
-        return
     if not place.is_empty and not place.dashes:
         yield place.end, place.end, f"\n{place.indent}{'-' * len(section.title)}"
 
@@ -142,5 +158,8 @@ _MENDING: Mapping[str, tuple[Callable[[_Place], Iterator[Splice]], str]] = {
     "D413": (_blank_at_end, "leave a blank line after the last section"),
     "D416": (_colon, "end the name with a colon"),
 }
+
+_TO_NUMPY = frozenset({"D406", "D407"})
+"""Codes whose fix makes a section one of NumPy's style."""
 
 TITLES = {code: title for code, (_, title) in _MENDING.items()}
