@@ -164,6 +164,7 @@ def _look(
         if not done:
             yield at, f"{story}: the process ended, or hung"
         at += 1
+        print(f"{at - seeds.start} packages", flush=True)  # noqa: T201  hours may be left
 
 
 def test_broken_packages_break_nothing(
