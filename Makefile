@@ -21,7 +21,7 @@ help:
 	@echo 'make demo        generate a package, check it, build it, run it, observe it'
 	@echo 'make test        all tests, real builds included; PYTEST_ARGS=... for pytest'
 	@echo 'make test-quick  the tests without real builds'
-	@echo 'make nightly     thousands of broken packages through `check`; takes hours'
+	@echo 'make nightly     broken packages through `check`, and killed runs; takes hours'
 	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
 	@echo 'make lint        ruff and mypy on the whole repository'
 	@echo 'make format      let ruff format the code'

@@ -1,0 +1,137 @@
+"""Kill runs of all verbs that write at random steps: the next run heals each of them."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+from typing import Any, NamedTuple
+
+import pytest
+
+from scaffold import content, rename, temporary
+from scaffold.cli.main import main
+
+pytestmark = [pytest.mark.nightly, pytest.mark.timeout(0)]
+
+KILLS = int(os.environ.get("SCAFFOLD_KILLS", "100"))
+"""Of each verb."""
+SEED = int(os.environ.get("SCAFFOLD_KILL_SEED", "1"))
+CALLS = ("open", "mkdir", "rename", "replace", "unlink", "rmdir", "fsync", "fchmod", "link")
+PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
+
+
+class Case(NamedTuple):
+    """A verb with what it works on."""
+
+    before: Path | None
+    """The package that it changes."""
+    command: list[str]
+
+
+@pytest.fixture(params=["add", "update", "fix", "new"])
+def case(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Case:
+    """Return a command to be run beside a directory ``talker``."""
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    (tmp_path / "before").mkdir()
+    monkeypatch.chdir(tmp_path / "before")
+    assert main(["new", "talker", *PERSON]) == 0
+    package = tmp_path / "before" / "talker"
+    if request.param == "new":
+        return Case(None, ["new", "talker", *PERSON])
+    if request.param == "add":
+        return Case(package, ["add", "timer", "beat", "--package-directory", "talker"])
+    if request.param == "fix":
+        for path in package.rglob("*.py"):
+            path.write_text(path.read_text() + "X = 1 \n")
+        return Case(package, ["check", "--fix", "talker"])
+    team = tmp_path / "team" / "templates"
+    for name in ("publisher", "package", "ament_cmake"):
+        shutil.copytree(Path(content.roots("templates")[0]) / name, team / name)
+    for path in team.rglob("*.jinja"):
+        if path.name.endswith((".py.jinja", ".md.jinja", ".txt.jinja")):
+            path.write_text(path.read_text().rstrip("\n") + "\n# Of the team\n")
+    return Case(package, ["update", "talker", "--content", str(team.parent)])
+
+
+def test_the_next_run_heals_what_was_killed(
+    case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = tmp_path / "here"
+    start(case, place)
+    monkeypatch.chdir(place)
+    steps = run(case.command, None)
+    expected = files(place / "talker")
+    assert case.before is None or expected != files(case.before)
+    chosen = Random(SEED)
+    wrong: list[str] = []
+    for _ in range(KILLS):
+        at = chosen.randrange(1, steps + 1)
+        monkeypatch.chdir(tmp_path)
+        start(case, place)
+        monkeypatch.chdir(place)
+        run(case.command, at)
+        run(case.command, None)
+        left = [path for path in place.rglob(".*") if temporary.is_temporary(path.name)]
+        if left or files(place / "talker") != expected:
+            wrong.append(f"{case.command[0]}: step {at} of {steps}")
+    assert not wrong, f"seed {SEED}"
+
+
+def start(case: Case, place: Path) -> None:
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir()
+    if case.before is not None:
+        shutil.copytree(case.before, place / "talker")
+
+
+def files(package: Path) -> dict[str, bytes]:
+    return {
+        path.relative_to(package).as_posix(): path.read_bytes()
+        for path in package.rglob("*")
+        if path.is_file()
+    }
+
+
+def run(command: list[str], at: int | None) -> int:
+    """Run a command in a process that kills itself before a step; return the number of steps."""
+    reading, writing = os.pipe()
+    process = os.fork()
+    if process == 0:
+        try:
+            count = _count(at)
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            for number in (1, 2):
+                os.dup2(nowhere, number)
+            main(command)
+            os.write(writing, str(len(count)).encode())
+        finally:
+            os._exit(0)
+    os.close(writing)
+    with open(reading, encoding="ascii") as pipe:
+        steps = int(pipe.read() or "0")
+    os.waitpid(process, 0)
+    return steps
+
+
+def _count(at: int | None) -> list[str]:
+    """Let functions that change something note each call, and kill this process before one."""
+    count: list[str] = []
+
+    def counted(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: object, **options: object) -> object:
+            count.append(name)
+            if len(count) == at:
+                os.kill(os.getpid(), signal.SIGKILL)
+            return function(*arguments, **options)
+
+        return call
+
+    for name in CALLS:
+        setattr(os, name, counted(name, getattr(os, name)))
+    vars(rename)["try_rename"] = counted("renameat2", rename.try_rename)
+    return count
