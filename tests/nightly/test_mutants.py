@@ -42,7 +42,7 @@ MOST_ADDRESSES = 3_000_000_000
 _KINDS: Sequence[Sequence[str]] = (
     ("--topic", "chatter"),
     ("--build-type", "ament_cmake", "--topic", "chatter"),
-    ("--extras", "launch_test,ci,pre_commit"),
+    ("--build-type", "ament_python", "--extras", "launch"),
 )
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timeout(0)]
@@ -65,8 +65,8 @@ def bases(tmp_path_factory: pytest.TempPathFactory) -> list[Files]:
     for at, arguments in enumerate(_KINDS):
         name = f"base_{at}"
         words = ["new", name, "--destination-directory", str(home), *arguments]
-        if main(words) == 0:
-            found.append(_read(home / name))
+        assert main(words) == 0
+        found.append(_read(home / name))
     for directory in os.environ.get("SCAFFOLD_MUTANT_BASES", "").split(":"):
         manifests = sorted(Path(directory).rglob("package.xml")) if directory else []
         found.extend(_read(manifest.parent) for manifest in manifests)
