@@ -125,6 +125,11 @@ def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
     assert done.stdout.split() == paths[:-1]
 
 
+def test_commas_separate_extras() -> None:
+    files = make(package="talker", extras=["ci,pre_commit", "gitignore"])
+    assert files == make(package="talker", extras=["ci", "pre_commit", "gitignore"])
+
+
 def test_an_extra_that_does_not_exist() -> None:
     with pytest.raises(InputError, match=r"--extras: 'lunch' is not one of .*did you mean launch"):
         make(package="talker", extras=["lunch"])

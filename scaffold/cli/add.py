@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from scaffold.check.diagnostic import Diagnostic
     from scaffold.check.session import Session
@@ -62,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check.session import Session
     from scaffold.cli import writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
-    from scaffold.generate import add
+    from scaffold.generate import add, repository
 
     target, wanted = _order(options)
     session = Session(registry.load(content.roots("rules")), Selection())
@@ -72,15 +72,18 @@ def run(options: argparse.Namespace) -> int:
         _refuse_broken(target.package, before, force=options.force)
         added = add.add(target, wanted)
         plan = _plan(target.package, added, is_named=wanted.name is not None, force=options.force)
+        above = repository.plan(target.place, added.above)
+        if above is not None:
+            _refuse_differing(above, [*added.above], force=options.force)
         said = _said(session, before, added)
         if _is_defect(session, said, added):
             _report(target.package, said)
             return INTERNAL_ERROR
         if not is_dry:
-            plan.write(force=True)
+            repository.write(above, plan, force=True)
     for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
         terminal.note(note)
-    _show(options, target.package, added, plan)
+    _show(options, target.package, added, plan, above)
     return FINDINGS if any(one.is_needed for one in added.by_hand) else CLEAN
 
 
@@ -183,24 +186,32 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
     """Compare with what is there; files of others are edited, files of the part are not."""
-    from scaffold.errors import ConflictError
     from scaffold.model.tree import DiskTree
     from scaffold.plan import WritePlan
 
     tree = package.tree if isinstance(package.tree, DiskTree) else None
     plan = WritePlan.of(package.root or ".", added.files, executable=added.executable, tree=tree)
+    what_to_do = "choose another name, or " if is_named else ""
+    _refuse_differing(plan, added.new, package.directory, what_to_do, force=force)
+    return plan
+
+
+def _refuse_differing(
+    plan: WritePlan, new: Sequence[str], where: str = "", what_to_do: str = "", *, force: bool
+) -> None:
+    """Raise if a file that is to be new exists and differs."""
+    from scaffold.errors import ConflictError
+
     differing = [
         file.path
         for file in plan.files
-        if file.path in added.new and file.before not in {None, file.content}
+        if file.path in new and file.before not in {None, file.content}
     ]
     if differing and not force:
-        names, what_to_do = ", ".join(differing), "choose another name, or " if is_named else ""
         raise ConflictError(
-            f"{names} in {package.directory} exists already and differs; "
+            f"{', '.join(differing)} in {where or plan.root} exists already and differs; "
             f"{what_to_do}overwrite it with --force"
         )
-    return plan
 
 
 def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
@@ -240,20 +251,37 @@ def _line(package: Package, diagnostic: Diagnostic) -> str:
     return f"{path}:{at.line}:{at.column}: {diagnostic.code} {diagnostic.message}"
 
 
-def _show(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> None:
+def _show(
+    options: argparse.Namespace,
+    package: Package,
+    added: Added,
+    plan: WritePlan,
+    above: WritePlan | None,
+) -> None:
     """Print the diff or the summary, and what is left to the user."""
-    from scaffold.generate.provenance import NAME
-
     if options.diff:
-        terminal.show_patch(plan.diff(hidden=[NAME]))
+        terminal.show_patch(_diff(plan, above))
     else:
-        terminal.show(_summary(options, package, added, plan))
+        terminal.show(_summary(options, package, added, plan, above))
     for line in _by_hand(package, added):
         terminal.say(line)
 
 
-def _summary(options: argparse.Namespace, package: Package, added: Added, plan: WritePlan) -> str:
+def _diff(plan: WritePlan, above: WritePlan | None) -> str:
+    from scaffold.generate.provenance import NAME
+
+    return plan.diff(hidden=[NAME]) + (above.diff() if above is not None else "")
+
+
+def _summary(
+    options: argparse.Namespace,
+    package: Package,
+    added: Added,
+    plan: WritePlan,
+    above: WritePlan | None,
+) -> str:
     """Return what is written and edited, and the next commands."""
+    from scaffold.generate import repository
     from scaffold.generate.provenance import NAME
     from scaffold.plan import State
 
@@ -262,17 +290,24 @@ def _summary(options: argparse.Namespace, package: Package, added: Added, plan: 
         (os.path.normpath(os.path.join(package.directory, file.path)), words[file.state], file.path)
         for file in plan.files
     ]
-    width = max(len(path) for path, _, _ in rows)
+    rows += [
+        (_shortest(file.target), words[file.state], f"{repository.MARK}{file.path}")
+        for file in (above.files if above is not None else ())
+    ]
+    width = max((len(path) for path, _, _ in rows), default=0)
     lines = [
         f"{path:{width}}  {', '.join(filter(None, [word, added.notes.get(name, '')]))}"
         for path, word, name in rows
     ]
     if options.dry_run:
-        diff = plan.diff(hidden=[NAME]).rstrip("\n")
+        diff = _diff(plan, above).rstrip("\n")
         return "\n".join([*lines, "", diff, "Nothing was changed (--dry-run)."])
-    if not plan.changes:
+    if not plan.changes and not (above is not None and above.changes):
+        if added.by_hand:
+            return "\n".join([*lines, "Nothing was changed."])
         return "\n".join([*lines, "", "All of it was there already: nothing was changed."])
-    if all(path in {*added.new, NAME} for _, _, path in rows) and added.start is None:
+    ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), NAME}
+    if all(path in ours for _, _, path in rows) and added.start is None:
         return "\n".join(lines)
     return "\n".join([*lines, "", *_next_commands(package, added)])
 
@@ -285,8 +320,7 @@ def _next_commands(package: Package, added: Added) -> list[str]:
     top = place.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
     build = f"colcon build --packages-select {package.name}"
     if top and os.path.realpath(top) != os.path.realpath("."):
-        shortest = min(os.path.relpath(top), os.path.realpath(top), key=len)
-        build = f"cd {quote(shortest)} && {build}"
+        build = f"cd {quote(_shortest(top))} && {build}"
     lines = [
         "Next:",
         f"    ros2-scaffold check {quote(package.directory)}",
@@ -294,6 +328,10 @@ def _next_commands(package: Package, added: Added) -> list[str]:
         "    source install/setup.bash",
     ]
     return [*lines, f"    {added.start}"] if added.start else lines
+
+
+def _shortest(path: str) -> str:
+    return min(os.path.relpath(path), os.path.realpath(path), key=len)
 
 
 def _by_hand(package: Package, added: Added) -> list[str]:

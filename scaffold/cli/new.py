@@ -11,13 +11,15 @@ from scaffold.cli import terminal
 from scaffold.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from scaffold.check.diagnostic import Diagnostic
     from scaffold.cli.wizard import Asked
     from scaffold.config import Config
     from scaffold.generate.draft import Draft
+    from scaffold.generate.edit.addition import ByHand
     from scaffold.generate.questions import Given
+    from scaffold.generate.repository import Place
     from scaffold.generate.template import Template
     from scaffold.plan import WritePlan
 
@@ -50,9 +52,9 @@ def run(options: argparse.Namespace) -> int:
     """Write a package; return the exit code."""
     from scaffold import config, content
     from scaffold.check import registry
-    from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.errors import ScaffoldError
-    from scaffold.generate import dependency_names, draft, place, template
+    from scaffold.generate import dependency_names, draft, place, repository, template
     from scaffold.generate.defaults import User
 
     settings = config.load(content=tuple(options.content))
@@ -64,9 +66,13 @@ def run(options: argparse.Namespace) -> int:
         given, command = _ask(options, roots, templates, given)
     try:
         named, doubts = _dependencies(options, given)
-        made = draft.draft(roots, templates, given, User(options.destination_directory))
+        user = User(options.destination_directory)
+        around = repository.place_of(options.destination_directory, is_parent=True)
+        made = draft.draft(roots, templates, given, user, place=around)
         place.check(options.destination_directory, made.name)
-        plan = _plan(options, made)
+        left = _left_to_owners(options, made, around)
+        plan = _plan(options, made, left)
+        above = _plan_above(made, around, left, force=options.force)
     except ScaffoldError:
         if command is not None:
             terminal.say_lines(f"Your answers as a command, to be corrected:\n    {command}")
@@ -78,16 +84,16 @@ def run(options: argparse.Namespace) -> int:
         _report_defects(defects)
         return INTERNAL_ERROR
     if not options.dry_run and not options.diff:
-        plan = _write(options, made, plan)
+        plan = _write(options, made, plan, above, left)
     for remark in (*made.remarks, *doubts):
         terminal.note(remark)
     if options.diff:
-        terminal.show_patch(plan.diff())
-        return CLEAN
-    terminal.show(_summary(options, made, plan))
-    if command is not None:
-        terminal.show(f"\nThe same without questions:\n    {command}")
-    return CLEAN
+        terminal.show_patch(_diff(plan, above))
+    else:
+        terminal.show(_summary(options, made, plan, above))
+        if command is not None:
+            terminal.show(f"\nThe same without questions:\n    {command}")
+    return FINDINGS if _tell_by_hand(options, made, left) else CLEAN
 
 
 def _ask(
@@ -173,26 +179,70 @@ def _given(
     return {**configured, **answered, **questions.from_flags(options, asked)}
 
 
-def _plan(options: argparse.Namespace, made: Draft) -> WritePlan:
+def _left_to_owners(
+    options: argparse.Namespace, made: Draft, around: Place
+) -> dict[str, ByHand | None]:
+    """Return the files that are there and may hold what others need."""
+    from scaffold.generate import repository
+
+    directory = os.path.join(options.destination_directory, made.name)
+    inner = repository.place_of_files(directory)
+
+    def there(path: str) -> bytes | None:
+        name = path.removeprefix(repository.MARK)
+        return repository.read(around if name != path else inner, name)
+
+    return repository.left_to_owners(around, made.name, made.rendered.files, there)
+
+
+def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> WritePlan:
     """Compare with what is there; an existing package is left alone without ``--force``."""
-    from scaffold.generate import provenance
+    from scaffold.generate import provenance, repository
     from scaffold.plan import WritePlan
 
     directory = _refuse_existing(options, made.name)
-    files = {**made.rendered.files, provenance.NAME: provenance.Provenance.of(made).text()}
+    files = repository.inside(made.rendered.files)
+    files = {path: text for path, text in files.items() if path not in left}
+    files[provenance.NAME] = provenance.Provenance.of(made).text()
     return WritePlan.of(directory, files, executable=made.rendered.executable)
 
 
-def _write(options: argparse.Namespace, made: Draft, plan: WritePlan) -> WritePlan:
+def _write(
+    options: argparse.Namespace,
+    made: Draft,
+    plan: WritePlan,
+    above: WritePlan | None,
+    left: Collection[str],
+) -> WritePlan:
     """Write; return the plan that was followed."""
     from scaffold.cli import writing
+    from scaffold.generate import repository
 
     if plan.is_new:
-        plan.write()
+        repository.write(above, plan, force=options.force)
         return plan
     with writing.held(plan.root, is_dry=False):
-        plan = _plan(options, made)  # of what is there now that nobody else changes it
-        plan.write(force=options.force)
+        # Of what is there now that nobody else changes it.
+        plan = _plan(options, made, left)
+        repository.write(above, plan, force=options.force)
+    return plan
+
+
+def _plan_above(
+    made: Draft, around: Place, left: Collection[str], *, force: bool
+) -> WritePlan | None:
+    """Compare with what is at the top of the repository around the new package."""
+    from scaffold.errors import ConflictError
+    from scaffold.generate import repository
+
+    files = {path: text for path, text in made.rendered.files.items() if path not in left}
+    plan = repository.plan(around, repository.above(files))
+    if plan is not None and plan.conflicts and not force:
+        names = ", ".join(plan.conflicts)
+        raise ConflictError(
+            f"{names} in {plan.root} exists already and differs; --force overwrites it; "
+            "nothing was written"
+        )
     return plan
 
 
@@ -219,11 +269,40 @@ def _report_defects(defects: list[Diagnostic]) -> None:
     )
 
 
-def _summary(options: argparse.Namespace, made: Draft, plan: WritePlan) -> str:
+def _diff(plan: WritePlan, above: WritePlan | None) -> str:
+    return plan.diff() + (above.diff() if above is not None else "")
+
+
+def _tell_by_hand(
+    options: argparse.Namespace, made: Draft, left: Mapping[str, ByHand | None]
+) -> bool:
+    """Say what the user has to add by hand; tell whether that is anything."""
+    by_hand = [one for one in left.values() if one is not None]
+    if by_hand:
+        terminal.say("To be added by hand:")
+    directory = os.path.join(options.destination_directory, made.name)
+    for one in by_hand:
+        path = os.path.normpath(os.path.join(directory, one.path))
+        terminal.say(f"    {path}: {one.line}")
+        terminal.say(f"        because {one.reason}")
+    return bool(by_hand)
+
+
+def _summary(
+    options: argparse.Namespace, made: Draft, plan: WritePlan, above: WritePlan | None
+) -> str:
     """Return the tree with notes, the differences of files that exist, the next commands."""
+    from scaffold.generate.repository import MARK
+
     lines = [*_tree(made, plan)]
+    rows = [
+        (min(os.path.relpath(file.target), file.target, key=len), f"{MARK}{file.path}")
+        for file in (above.files if above is not None else ())
+    ]
+    width = max((len(path) for path, _ in rows), default=0)
+    lines += [f"{path:{width}}  {made.rendered.notes.get(key, '')}".rstrip() for path, key in rows]
     if not plan.is_new:
-        differences = plan.diff()
+        differences = _diff(plan, above)
         lines += ["", differences.rstrip("\n")] if options.dry_run and differences else []
     if options.dry_run:
         return "\n".join([*lines, "", "Nothing was written (--dry-run)."])

@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import InputError
-    from scaffold.generate import template, update
+    from scaffold.generate import repository, template, update
     from scaffold.generate.defaults import User
     from scaffold.generate.provenance import NAME
     from scaffold.model.tree import DiskTree
@@ -45,36 +45,45 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{directory}: no such directory")
     roots = content.roots("templates", settings.load(options.content).content)
     templates = template.load(roots)
+    place = repository.place_of(directory)
     is_dry = options.diff or options.dry_run
     with writing.held(directory, is_dry=is_dry):
         tree = DiskTree(directory)
-        updated = update.update(tree, directory, roots, templates, User(directory))
-        plan = WritePlan.of(directory, updated.files, executable=updated.executable, tree=tree)
+        updated = update.update(tree, directory, roots, templates, User(directory), place)
+        files = repository.inside(updated.files)
+        plan = WritePlan.of(directory, files, executable=updated.executable, tree=tree)
+        above = repository.plan(place, repository.above(updated.files))
         if not is_dry:
-            plan.write(force=True)
+            repository.write(above, plan, force=True)
     if options.diff:
         terminal.show_patch(plan.diff(hidden=[NAME]))
+        terminal.show_patch(above.diff() if above else "")
     for remark in updated.remarks:
         terminal.note(remark)
     if not options.diff:
-        terminal.show(_summary(options, updated, plan))
+        terminal.show(_summary(options, updated, plan, above))
     return FINDINGS if updated.conflicts else CLEAN
 
 
-def _summary(options: argparse.Namespace, updated: Updated, plan: WritePlan) -> str:
+def _summary(
+    options: argparse.Namespace, updated: Updated, plan: WritePlan, above: WritePlan | None
+) -> str:
     """Return a line for each file that changes, and what to do about conflicts."""
+    from scaffold.generate.repository import MARK
     from scaffold.plan import State
 
     if not updated.changed:
         return "The package is in step with the templates."
     words = {State.NEW: "new", State.DIFFERING: "merged", State.SAME: "unchanged"}
     lines: list[str] = []
-    for file in plan.files:
-        if file.path not in updated.changed:
+    files = {file.path: file for file in plan.files}
+    files |= {f"{MARK}{file.path}": file for file in (above.files if above else ())}
+    for path, file in files.items():
+        if path not in updated.changed:
             continue
-        count = updated.conflicts.get(file.path, 0)
+        count = updated.conflicts.get(path, 0)
         note = f", {count} conflict{'s' if count > 1 else ''} to decide" if count else ""
-        lines.append(f"{file.path}: {words[file.state]}{note}")
+        lines.append(f"{path}: {words[file.state]}{note}")
     if options.dry_run:
         lines.append("Nothing was written (--dry-run).")
     elif updated.conflicts:

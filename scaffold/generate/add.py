@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.check.overlay import Overlay
 from scaffold.errors import ConflictError, InputError, MissingFileError, ParseError, ViewError
-from scaffold.generate import neighbours, own, piece
+from scaffold.generate import neighbours, own, piece, repository
 from scaffold.generate.edit.addition import ByHand
 from scaffold.generate.edit.edit import edit
 from scaffold.generate.piece import LAUNCH, Piece, Target, Wanted
@@ -33,7 +33,9 @@ class Added(NamedTuple):
     """A package with something new, in memory."""
 
     files: Mapping[str, bytes]
-    """What is written: new files and those that are edited."""
+    """What is written in the package: new files and those that are edited."""
+    above: Mapping[str, bytes]
+    """What is written at the top of the git repository that the package is in."""
     new: Sequence[str]
     """The files of what is added; all others are edited."""
     executable: frozenset[str]
@@ -101,13 +103,20 @@ def add(target: Target, wanted: Wanted) -> Added:
         wanted = wanted._replace(given={**own.remembered(old), **wanted.given})
         made = piece.make(target, old, wanted)
         _refuse_taken(package, made)
-        new = _new_files(package, old, made)
+        new = _new_files(target, old, made)
         others, by_hand = _others(target, old, wanted, made)
+    left = repository.left_to_owners(
+        target.place, package.name, made.rendered.files, lambda path: _content(target, path)
+    )
+    by_hand += tuple(filter(None, left.values()))
+    new = {path: data for path, data in new.items() if path not in left}
+    above, new = repository.above(new), repository.inside(new)
     # The files of the part have the date of today, those of the package keep theirs.
-    files = {**others, **new}
+    files = {**repository.inside(others), **new}
     after = _with(package, files, made.rendered.executable)
     return Added(
         files,
+        above,
         tuple(new),
         made.rendered.executable,
         made.rendered.notes,
@@ -115,7 +124,10 @@ def add(target: Target, wanted: Wanted) -> Added:
         _start(package, made),
         after,
         _with(package, new, made.rendered.executable),
-        tuple(_remarks(after, made)),
+        (
+            *_remarks(after, made),
+            *repository.unread(target.place, made.rendered.unread, package.directory),
+        ),
         has_header=bool(made.composed.context["header"]),
     )
 
@@ -151,15 +163,34 @@ def _refusing(package: Package) -> Iterator[None]:
         raise InputError(f"{package.directory}: {error}; nothing was changed") from error
 
 
-def _new_files(package: Package, old: Provenance | None, made: Piece) -> dict[str, bytes]:
+def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str, bytes]:
     """Return the files of the piece; an extra that is there already is its owner's."""
     is_there = made.template.role is Role.EXTRA and old is not None and own.is_noted(old, made)
-    return {
-        path: package.tree.read(path)
-        if package.has(path) and (is_there or path in REPOSITORY_FILES)
-        else _kept(package, path, text)
-        for path, text in made.rendered.files.items()
-    }
+    found: dict[str, bytes] = {}
+    for path, text in made.rendered.files.items():
+        there = _content(target, path)
+        data = text.encode()
+        if there is None:
+            found[path] = data
+        elif is_there or path in REPOSITORY_FILES or _timeless(there) == _timeless(data):
+            found[path] = there
+        else:
+            found[path] = data
+    return found
+
+
+def _content(target: Target, path: str) -> bytes | None:
+    """Return a file of the package, or at the top of its repository; ``None`` if there is none."""
+    if path.startswith(repository.MARK):
+        return repository.read(target.place, path.removeprefix(repository.MARK))
+    package = target.package
+    try:
+        if package.has(path):
+            return package.tree.read(path)
+    except OSError:
+        return None
+    # A tree leaves hidden directories out.
+    return repository.read(repository.place_of_files(package.root), path)
 
 
 def _others(
@@ -265,15 +296,6 @@ def _refuse_taken(package: Package, made: Piece) -> None:
         )
 
 
-def _kept(package: Package, path: str, text: str) -> bytes:
-    """Return a file as it is when it differs in nothing but dates, else the new text."""
-    data = text.encode()
-    try:
-        there = package.tree.read(path) if package.has(path) else data
-    except OSError:
-        return data
-    return there if _timeless(there) == _timeless(data) else data
-
-
 def _timeless(data: bytes) -> str:
+    """Return a text without what another day would change."""
     return re.sub(_OF_A_DAY, "", data.decode(errors="replace").replace("\r\n", "\n"))

@@ -29,12 +29,14 @@ def package_context(
     parts: Sequence[Part],
     renderer: Renderer,
     day: date,
+    subdirectory: str = "",
 ) -> dict[str, Any]:
     """Return the variables of all files.
 
     Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the licence as
     comment lines), ``has_license`` (false where an existing package has decided for none that there
-    are templates for), ``license_text`` and ``contributing_text`` (the templates of the full text
+    are templates for), ``subdirectory`` (the way from the top of the git repository to the package;
+    empty at the top), ``license_text`` and ``contributing_text`` (the templates of the full text
     and of CONTRIBUTING.md), ``nodes``, ``interfaces`` and ``programs``, ``depends`` (names by
     kind), ``groups`` and ``share_directories``. A part has the answers of its template, ``kind``,
     ``name`` and ``summary``; a node also has ``module``, ``class_name``, ``executable``,
@@ -51,6 +53,7 @@ def package_context(
         "year": day.year,
         "tutorial": answers["comments"] == "tutorial",
         "has_license": True,
+        "subdirectory": subdirectory,
         "license_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.TEXT}",
         "contributing_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.CONTRIBUTING}",
     }

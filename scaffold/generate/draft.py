@@ -17,6 +17,7 @@ from scaffold.generate.defaults import User
 from scaffold.generate.parts import Part, Request
 from scaffold.generate.questions import Given
 from scaffold.generate.render import Rendered, Renderer
+from scaffold.generate.repository import NOWHERE, Place, inside, unread
 from scaffold.generate.template import BASE, PARTS, Question, Role, Template
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def draft(
     given: Mapping[str, Given],
     user: User,
     day: date | None = None,
+    place: Place = NOWHERE,
 ) -> Draft:
     """Render a package.
 
@@ -68,13 +70,15 @@ def draft(
         given: The user's answers by question.
         user: Knows what was not given.
         day: The date for its files; today by default.
+        place: The git repository that it is for.
 
     Raises:
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
-    composed = compose(roots, templates, given, user, day=day)
+    composed = compose(roots, templates, given, user, day=day, place=place)
     context, renderer = composed.context, composed.renderer
+    rendered = renderer.package(part_scopes(composed.layers, context))
     return Draft(
         name=context["package"],
         build_type=context["build_type"],
@@ -82,10 +86,11 @@ def draft(
             *(node["executable"] for node in context["nodes"]),
             *(program["name"] for program in context["programs"]),
         ),
-        rendered=renderer.package(part_scopes(composed.layers, context)),
+        rendered=rendered,
         remarks=(
             *_remarks(renderer, context, user),
             *(str(clash) for clash in clashes(uses(context["nodes"], templates))),
+            *unread(place, rendered.unread, os.path.join(user.directory, context["package"])),
         ),
         answers=composed.answers,
         day=date.fromisoformat(context["date"]),
@@ -112,6 +117,7 @@ def compose(
     day: date | None = None,
     fixed: Mapping[str, Any] | None = None,
     messages: Sequence[str] = (),
+    place: Place = NOWHERE,
 ) -> Composed:
     """Choose templates and settle all questions.
 
@@ -123,6 +129,7 @@ def compose(
         day: The date for its files; today by default.
         fixed: Answers for the package that are as they are, such as the name of an existing one.
         messages: The messages that it has already.
+        place: The git repository that it is for.
 
     Raises:
         InputError: an answer is missing, not acceptable, or of no use here.
@@ -145,7 +152,8 @@ def compose(
     values = {**(fixed or {}), **answers.values}
     made, written = _parts(order.requests, given, values, renderer, user.directory)
     parts.refuse_impossible(made, values["package"], values["build_type"], messages)
-    context = package_context(values, order.layers, made, renderer, day or today())
+    subdirectory = place.subdirectory(values["package"])
+    context = package_context(values, order.layers, made, renderer, day or today(), subdirectory)
     for clash in clashes(uses(context["nodes"], templates)):
         if clash.first.kind != "topic":  # a topic has its name from a parameter
             raise InputError(str(clash))
@@ -173,7 +181,7 @@ class Check:
         from scaffold.model.tree import MemoryTree
         from scaffold.style import StyleCheck
 
-        tree = MemoryTree(package.rendered.files, package.rendered.executable)
+        tree = MemoryTree(inside(package.rendered.files), package.rendered.executable)
         self._package = Package(tree, directory=package.name)
         self._style = StyleCheck([self._package])
 

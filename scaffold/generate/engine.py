@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol
@@ -67,6 +68,8 @@ class LocalEngine:
         jinja.filters |= {
             "literal": filters.literal,
             "markdown": filters.markdown,
+            "regex": re.escape,
+            "shell": shlex.quote,
             "slashes": filters.slashes,
             "xml": filters.xml,
         }

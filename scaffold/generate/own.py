@@ -12,6 +12,7 @@ from scaffold.generate.edit.edit import edit
 from scaffold.generate.piece import EXTRAS, Piece, Target
 from scaffold.generate.provenance import NAME, Provenance
 from scaffold.generate.questions import Given
+from scaffold.generate.repository import inside
 from scaffold.generate.template import BASE, Role
 from scaffold.model.package import Package
 
@@ -86,7 +87,7 @@ def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
     answers = _with_piece(old, piece)
     if answers == old.answers:
         return {}
-    base = Package.of({**old.rendered, NAME: ""})
+    base = Package.of({**inside(old.rendered), NAME: ""})
     files = {**piece.rendered.files, **old.rendered}
     files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
     return {NAME: old.with_files(answers, files).text().encode()}
@@ -111,7 +112,7 @@ def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
 
 
 def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
-    return draft(target.roots, target.templates, given, target.user, old.date)
+    return draft(target.roots, target.templates, given, target.user, old.date, target.place)
 
 
 def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> list[str]:

@@ -18,6 +18,7 @@ from scaffold.generate.edit.layout import Layout, layout_of
 from scaffold.generate.provenance import Provenance
 from scaffold.generate.questions import Given
 from scaffold.generate.render import Rendered
+from scaffold.generate.repository import Place, place_of
 from scaffold.generate.template import BASE, ENDING, PARTS, Role, Template
 from scaffold.model.package import Package
 
@@ -43,6 +44,11 @@ class Target(NamedTuple):
     """The templates in them."""
     user: User
     """Knows what neither the package nor the answers say."""
+
+    @property
+    def place(self) -> Place:
+        """Where the package is in its git repository."""
+        return place_of(self.package.root)
 
 
 class Wanted(NamedTuple):
@@ -142,6 +148,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         day=day,
         fixed=fixed,
         messages=messages,
+        place=target.place,
     )
     composed.context["has_license"] = "license" in known
     if not composed.context["has_license"]:
@@ -179,6 +186,7 @@ def _rendered(
         files,
         frozenset(map(place, rendered.executable)),
         {place(path): note for path, note in rendered.notes.items()},
+        rendered.unread,
     )
 
 

@@ -7,7 +7,7 @@ wins: flag, answers file, configuration, the default of the template, the user (
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -226,8 +226,9 @@ def resolve(
     answers = Answers({}, {})
 
     def add(question: Question, found: Given) -> None:
-        answers.values[question.name] = parse(question, found, where)
-        answers.written[question.name] = found.value
+        value = answers.values[question.name] = parse(question, found, where)
+        is_list = question.type == SEVERAL and question.choices
+        answers.written[question.name] = [*value] if is_list else found.value
 
     later = [one for one in questions if one.name not in given and _is_jinja(one.default)]
     for question in questions:
@@ -259,14 +260,20 @@ def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: A
         InputError: it is not acceptable.
     """
     if question.choices and question.type == SEVERAL:
-        words = given.value if isinstance(given.value, list | tuple) else [given.value]
-        return tuple(dict.fromkeys(choose(word, question.choices, given.origin) for word in words))
+        chosen = (choose(word, question.choices, given.origin) for word in _words(given.value))
+        return tuple(dict.fromkeys(chosen))
     if question.choices:
         return choose(given.value, question.choices, given.origin)
     try:
         return TYPES[question.type](given.value, where)
     except InputError as error:
         raise InputError(f"{given.origin}: {error}") from error
+
+
+def _words(given: object) -> Iterator[object]:
+    """Yield the words of an answer: a list, a text with commas between them, or both."""
+    for word in given if isinstance(given, list | tuple) else [given]:
+        yield from map(str.strip, word.split(",")) if isinstance(word, str) else (word,)
 
 
 def choose(given: object, choices: Sequence[str], origin: str) -> str:

@@ -13,6 +13,7 @@ from scaffold.errors import ContentError
 from scaffold.generate import filters, licenses
 from scaffold.generate.engine import Engine, LocalEngine
 from scaffold.generate.foreign import ForeignEngine
+from scaffold.generate.repository import MARK
 from scaffold.generate.sandbox import refuse_leaving, refuse_outside
 from scaffold.generate.template import ENDING, MANIFEST, Template
 from scaffold.record import NamedTuple
@@ -27,6 +28,8 @@ class Rendered(NamedTuple):
     executable: frozenset[str]
     notes: Mapping[str, str]
     """What a file is for, by path; not every file has one."""
+    unread: tuple[str, ...] = ()
+    """Files of the package that are read only if it is the top of a git repository."""
 
 
 class Renderer:
@@ -96,11 +99,17 @@ class Renderer:
         files: dict[str, str] = {}
         executable: set[str] = set()
         notes: dict[str, str] = {}
+        unread: list[str] = []
         for layer, scope in scopes:
             for source in _sources(layer.directory):
                 if not self._is_included(layer, source, scope):
                     continue
                 path = self._path(layer, source, scope)
+                is_above = any(fnmatchcase(source, pattern) for pattern in layer.repository)
+                if is_above and scope["subdirectory"]:
+                    path = f"{MARK}{path}"
+                elif is_above:
+                    unread.append(path)
                 text = self.file(f"{layer.name}/{source}{ENDING}", scope)
                 if files.setdefault(path, text) != text:
                     raise ContentError(f"{layer.directory}: {path} is rendered twice")
@@ -109,7 +118,7 @@ class Renderer:
                 note = _first_match(layer.notes, source)
                 if note:
                     notes[path] = note
-        return Rendered(files, frozenset(executable), notes)
+        return Rendered(files, frozenset(executable), notes, tuple(unread))
 
     def _is_included(self, layer: Template, source: str, scope: Mapping[str, Any]) -> bool:
         expression = _first_match(layer.include, source)

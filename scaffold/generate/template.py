@@ -90,6 +90,8 @@ class Template(NamedTuple):
     """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
     executable: Sequence[str]
     """Path patterns of files with executable bits."""
+    repository: Sequence[str]
+    """Path patterns of files that are read at the top of a git repository, and nowhere else."""
     notes: Mapping[str, str]
     """What a file is for, by path pattern."""
     examples: Mapping[str, Mapping[str, Any]]
@@ -114,6 +116,7 @@ _KEYS: Mapping[str, type[Any]] = {
     "installs": list,
     "include": dict,
     "executable": list,
+    "repository": list,
     "notes": dict,
     "examples": dict,
 }
@@ -210,6 +213,7 @@ def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Templat
         installs=manifest.get("installs", []),
         include=manifest.get("include", {}),
         executable=manifest.get("executable", []),
+        repository=manifest.get("repository", []),
         notes=manifest.get("notes", {}),
         examples=manifest.get("examples", {}),
     )

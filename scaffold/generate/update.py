@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from scaffold.errors import InputError
@@ -13,6 +13,8 @@ from scaffold.generate.merge import MARKS, merge
 from scaffold.generate.parts import ADD, KIND
 from scaffold.generate.provenance import NAME, Provenance, parse
 from scaffold.generate.questions import Given
+from scaffold.generate.repository import MARK, NOWHERE, Place, is_below, place_of_files
+from scaffold.generate.repository import read as read_file
 from scaffold.generate.template import Template
 from scaffold.model.tree import Tree
 
@@ -35,7 +37,12 @@ class Updated(NamedTuple):
 
 
 def update(
-    tree: Tree, where: str, roots: Sequence[str], templates: Mapping[str, Template], user: User
+    tree: Tree,
+    where: str,
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    user: User,
+    place: Place = NOWHERE,
 ) -> Updated:
     """Merge the difference between the recorded files and those of today into the user's.
 
@@ -45,6 +52,7 @@ def update(
         roots: The ``templates`` directories; a later one wins.
         templates: The templates in them.
         user: Knows what new questions may want.
+        place: The git repository that the package is in.
 
     Raises:
         InputError: the package has no record, a damaged one, or answers that the templates of
@@ -54,9 +62,10 @@ def update(
     provenance = read(tree, where)
     remarks: list[str] = []
     given = recorded(provenance, templates, where, remarks)
-    made = draft.draft(roots, templates, given, user, provenance.date)
-    _refuse_undecided(tree, where, made)
-    files, conflicts = _merged(tree, provenance, made, remarks)
+    made = draft.draft(roots, templates, given, user, provenance.date, place)
+    present = _present(tree, where, place, {*provenance.rendered, *made.rendered.files})
+    _refuse_undecided(present, where, made)
+    files, conflicts = _merged(present, provenance, made, remarks)
     if provenance.rendered != made.rendered.files:
         files[NAME] = Provenance.of(made).text().encode()
     executable = frozenset(path for path in made.rendered.executable if path in files)
@@ -113,10 +122,27 @@ def _known_part(
     return {name: value for name, value in part.items() if name in known}
 
 
-def _refuse_undecided(tree: Tree, where: str, made: Draft) -> None:
+def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict[str, bytes]:
+    """Return those of some files that are there, in the package or at the top of the repository."""
+    files = set(tree.files)
+    found: dict[str, bytes] = {}
+    for path in filter(is_below, paths):
+        content: bytes | None
+        if path in files:
+            content = tree.read(path)
+        elif path.startswith(MARK):
+            content = read_file(place, path.removeprefix(MARK))
+        else:  # a tree leaves hidden directories out
+            content = read_file(place_of_files(where), path)
+        if content is not None:
+            found[path] = content
+    return found
+
+
+def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> None:
     """Raise if an earlier merge left something to decide: another one would garble it."""
-    for path in sorted(set(tree.files) & set(made.rendered.files)):
-        if all(mark.encode() in tree.read(path) for mark in MARKS):
+    for path in sorted(present.keys() & set(made.rendered.files)):
+        if all(mark.encode() in present[path] for mark in MARKS):
             raise InputError(
                 f"{where}/{path}: has a conflict that an earlier update has marked; "
                 "decide it first; nothing was changed"
@@ -124,11 +150,10 @@ def _refuse_undecided(tree: Tree, where: str, made: Draft) -> None:
 
 
 def _merged(
-    tree: Tree, provenance: Provenance, made: Draft, remarks: list[str]
+    present: Mapping[str, bytes], provenance: Provenance, made: Draft, remarks: list[str]
 ) -> tuple[dict[str, bytes], dict[str, int]]:
     files: dict[str, bytes] = {}
     conflicts: dict[str, int] = {}
-    present = set(tree.files)
     for path, text in made.rendered.files.items():
         before, now = provenance.rendered.get(path), text.encode()
         if before == text:
@@ -139,7 +164,7 @@ def _merged(
             else:
                 remarks.append(f"{path} changed in the templates; you have removed it")
             continue
-        yours = tree.read(path)
+        yours = present[path]
         found = merge(yours, (before or "").encode(), now) if yours != now else None
         if found is not None and found.content != yours:
             files[path] = found.content

@@ -1,0 +1,257 @@
+"""The git repository that a package is in: what some programs read at its top and nowhere else.
+
+GitHub reads workflows there, pre-commit its configuration, and editors a dev container. A template
+lists such files as ``repository``. For a package below the top of a repository their paths begin
+with `MARK`; everywhere else they are files of the package, which may become a repository.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from shlex import quote
+from typing import TYPE_CHECKING, TypeVar
+
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.generate.edit.addition import ByHand
+    from scaffold.plan import WritePlan
+
+_T = TypeVar("_T")
+
+MARK = ":/"
+"""In front of a path that is relative to the top of the repository, as git writes it."""
+PRE_COMMIT = ".pre-commit-config.yaml"
+_GIT = ".git"
+
+
+class Place(NamedTuple):
+    """Where a package is in a git repository."""
+
+    top: str = ""
+    """The top of the repository, without links; empty if there is no repository."""
+    way: str = ""
+    """From there to the package, or to the directory that a new one is made in."""
+    is_parent: bool = False
+    """Whether a package is still to be made in that directory."""
+
+    def subdirectory(self, package: str) -> str:
+        """Return the way from the top to a package; empty at the top and without repository."""
+        if not self.top or not self.is_parent:
+            return self.way
+        return f"{self.way}/{package}" if self.way else package
+
+
+NOWHERE = Place()
+
+
+def place_of(package: str | None, *, is_parent: bool = False) -> Place:
+    """Return where a package is, or where a new one will be.
+
+    Git is not asked: it may run what the configuration of a repository says.
+
+    Args:
+        package: The directory of the package; ``None`` for one in memory.
+        is_parent: It is the directory that the package is to be made in.
+    """
+    if package is None:
+        return NOWHERE
+    directory = os.path.realpath(package)
+    top = _top(directory)
+    if top is None:
+        return NOWHERE
+    way = os.path.relpath(directory, top).replace(os.sep, "/")
+    return Place(top, "" if way == "." else way, is_parent)
+
+
+def place_of_files(directory: str | None) -> Place:
+    """Return a directory as a place for `read`, whether there is a repository or not."""
+    return NOWHERE if directory is None else Place(os.path.realpath(directory))
+
+
+def inside(files: Mapping[str, _T]) -> dict[str, _T]:
+    """Return the files in the directory of the package."""
+    return {path: value for path, value in files.items() if not path.startswith(MARK)}
+
+
+def above(files: Mapping[str, _T]) -> dict[str, _T]:
+    """Return the files at the top of the repository, with paths relative to it."""
+    return {
+        path.removeprefix(MARK): value for path, value in files.items() if path.startswith(MARK)
+    }
+
+
+def is_below(path: str) -> bool:
+    """Tell whether a path, which may come from a record, leads down from where it starts."""
+    parts = path.removeprefix(MARK).split("/")
+    return not any(part in {"", ".", ".."} or "\0" in part for part in parts)
+
+
+def read(place: Place, path: str) -> bytes | None:
+    """Return a file at the top of a repository; ``None`` if there is no regular file.
+
+    Args:
+        place: The repository.
+        path: Relative to its top.
+    """
+    if not place.top or not is_below(path):
+        return None
+    file = os.path.realpath(os.path.join(place.top, *path.split("/")))
+    if os.path.commonpath([file, place.top]) != place.top:
+        return None
+    with suppress(OSError):
+        if os.path.isfile(file):
+            with open(file, "rb") as stream:
+                return stream.read()
+    return None
+
+
+def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
+    """Return the plan for files at the top of a repository; ``None`` if there are none.
+
+    Args:
+        place: The repository.
+        files: Content by path, relative to the top.
+
+    Raises:
+        InputError: a file cannot be read, or a link leads out of the repository.
+        ConflictError: there is a directory in the place of a file.
+    """
+    from scaffold.plan import WritePlan
+
+    return WritePlan.of(place.top, files) if files else None
+
+
+def write(first: WritePlan | None, package: WritePlan, *, force: bool) -> None:
+    """Write the files at the top of a repository and those of a package, or nothing.
+
+    Args:
+        first: The files at the top, if there are any.
+        package: The files of the package.
+        force: Overwrite files that exist.
+
+    Raises:
+        ConflictError: files would be overwritten.
+        InputError: the system refuses.
+    """
+    if first is None:
+        package.write(force=force)
+        return
+    missing = _missing_directories(first)
+    first.write(force=force)
+    try:
+        package.write(force=force)
+    except BaseException:
+        _undo(first, missing)
+        raise
+
+
+def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
+    """Yield what the user should know of files that nobody reads where they are.
+
+    Args:
+        place: The repository.
+        paths: Files in the package that are for the top of a repository.
+        package: The directory of the package.
+    """
+    if paths and not place.top:
+        verb = "is" if len(paths) == 1 else "are"
+        package = os.path.normpath(package)
+        yield (
+            f"{', '.join(sorted(paths))} {verb} read only at the top of a git repository, and "
+            f"{package} is in none: `git init {quote(package)}` makes it one"
+        )
+
+
+def left_to_owners(
+    place: Place, package: str, files: Mapping[str, str], there: Callable[[str], bytes | None]
+) -> dict[str, ByHand | None]:
+    """Return the files that are not written, with what their owners have to add to them.
+
+    ``None`` where all of it is there.
+
+    Args:
+        place: The repository.
+        package: The name of the package.
+        files: What would be written.
+        there: Returns what a file holds now.
+    """
+    left: dict[str, ByHand | None] = {}
+    for path, text in files.items():
+        before = there(path) if is_shared(path) else None
+        if before is not None and before != text.encode():
+            name = path.removeprefix(MARK)
+            way = place.subdirectory(package) if name != path else ""
+            left[path] = left_to_owner(os.path.relpath(name, way or "."), before, text)
+    return left
+
+
+def is_shared(path: str) -> bool:
+    """Tell whether a file may hold what others need: it is never overwritten once it is there.
+
+    A configuration of pre-commit has hooks of others, and no edit of YAML is certain.
+    """
+    return os.path.basename(path) == PRE_COMMIT
+
+
+def left_to_owner(path: str, there: bytes, text: str) -> ByHand | None:
+    """Return what the owner of a shared file has to add to it; ``None`` if all of it is there.
+
+    Args:
+        path: Relative to the package.
+        there: What the file holds now.
+        text: What it would hold for this package alone.
+    """
+    from scaffold.generate.edit.addition import ByHand
+    from scaffold.generate.edit.pre_commit import missing_entry
+
+    entry = missing_entry(there, text)
+    reason = "the file has other hooks, and no edit of it is certain"
+    return ByHand(path, f"add this to repos: {entry}", reason) if entry else None
+
+
+def _top(directory: str) -> str | None:
+    """Return the innermost directory with a repository, a worktree or a submodule in it."""
+    while not _is_git(os.path.join(directory, _GIT)):
+        parent = os.path.dirname(directory)
+        if parent == directory:
+            return None
+        directory = parent
+    return directory
+
+
+def _is_git(path: str) -> bool:
+    if os.path.isdir(path):
+        return os.path.lexists(os.path.join(path, "HEAD"))
+    prefix = b"gitdir:"
+    with suppress(OSError):
+        if os.path.isfile(path):
+            with open(path, "rb") as file:
+                return file.read(len(prefix)) == prefix
+    return False
+
+
+def _missing_directories(first: WritePlan) -> list[str]:
+    """Return the directories that are made for the files of a plan, inner ones first."""
+    found: set[str] = set()
+    for file in first.changes:
+        directory = os.path.dirname(file.target)
+        while not os.path.lexists(directory):
+            found.add(directory)
+            directory = os.path.dirname(directory)
+    return sorted(found, key=len, reverse=True)
+
+
+def _undo(first: WritePlan, directories: list[str]) -> None:
+    """Take back what a plan has written."""
+    from scaffold.plan import WritePlan
+
+    before = {file.path: file.before for file in first.changes}
+    new = [path for path, content in before.items() if content is None]
+    old = {path: content for path, content in before.items() if content is not None}
+    WritePlan.of(first.root, old, remove=new).write(force=True)
+    for directory in directories:
+        with suppress(OSError):
+            os.rmdir(directory)
