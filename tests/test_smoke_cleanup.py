@@ -48,19 +48,21 @@ os.wait()
 """Starts a process that has nothing in common with its parent any more."""
 
 STUBBORN = """\
-import os, signal
+import os, signal, time
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, signal.SIG_IGN)
 for _ in range(10):
     if os.fork() == 0:
         os.setsid()
-        while True:
+        for _ in range(1000):
+            time.sleep(0.05)
             if os.fork():
                 os._exit(0)
+        os._exit(0)
 print('ready', flush=True)
 signal.pause()
 """
-"""Ignores what can be ignored; its children are never the same for long."""
+"""Ignores what can be ignored; its children are never the same for long, and end some time."""
 
 
 def run_supervised(

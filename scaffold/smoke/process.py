@@ -27,7 +27,7 @@ GRACE_OF_NEXT = 2.0
 """Seconds that it has to obey the next one, once it has ignored the first."""
 GRACE_OF_KILL = 5.0
 """Seconds that the kernel has to end a process."""
-GRACE_OF_SUPERVISOR = 15.0
+GRACE_OF_SUPERVISOR = 60.0
 """Seconds that a supervisor has to end what it has started, and itself."""
 GRACE_OF_CHILDREN = 1.0
 """Seconds that the children of a command may live on after it."""

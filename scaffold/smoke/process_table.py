@@ -19,6 +19,7 @@ class Process(NamedTuple):
     pid: int
     state: str
     parent: int
+    group: int
     session: int
     started: int
 
@@ -43,7 +44,8 @@ def of_pid(pid: int) -> Process | None:
         return None
     # The name in parentheses may hold anything, parentheses too.
     values = status[status.rindex(b")") + 2 :].split()
-    return Process(pid, values[0].decode(), int(values[1]), int(values[3]), int(values[19]))
+    parent, group, session = map(int, values[1:4])
+    return Process(pid, values[0].decode(), parent, group, session, int(values[19]))
 
 
 def descendants(root: int, table: Mapping[int, Process] | None = None) -> list[Process]:

@@ -37,8 +37,8 @@ PERIOD = 0.05
 """Seconds between two looks at what has no event: shared memory, and the children's end."""
 GRACE = 2.0
 """Seconds that processes have to obey SIGTERM."""
-GRACE_OF_KILL = 5.0
-"""Seconds that the kernel has to end a process."""
+GRACE_OF_KILL = 10.0
+"""Seconds that the kernel has to end what may start others all the time."""
 LISTING_PERIOD = 1.0
 """Seconds between two looks at the processes."""
 SECOND_LOOK = 0.5
@@ -262,11 +262,12 @@ class Supervisor:
         self._note_segments()
         deadline = time.monotonic() + GRACE_OF_KILL
         while (living := self._living()) and time.monotonic() < deadline:
-            # What is stopped starts no others, while the list is worked off.
-            for number in (signal.SIGSTOP, signal.SIGKILL):
-                for process in living:
-                    _send(process.pid, number)
-            time.sleep(PERIOD / 10)
+            # The kernel ends a group at once, also one whose members start others all the time.
+            for group in {process.group for process in living} - {os.getpgrp()}:
+                _send(group, signal.SIGKILL, group=True)
+            for process in living:
+                _send(process.pid, signal.SIGKILL)
+            self._reap()
         return left
 
 
