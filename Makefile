@@ -23,7 +23,7 @@ help:
 	@echo 'make test-quick  the tests without real builds'
 	@echo 'make nightly     broken packages through `check`, and killed runs; takes hours'
 	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
-	@echo 'make lint        ruff and mypy on the whole repository'
+	@echo 'make lint        ruff, mypy and the direction of imports, on the whole repository'
 	@echo 'make format      let ruff format the code'
 	@echo 'make examples    write what rules report now into their examples; CODES=... for some'
 	@echo 'make docs        write docs/rules from the rules'
@@ -59,6 +59,7 @@ lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 
 .PHONY: format
 format: $(VENV)/test.stamp

@@ -31,7 +31,7 @@ from typing import NamedTuple
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scaffold.cli import exit_codes, main
-from scaffold.model import discovery
+from scaffold.model.discovery import targets as discovery
 from scaffold.model.package import Package
 from scaffold.smoke import environment
 

@@ -26,12 +26,13 @@ from typing import NamedTuple
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scaffold import content
+from scaffold.ament import lint_cmake
+from scaffold.ament.copyright import headers
 from scaffold.check import registry, runner
-from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.rule import Rule
+from scaffold.diagnostic import Diagnostic
 from scaffold.errors import InputError
-from scaffold.model import cmake_style, discovery
-from scaffold.model.copyright import headers
+from scaffold.model.discovery import targets
 from scaffold.model.package import Package
 from tests import oracles
 
@@ -71,8 +72,8 @@ def cmake_findings(package: Package, _said: list[Diagnostic]) -> set[Finding]:
     """Return what the scanner finds, as the linter counts lines."""
     return {
         (found.source.path, 0 if name in WHOLE_FILE else found.location.line, name)
-        for name in cmake_style.FILTERS
-        for found in cmake_style.findings(package, name)
+        for name in lint_cmake.FILTERS
+        for found in lint_cmake.findings(package, name)
     }
 
 
@@ -125,7 +126,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _find(directory: str) -> list[Package]:
     try:
-        return [target.package for target in discovery.find([directory])]
+        return [target.package for target in targets.find([directory])]
     except InputError as error:
         print(error)
         return []

@@ -31,7 +31,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from scaffold.model import discovery
+from scaffold.model.discovery import targets
 
 LINTERS = ("ament_flake8", "ament_pep257", "ament_copyright", "ament_lint_cmake", "ament_xmllint")
 SAMPLE = 10
@@ -55,7 +55,7 @@ def main() -> None:
     parser.add_argument("--ament", type=Path, action="append", default=[])
     parser.add_argument("--up-to", type=int, default=GROWTH[-1], help="packages of the growth")
     options = parser.parse_args()
-    found = discovery.find([str(options.directory.resolve())])
+    found = targets.find([str(options.directory.resolve())])
     packages = [Path(target.package.directory) for target in found]
     with TemporaryDirectory() as scratch:
         os.environ["XDG_CACHE_HOME"] = os.path.join(scratch, "cache")

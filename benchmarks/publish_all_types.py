@@ -25,11 +25,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scaffold.generate import payload
-from scaffold.model.interface_sources import PrefixSource
-from scaffold.model.interfaces import Definitions
+from scaffold.model.interfaces.definitions import Definitions
+from scaffold.model.interfaces.sources import PrefixSource
 from scaffold.smoke import environment
-from tests.publishing import Publisher, receive
-from tests.test_payload import write
+from tests.generate.payload.publishing import Publisher, receive
+from tests.generate.payload.test_payload import write
 
 
 def main() -> int:

@@ -12,15 +12,15 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 
+from scaffold.ament.flake8.pycodestyle import statements
 from scaffold.check.suppression import apply
+from scaffold.formats.ini import IniFile
+from scaffold.formats.xml import parse
 from scaffold.generate.edit import readme
-from scaffold.model.cmake_lexer import tokenize
-from scaffold.model.ini import IniFile
+from scaffold.model.cmake.lexer import tokenize
 from scaffold.model.package import Package
-from scaffold.model.source import Source
-from scaffold.model.xml_tree import parse
 from scaffold.smoke import output
-from scaffold.style import statements
+from scaffold.source import Source
 
 FIRST = 2_000
 MOST = 500_000

@@ -1,10 +1,10 @@
-"""Compare ``scaffold.style`` with the real Jazzy linters, finding by finding.
+"""Compare ``scaffold.ament`` with the real Jazzy linters, finding by finding.
 
     python benchmarks/style_parity.py --flake8 PATH/ament_flake8 --pep257 PATH/ament_pep257 \
         [--keep DIRECTORY] [--show CODE] [--mutants N [--seed N]] DIRECTORY...
 
 Every DIRECTORY is checked as one tree by ``ament_flake8`` and ``ament_pep257`` (they are run
-inside it, as a package's own tests do) and by ``scaffold.style``. A finding is (file, line, code);
+inside it, as a package's own tests do) and by ``scaffold.ament``. A finding is (file, line, code);
 one that both linters report counts once. Printed per code: how many the linters report, how many
 agree, how many only they and only we report. A *false pass* is a file or a package (a directory
 with a package.xml, else the DIRECTORY) in which the linters find something and we find nothing.
@@ -36,9 +36,9 @@ from xml.etree import ElementTree as ET
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from scaffold.ament import StyleCheck, backend
+from scaffold.files.tree import DiskTree
 from scaffold.model.package import Package
-from scaffold.model.tree import DiskTree
-from scaffold.style import StyleCheck, backend
 
 Finding = tuple[str, int, str]
 FLAKE8_LINE = re.compile(r"^(.+?):(\d+):(-?\d+): ([A-Z]+\d+) ", re.MULTILINE)
@@ -142,7 +142,7 @@ class WholeTree(DiskTree):
 
 
 def ours(directory: Path) -> set[Finding]:
-    """Return what scaffold.style reports for a directory."""
+    """Return what scaffold.ament reports for a directory."""
     package = Package(WholeTree(directory))
     found = StyleCheck([package]).diagnostics(package)
     return {(one.location.path, one.location.line, one.code) for one in found}

@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from scaffold.check.diagnostic import (
-    CreateFile,
-    Diagnostic,
-    Edit,
-    Fix,
-    MakeExecutable,
-    Remove,
-    Safety,
-    Severity,
-)
 from scaffold.check.rule import Example, Report, Rule
-from scaffold.errors import ViewError
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.package import Package
-from scaffold.model.source import Location, Source
+from scaffold.source import Location, Source, ViewError
 
 __all__ = [
     "CreateFile",

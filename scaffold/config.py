@@ -16,7 +16,7 @@ from typing import Any
 
 from scaffold import home, trust
 from scaffold.errors import ConfigError
-from scaffold.model.disk import Disk
+from scaffold.files.disk import Disk
 from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"

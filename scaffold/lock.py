@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 from scaffold.errors import InputError, LockedError
-from scaffold.model.disk import digest
+from scaffold.files.disk import digest
 
 PATIENCE = 30.0
 """Seconds to wait for one holder; another one that is faster gets as many."""

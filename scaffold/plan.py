@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 
 from scaffold import new_files, transaction
 from scaffold.errors import ConflictError, InputError
-from scaffold.model.disk import digest
+from scaffold.files.disk import digest
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.tree import DiskTree
+    from scaffold.files.tree import DiskTree
 
 
 class State(Enum):

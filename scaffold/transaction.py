@@ -21,8 +21,8 @@ from contextlib import contextmanager, suppress
 
 from scaffold import new_files, rename, temporary
 from scaffold.errors import ConflictError
+from scaffold.files.disk import digest
 from scaffold.lock import locked, try_lock
-from scaffold.model.disk import digest
 from scaffold.record import NamedTuple
 
 TREE = "tree"

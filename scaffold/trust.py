@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from scaffold import home
 from scaffold.errors import ConfigError, InputError
-from scaffold.model.disk import Disk
+from scaffold.files.disk import Disk
 
 FILE = "trusted"
 """In the directory of the user's configuration."""

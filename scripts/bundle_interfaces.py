@@ -24,8 +24,8 @@ import os
 import sys
 import xml.etree.ElementTree as ET
 
-from scaffold.model.interface_sources import BUNDLE, PrefixSource
-from scaffold.model.interfaces import KINDS, Definitions, render
+from scaffold.model.interfaces.definitions import KINDS, Definitions, render
+from scaffold.model.interfaces.sources import BUNDLE, PrefixSource
 
 PACKAGES = (
     "action_msgs",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 MODULE = "include(FindPackageHandleStandardArgs)\nfind_package_handle_standard_args(FOO)\n"
 
@@ -47,7 +47,7 @@ class CmakeFileName(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "convention/filename"):
+        for found in lint_cmake.findings(package, "convention/filename"):
             if found.said == "CMakeLists.txt":
                 message = "CMake looks for CMakeLists.txt, spelt exactly so"
             else:

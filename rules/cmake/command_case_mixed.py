@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, Source
-from scaffold.model import cmake_style
 
 
 class CommandCaseMixed(Rule):
@@ -52,7 +52,7 @@ class CommandCaseMixed(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         fixes: dict[str, Fix | None] = {}
-        for found in cmake_style.findings(package, "readability/mixedcase"):
+        for found in lint_cmake.findings(package, "readability/mixedcase"):
             path = found.source.path
             if path not in fixes:
                 fixes[path] = _lower(package, found.source)
@@ -64,8 +64,8 @@ class CommandCaseMixed(Rule):
 def _lower(package: Package, source: Source) -> Fix | None:
     """Return one fix for the whole file, unless a word in question may be no command."""
     edits: list[Edit] = []
-    commands = cmake_style.outline(package, source).commands
-    for line in cmake_style.lines(source):
+    commands = lint_cmake.outline(package, source).commands
+    for line in lint_cmake.lines(source):
         start, end = line.start + line.name_start, line.start + line.name_end
         if line.command and line.command == line.command.upper() != line.command.lower():
             if start not in commands:

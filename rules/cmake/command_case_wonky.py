@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 
 class CommandCaseWonky(Rule):
@@ -43,11 +43,11 @@ class CommandCaseWonky(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "readability/wonkycase"):
+        for found in lint_cmake.findings(package, "readability/wonkycase"):
             source = found.source
             lower = found.said.lower()
             fix = None
-            if found.start in cmake_style.outline(package, source).commands:
+            if found.start in lint_cmake.outline(package, source).commands:
                 edit = Edit(source.path, found.start, found.end, lower)
                 fix = Fix(f"write {lower}", (edit,))
             yield self.report(found, f'"{found.said}" mixes cases: write "{lower}"', fix)

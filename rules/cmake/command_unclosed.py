@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
-from scaffold.model import cmake_style
-from scaffold.model.package import CMAKE_LISTS
+from scaffold.files.tree import CMAKE_LISTS
 
 
 class CommandUnclosed(Rule):
@@ -38,7 +38,7 @@ class CommandUnclosed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "syntax"):
+        for found in lint_cmake.findings(package, "syntax"):
             if found.location.path == CMAKE_LISTS and _is_unparsable(package):
                 continue  # that it cannot be parsed is said already
             yield self.report(found, f'no ")" follows the "(" of {found.said}')

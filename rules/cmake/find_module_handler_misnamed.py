@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 INCLUDE = "include(FindPackageHandleStandardArgs)\n"
 
@@ -41,7 +41,7 @@ class FindModuleHandlerMisnamed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "package/stdargs"):
+        for found in lint_cmake.findings(package, "package/stdargs"):
             given, _, expected = found.said.partition(" ")
             name = found.source.path.rpartition("/")[2]
             yield self.report(found, f"{given} is handed over in {name}: expected {expected}")

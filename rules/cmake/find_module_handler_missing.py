@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 INCLUDE = "include(FindPackageHandleStandardArgs)\n"
 CALL = "find_package_handle_standard_args(FOO DEFAULT_MSG FOO_LIBRARY)\n"
@@ -50,6 +50,6 @@ class FindModuleHandlerMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "package/consistency"):
+        for found in lint_cmake.findings(package, "package/consistency"):
             verb = "includes" if found.said[0].isupper() else "calls"
             yield self.report(found, f"this find module never {verb} {found.said}")

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model import needs
-from scaffold.model.brought_along import provided_by
-from scaffold.model.known import ROS_PACKAGES
+from scaffold.model.catalog import ROS_PACKAGES, provided_by
+from scaffold.model.manifest import requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
@@ -77,7 +76,7 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         declared = manifest.declared_names
-        along = provided_by(declared) | needs.declared(package, for_tests=True).along
+        along = provided_by(declared) | requirements.declared(package, for_tests=True).along
         told: set[str] = set()
         for found in package.cmake.found_packages:
             name = found.name

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.errors import ViewError
-from scaffold.model.brought_along import provided_by
-from scaffold.model.known import ROS_PACKAGES
+from scaffold.model.catalog import ROS_PACKAGES, provided_by
+from scaffold.source import ViewError
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(std_msgs REQUIRED)\n"

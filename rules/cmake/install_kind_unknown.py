@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.near import nearest
+from scaffold.suggestions import nearest
 
 _KINDS = (
     "TARGETS",

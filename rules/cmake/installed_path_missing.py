@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake import Install, InstallItem
-from scaffold.model.cmake_facts import is_made_by_build, runs_if_exists
-from scaffold.model.left_out import is_left_out
-from scaffold.model.near import nearest
+from scaffold.model.cmake.ament import is_made_by_build, runs_if_exists
+from scaffold.model.cmake.lists import Install, InstallItem
+from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.suggestions import nearest
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake_interfaces import Generation, generations
-from scaffold.model.interface_files import interface_files
-from scaffold.model.interfaces import KINDS, Definitions
+from scaffold.model.cmake.rosidl import Generation, generations
+from scaffold.model.interfaces.definitions import KINDS, Definitions
+from scaffold.model.interfaces.files import interface_files
 
 _LISTS = (
     "project(my_msgs)\nfind_package(geometry_msgs REQUIRED)\nfind_package(std_msgs REQUIRED)\n"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.brought_along import provided_by
-from scaffold.model.cmake import CMakeLists
-from scaffold.model.cmake_facts import has_unknown_commands
-from scaffold.model.cmake_interfaces import generations
-from scaffold.model.interfaces import KINDS
+from scaffold.model.catalog import provided_by
+from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.model.cmake.lists import CMakeLists
+from scaffold.model.cmake.rosidl import generations
+from scaffold.model.interfaces.definitions import KINDS
 
 _TOOLS = ("ament_cmake", "ament_lint", "rosidl_", "Python3", "Eigen3")
 """What brings no interfaces along, except for those that all interfaces use."""

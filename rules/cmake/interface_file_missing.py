@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake_interfaces import generations
-from scaffold.model.interface_syntax import SECTIONS
-from scaffold.model.interfaces import nearest_word
+from scaffold.model.cmake.rosidl import generations
+from scaffold.model.interfaces.definitions import nearest_word
+from scaffold.model.interfaces.syntax import SECTIONS
 
 _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 LONG = "set(WORDS " + "word " * 26 + "word)\n"
 
@@ -47,6 +47,6 @@ class LineTooLong(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "linelength"):
-            message = f"{found.said} characters: ament_lint_cmake allows {cmake_style.LINE_LENGTH}"
+        for found in lint_cmake.findings(package, "linelength"):
+            message = f"{found.said} characters: ament_lint_cmake allows {lint_cmake.LINE_LENGTH}"
             yield self.report(found, message)

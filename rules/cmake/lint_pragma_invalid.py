@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 
 class LintPragmaInvalid(Rule):
@@ -47,6 +47,6 @@ class LintPragmaInvalid(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, cmake_style.PRAGMA_INVALID):
+        for found in lint_cmake.findings(package, lint_cmake.PRAGMA_INVALID):
             message = f"{found.said!r} is no filter with - or +: ament_lint_cmake crashes on it"
             yield self.report(found, message)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 
 class OddIndentation(Rule):
@@ -41,6 +41,6 @@ class OddIndentation(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "whitespace/indent"):
+        for found in lint_cmake.findings(package, "whitespace/indent"):
             number = "one blank" if found.said == "1" else f"{found.said} blanks"
             yield self.report(found, f"indented by {number}: ament_lint_cmake wants steps of two")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
+from scaffold.ament.lint_cmake import Finding
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, Source
-from scaffold.model import cmake_style
-from scaffold.model.cmake_style import Finding
 
 
 class ParenthesisSpaceMismatch(Rule):
@@ -70,8 +70,8 @@ class ParenthesisSpaceMismatch(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "whitespace/mismatch"):
-            outline = cmake_style.outline(package, found.source)
+        for found in lint_cmake.findings(package, "whitespace/mismatch"):
+            outline = lint_cmake.outline(package, found.source)
             last = found.end - 1
             fix = None
             if not outline.touches_literal(last, found.end):

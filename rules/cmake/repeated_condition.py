@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
+from scaffold.ament.lint_cmake import Finding
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
-from scaffold.model.cmake_style import Finding
 
 BLOCK_ENDS = {"else", "endforeach", "endfunction", "endif", "endmacro", "endwhile"}
 
@@ -58,7 +58,7 @@ class RepeatedCondition(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "readability/logic"):
+        for found in lint_cmake.findings(package, "readability/logic"):
             if found.said.lower() in BLOCK_ENDS:
                 message = f"{found.said}() repeats what opens its block; CMake ignores the words"
             else:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.left_out import is_left_out
-from scaffold.model.near import nearest
+from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.suggestions import nearest
 
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
 _MAKERS = (

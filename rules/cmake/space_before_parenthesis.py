@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 
 class SpaceBeforeParenthesis(Rule):
@@ -38,10 +38,10 @@ class SpaceBeforeParenthesis(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "whitespace/extra"):
+        for found in lint_cmake.findings(package, "whitespace/extra"):
             path, start, end = found.source.path, found.start, found.end
             fix = None
-            if not cmake_style.outline(package, found.source).touches_literal(start, end):
+            if not lint_cmake.outline(package, found.source).touches_literal(start, end):
                 fix = Fix("remove the blank", (Edit(path, start, end, ""),))
             message = f'a blank stands between "{found.said}" and its "("'
             yield self.report(found, message, fix)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
+from scaffold.ament.lint_cmake import Finding
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
-from scaffold.model.cmake_style import Finding
 
 
 class TabInCmake(Rule):
@@ -42,12 +42,12 @@ class TabInCmake(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "whitespace/tabs"):
+        for found in lint_cmake.findings(package, "whitespace/tabs"):
             line = found.source.position(found.start)[0]
             start = found.source.offset(line)
             end = start + len(found.source.lines[line - 1])
             fix = None
-            if not cmake_style.outline(package, found.source).touches_literal(start, end):
+            if not lint_cmake.outline(package, found.source).touches_literal(start, end):
                 fix = Fix("write blanks", (_edit(found, start, end),))
             yield self.report(found, "a tab: ament_lint_cmake wants blanks", fix)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake_facts import has_unknown_commands
-from scaffold.model.cmake_targets import TAKING_TARGETS, defined_targets, targets_named_once
-from scaffold.model.near import nearest
+from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.model.cmake.targets import TAKING_TARGETS, defined_targets, targets_named_once
+from scaffold.suggestions import nearest
 
 _LISTS = (
     "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import cmake_style
 
 
 class TrailingSpaceInCmake(Rule):
@@ -41,9 +41,9 @@ class TrailingSpaceInCmake(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in cmake_style.findings(package, "whitespace/eol"):
+        for found in lint_cmake.findings(package, "whitespace/eol"):
             path, start, end = found.source.path, found.start, found.end
             fix = None
-            if not cmake_style.outline(package, found.source).touches_literal(start, end):
+            if not lint_cmake.outline(package, found.source).touches_literal(start, end):
                 fix = Fix("remove the blanks", (Edit(path, start, end, ""),))
             yield self.report(found, "the line ends in blanks", fix)

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_configurations import may_be_set_elsewhere, set_names
-from scaffold.model.launch_py import LaunchCall, LaunchFile
+from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

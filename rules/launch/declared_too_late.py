@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_configurations import may_be_set_elsewhere
-from scaffold.model.launch_order import later_declarations, steps
-from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch.configurations import may_be_set_elsewhere
+from scaffold.model.launch.execution_order import later_declarations, steps
+from scaffold.model.launch.python_file import LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

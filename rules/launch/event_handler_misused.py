@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_entities import CALLBACKS, HANDLERS, function_of
-from scaffold.model.launch_py import LaunchCall, LaunchFile
-from scaffold.model.launch_signatures import ACTIONS
+from scaffold.model.launch.actions import CALLBACKS, HANDLERS, function_of
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+from scaffold.model.launch.signatures import ACTIONS
 
 _OF_PROCESSES = ("OnProcessExit", "OnProcessIO", "OnProcessStart")
 _NO_PROCESSES = frozenset(

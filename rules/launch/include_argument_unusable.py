@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_includes import given_arguments
-from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch.includes import given_arguments
+from scaffold.model.launch.python_file import LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_includes import Included, given_arguments, included
-from scaffold.model.launch_py import LaunchCall, LaunchFile
+from scaffold.model.launch.includes import Included, given_arguments, included
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile
 
 _INCLUDED = (
     "from launch import LaunchDescription\n"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_py import LaunchFile
-from scaffold.model.launch_signatures import signature
+from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.signatures import signature
 
 _OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
 _LAUNCH = (

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model import xml_tree
-from scaffold.model.xml_tree import Element
+from scaffold.formats import xml as xml_tree
+from scaffold.formats.xml import Element
 
 _TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "nothing like it"}
 _ATTRIBUTES: Mapping[tuple[str, str], str] = {

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_entities import entities, what_it_is
-from scaffold.model.launch_py import NODES, LaunchFile
+from scaffold.model.launch.actions import entities, what_it_is
+from scaffold.model.launch.python_file import NODES, LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"

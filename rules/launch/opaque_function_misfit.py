@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.call_fit import misfit_of_context
-from scaffold.model.launch_entities import function_of
-from scaffold.model.launch_py import LaunchCall, LaunchFile
+from scaffold.model.launch.actions import function_of
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+from scaffold.model.python.signatures import misfit_of_context
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\n"

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
-from scaffold.model.launch_markup import markup_files
-from scaffold.model.launch_nodes import consumers
-from scaffold.model.launch_py import LaunchFile
+from scaffold.model.launch.markup_file import markup_files
+from scaffold.model.launch.nodes import consumers
+from scaffold.model.launch.python_file import LaunchFile
 
 _HOME = (
     r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|~?/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.declared_parameters import declared_by
-from scaffold.model.launch_nodes import started_nodes
-from scaffold.model.launch_values import value_given
+from scaffold.model.launch.nodes import started_nodes
+from scaffold.model.launch.parameter_values import value_given
+from scaffold.model.parameters.declared import declared_by
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_py import LaunchFile
-from scaffold.model.launch_text_uses import truth_tests
+from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.substitutions import truth_tests
 
 _TRUTHS = frozenset({"true", "false", "0", "1"})
 _LAUNCH = (

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_py import NODES, LaunchCall, LaunchFile
-from scaffold.model.launch_signatures import ACTIONS
+from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
+from scaffold.model.launch.signatures import ACTIONS
 
 _NODE = ("executable", "package", "name", "namespace", "exec_name")
 _TEXTS: Mapping[str, tuple[str, ...]] = {

@@ -83,8 +83,8 @@ class CopyrightNoticeMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.model import copyright as notices
-        from scaffold.model.lint_use import copyright_use
+        from scaffold.ament import copyright as notices
+        from scaffold.ament.copyright import copyright_use
 
         found = [header for header in notices.headers(package) if not header.holders]
         if not found:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python_module import PythonModule
-from scaffold.model.test_files import (
+from scaffold.model.python.module import PythonModule
+from scaffold.model.tests import (
     LAUNCH,
     Fixture,
     arguments,

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python_module import PythonModule
-from scaffold.model.returns import is_generator, may_end, returned
-from scaffold.model.test_files import LAUNCH, is_test_case, marks, may_start, methods
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.returns import is_generator, may_end, returned
+from scaffold.model.tests import LAUNCH, is_test_case, marks, may_start, methods
 
 _MARKS = ("launch_test", "rostest")
 _TEST = (

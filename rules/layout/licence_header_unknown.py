@@ -80,8 +80,8 @@ class LicenceHeaderUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.model import copyright as notices
-        from scaffold.model.lint_use import copyright_use
+        from scaffold.ament import copyright as notices
+        from scaffold.ament.copyright import copyright_use
 
         found = [one for one in notices.headers(package) if one.holders and not one.licence]
         if not found:
@@ -100,7 +100,7 @@ class LicenceHeaderUnknown(Rule):
 
 
 def _reason(text: str) -> str:
-    from scaffold.model.copyright import departure
+    from scaffold.ament.copyright import departure
 
     if not text:
         return "no licence header stands below the notice"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.python_module import Import
-from scaffold.model.setup_py import FindPackages
-from scaffold.model.values import UNKNOWN
+from scaffold.model.python.module import Import
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.setup_py.setup_py import FindPackages
 
 _TESTS = frozenset({"test", "tests"})
 _FILES = {

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python_module import PythonModule
-from scaffold.model.scopes import FunctionNode
-from scaffold.model.test_files import LAUNCH, arguments, is_test_case, marks, methods, test_modules
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.tests import LAUNCH, arguments, is_test_case, marks, methods, test_modules
 
 _SET_UP = ("setUp", "tearDown", "setUpClass", "tearDownClass")
 _PLAIN = {"setUp": "setup_method", "tearDown": "teardown_method"}

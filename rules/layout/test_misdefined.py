@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.errors import ViewError
-from scaffold.model.python_module import PythonModule
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.source import ViewError
 
 _TEST = (
     "import pytest\n\n\n"

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python_module import PythonModule
-from scaffold.model.scopes import FunctionNode
-from scaffold.model.test_files import (
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.tests import (
     fixture_decorator,
     fixtures,
     has_other_ways,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interface_files import interface_files
-from scaffold.model.interface_values import FieldType
-from scaffold.model.interfaces import Definitions, nearest_word
+from scaffold.model.interfaces.definitions import Definitions, nearest_word
+from scaffold.model.interfaces.files import interface_files
+from scaffold.model.interfaces.types import FieldType
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
 

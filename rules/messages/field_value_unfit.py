@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.message_types import MessageTypes
-from scaffold.model.message_values import Misfits
+from scaffold.model.messages.fields import Misfits
+from scaffold.model.messages.inference import MessageTypes
 
 _CODE = (
     "from rclpy.node import Node\n"

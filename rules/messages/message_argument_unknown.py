@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces import nearest_word
-from scaffold.model.message_types import MessageClass, MessageTypes
+from scaffold.model.interfaces.definitions import nearest_word
+from scaffold.model.messages.inference import MessageClass, MessageTypes
 
 _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_entities import Endpoint, Publisher
-from scaffold.model.topics import is_private, is_remapped, one_sided
+from scaffold.model.programs.topics import is_private, is_remapped, one_sided
+from scaffold.model.rclpy.entities import Endpoint, Publisher
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -71,7 +72,7 @@ class PrivateTopicDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         sent, awaited = one_sided(package)
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for private in (*facts.publishers, *facts.subscriptions):
                 if not is_private(private) or is_remapped(package, private):
                     continue

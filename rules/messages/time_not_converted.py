@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.message_types import MessageTypes
-from scaffold.model.message_values import rclpy_time
+from scaffold.model.messages.fields import rclpy_time
+from scaffold.model.messages.inference import MessageTypes
 
 _CODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_entities import Endpoint
-from scaffold.model.topics import one_sided
+from scaffold.model.programs.topics import one_sided
+from scaffold.model.rclpy.entities import Endpoint
 
 _SHORTEST = 5
 _NODE = (

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.generated_code import escape_problem
-from scaffold.model.interface_files import interface_files
+from scaffold.model.interfaces.files import interface_files
+from scaffold.model.interfaces.reserved_names import escape_problem
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 

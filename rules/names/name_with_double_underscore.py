@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.ros_names import topic_problem
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.names import topic_problem
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -41,7 +42,7 @@ class NameWithDoubleUnderscore(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for entity in facts.endpoints:
                 argument = entity.name_argument
                 name = entity.name

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.ros_names import namespace_problem, node_problem
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.names import namespace_problem, node_problem
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -52,7 +53,7 @@ class NodeNameInvalid(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node in facts.nodes:
                 at = node.node_name_location
                 if isinstance(node.node_name, str) and at.path == facts.module.path:

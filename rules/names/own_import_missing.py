@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.near import nearest
-from scaffold.model.own_modules import (
+from scaffold.model.install.modules import (
     absolute_name,
     file_of,
     may_be_made,
@@ -14,7 +13,8 @@ from scaffold.model.own_modules import (
     modules_of,
     own_roots,
 )
-from scaffold.model.python_module import Import, PythonModule
+from scaffold.model.python.module import Import, PythonModule
+from scaffold.suggestions import nearest
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"

@@ -6,8 +6,8 @@ import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake_facts import programs
-from scaffold.model.known import ROS_PACKAGES
+from scaffold.model.catalog import ROS_PACKAGES
+from scaffold.model.cmake.ament import programs
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/{}.py DESTINATION lib/${{PROJECT_NAME}})\n"
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_asked_about
-from scaffold.model.ros_names import topic_problem
+from scaffold.model.python.guards import is_asked_about
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.names import topic_problem
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -69,7 +70,7 @@ class TopicNameInvalid(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for entity in facts.endpoints:
                 argument = entity.name_argument
                 if argument is None or not isinstance(entity.name, str):

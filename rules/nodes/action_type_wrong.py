@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.message_types import MessageTypes
-from scaffold.model.node_entities import ActionClient
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.messages.inference import MessageTypes
+from scaffold.model.rclpy.entities import ActionClient
+from scaffold.model.rclpy.file import NodeFacts
 
 _WHOLE = r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*"
 _NODE = (

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _FUNCTIONS = {
     "rclpy.spin": ("node",),
@@ -82,7 +82,7 @@ class ArgumentMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 needed = _needed(facts, call)
                 if not needed or any(isinstance(one, ast.Starred) for one in call.args):

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_signatures import Excess, excess_arguments
+from scaffold.model.rclpy.api_signatures import Excess, excess_arguments
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _CODE = (
     "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
@@ -96,7 +96,7 @@ class ArgumentUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for excess in excess_arguments(facts):
                 fix = _fix(facts, excess)
                 yield self.report(facts.module.location(excess.node), _message(excess), fix)

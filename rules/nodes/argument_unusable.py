@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Argument, Client, Endpoint, Entity, Parameter, Service
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import UNKNOWN, kind_of
+from scaffold.model.python.values import UNKNOWN, kind_of
+from scaffold.model.rclpy.entities import Argument, Client, Endpoint, Entity, Parameter, Service
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _TYPES = ("msg_type", "srv_type", "action_type")
 _NAMES = ("topic", "srv_name", "action_name")
@@ -79,7 +79,7 @@ class ArgumentUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for entity in facts.entities:
                 for argument in entity.arguments.values():
                     problem = _problem(facts, entity, argument)

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.node_entities import Endpoint, Entity, Timer
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.entities import Endpoint, Entity, Timer
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -56,7 +56,7 @@ class ArgumentsSwapped(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for entity in facts.entities:
                 wanted = self._wanted(facts, entity)
                 if wanted:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 AWAITED = ("asyncio.sleep", "asyncio.wait", "asyncio.wait_for", "asyncio.gather")
 _NODE = (
@@ -48,7 +49,7 @@ class AsyncioInCallback(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             functions = {id(callback.function) for _, callback in facts.callbacks}
             if "asyncio.run" in facts.module.source.text or "run_until" in facts.module.source.text:
                 continue

@@ -6,8 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 PROPERTIES = frozenset(
     {"clients", "context", "default_callback_group", "executor", "guards", "handle", "publishers"}
@@ -67,7 +68,7 @@ class AttributeOfNodeReplaced(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node in facts.classes:
                 for target in _targets(node):
                     at = facts.module.location(target)

@@ -6,18 +6,18 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.near import nearest
-from scaffold.model.node_attributes import (
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.api import NODE, known_names
+from scaffold.model.rclpy.attributes import (
     defined_by,
     given_from_outside,
     is_read_in_full,
     names_of_bases,
     used_by_classes,
 )
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import NODE, known_names
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.suggestions import nearest
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -84,7 +84,7 @@ class AttributeOfNodeUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         bases, given = names_of_bases(package), given_from_outside(package)
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             used = used_by_classes(facts) if facts.classes else {}
             for node in facts.classes:
                 if node.node in used and node.name not in bases and is_read_in_full(node):

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of, has, known_names
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.api import class_of, has, known_names
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -53,7 +53,7 @@ class AttributeOfObjectUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files() if package.name != "rclpy" else ():
+        for facts in rclpy_files(package) if package.name != "rclpy" else ():
             for node in facts.module.walk(ast.Attribute):
                 if isinstance(node.ctx, ast.Load):
                     yield from self._check(facts, node)

@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import NODE, has
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -44,7 +44,7 @@ class AttributeUsedBeforeSet(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node in facts.classes:
                 if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
                     continue

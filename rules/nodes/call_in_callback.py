@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_waits import has_more_threads, in_callbacks, in_constructors
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.programs.blocking import has_more_threads, in_callbacks, in_constructors
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -95,7 +95,7 @@ class CallInCallback(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if has_more_threads(facts):
                 continue
             seen: set[ast.AST] = set()

@@ -6,8 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_callbacks import numbers_taken
-from scaffold.model.node_entities import (
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.callbacks import numbers_taken
+from scaffold.model.rclpy.entities import (
     ActionServer,
     Callback,
     Entity,
@@ -15,8 +16,7 @@ from scaffold.model.node_entities import (
     Subscription,
     Timer,
 )
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -84,7 +84,7 @@ class CallbackArity(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for given, callback in _given_callbacks(facts):
                 takes = numbers_taken(callback)
                 if takes is None or any(n in takes for n in given[0]):

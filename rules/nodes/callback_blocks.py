@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_waits import has_more_threads, in_callbacks
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.programs.blocking import has_more_threads, in_callbacks
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 SHORT = 0.05
 """Seconds of sleep that nobody notices."""
@@ -78,7 +78,7 @@ class CallbackBlocks(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if has_more_threads(facts):
                 continue
             for function, origin in in_callbacks(facts):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -47,7 +48,7 @@ class CallbackCalled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for _, callback in facts.callbacks:
                 if not callback.is_called:
                     continue

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_entities import Parameter
-from scaffold.model.parameter_objects import is_of_node
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.entities import Parameter
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.parameters.objects import is_of_node
 
 _RIGHT = {"integer": "integer_range", "double": "floating_point_range"}
 _NODE = (
@@ -73,7 +74,7 @@ class DefaultOutOfRange(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for one in (one for one in facts.parameters if is_of_node(facts, one)):
                 message = _problem(one) if one.default_node is not None else ""
                 if message and not is_harmless(

@@ -6,8 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_waits import Executed, has_more_threads, in_callbacks, in_constructors
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.programs.blocking import (
+    Executed,
+    has_more_threads,
+    in_callbacks,
+    in_constructors,
+)
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
@@ -54,7 +59,7 @@ class EndlessLoop(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if has_more_threads(facts):
                 continue
             seen: set[ast.AST] = set()

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _PROPERTIES = (
     *("clients", "guards", "publishers", "services", "subscriptions", "timers", "waitables"),
@@ -78,7 +78,7 @@ class EntitiesTakenForList(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for name in _PROPERTIES:
                 for attribute in facts.module.index.attributes(name):
                     error = _error(facts, attribute)

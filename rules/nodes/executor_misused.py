@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.executors import used_of_executor
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.programs.executors import used_of_executor
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
@@ -71,7 +71,7 @@ class ExecutorMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 added = _added_class(facts, call)
                 if added:

@@ -6,9 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.parameter_objects import FIELDS
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.api import PARAMETER, class_of
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.parameters.objects import FIELDS
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -45,7 +46,7 @@ class FieldOfPlainValue(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for field in FIELDS:
                 for attribute in facts.module.index.attributes(field):
                     match facts.evaluator.single_value(attribute.value):

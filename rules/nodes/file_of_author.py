@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.values import PathValue
+from scaffold.model.python.values import PathValue
+from scaffold.model.rclpy.file import rclpy_files
 
 _READERS = frozenset(
     {"open", "io.open", "pathlib.Path", "cv2.imread", "numpy.load", "numpy.loadtxt"}
@@ -69,7 +70,7 @@ class FileOfAuthor(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             module = facts.module
             for call in module.walk(ast.Call):
                 name = module.qualified_name(call.func)

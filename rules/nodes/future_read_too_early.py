@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_asked_about
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.python_module import PythonModule
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.guards import is_asked_about
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
 WAITS = frozenset({"spin_until_future_complete", "spin_once", "done", "wait", "spin", "join"})
@@ -55,7 +55,7 @@ class FutureReadTooEarly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for function in facts.module.function_nodes:
                 for name in _futures(facts.module, function):
                     if _waits(facts.module, function):

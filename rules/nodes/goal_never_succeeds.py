@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import ActionServer
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.entities import ActionServer
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _ENDS = frozenset({"abort", "canceled"})
 _NODE = (
@@ -58,7 +58,7 @@ class GoalNeverSucceeds(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files() if package.name != "rclpy" else ():
+        for facts in rclpy_files(package) if package.name != "rclpy" else ():
             seen: set[FunctionNode] = set()
             if facts.module.index.attributes("succeed"):
                 continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 _WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
 _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
@@ -38,7 +39,7 @@ class InitAsContextManager(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.init_calls:
                 if call.in_with:
                     message = "rclpy.init() of Jazzy is no context manager: the node never starts"

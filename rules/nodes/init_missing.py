@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.init_use import calls_others, late_init, may_init
-from scaffold.model.program_starts import Run, files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import Run, files_of, run_of, starts_of
+from scaffold.model.programs.initialization import calls_others, late_init, may_init
 
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n\n\n"

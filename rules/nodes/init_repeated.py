@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import RclpyCall
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.entities import RclpyCall
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _MAIN = (
     "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
@@ -39,7 +39,7 @@ class InitRepeated(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             started: RclpyCall | None = None
             calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location)
             for call in calls:

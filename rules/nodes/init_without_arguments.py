@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
 
@@ -40,7 +41,7 @@ class InitWithoutArguments(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.init_calls:
                 given = [word.value for word in call.call.keywords if word.arg == "args"]
                 given = given or call.call.args[:1]

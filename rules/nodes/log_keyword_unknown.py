@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.loggers import is_of_rclpy
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.logging import is_of_rclpy
 
 _METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _KNOWN = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name")
@@ -74,7 +74,7 @@ class LogKeywordUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for attribute in facts.module.index.attributes("get_logger"):
                 call = _log_call(facts, attribute)
                 if call is not None and is_of_rclpy(facts, attribute):

@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.loggers import is_of_rclpy
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import is_known
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.python.values import is_known
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.logging import is_of_rclpy
 
 _SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
 _SET = "rclpy.logging.set_logger_level"
@@ -72,7 +72,7 @@ class LogLevelUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call, level in _levels(facts):
                 value = facts.evaluator.evaluate(level)
                 is_severity = type(value) is int and value in _SEVERITIES

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.loggers import is_of_rclpy
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import UNKNOWN
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.logging import is_of_rclpy
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = (
@@ -55,7 +55,7 @@ class LogMessageNotText(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 method = _get_logger(call)
                 if method is None or not call.args or not is_of_rclpy(facts, method):

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
@@ -47,7 +48,7 @@ class LogSeverityVaries(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             module = facts.module
             for node in module.walk(ast.IfExp):
                 chosen = {self._severity(one) for one in (node.body, node.orelse)}

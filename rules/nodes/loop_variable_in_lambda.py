@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -51,7 +51,7 @@ class LoopVariableInLambda(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for _, callback in facts.callbacks:
                 function = callback.function
                 if isinstance(function, ast.Lambda) and callback.node is function:

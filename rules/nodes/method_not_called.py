@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import NODE, class_of, is_method
+from scaffold.model.rclpy.api import NODE, class_of, is_method
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
@@ -60,7 +60,7 @@ class MethodNotCalled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files() if package.name != "rclpy" else ():
+        for facts in rclpy_files(package) if package.name != "rclpy" else ():
             for node in facts.module.walk(ast.Attribute):
                 if not isinstance(node.ctx, ast.Load) or not _wants_value(facts, node):
                     continue

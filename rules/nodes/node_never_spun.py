@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import RclpyCall
-from scaffold.model.node_owners import NodeOwner
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.entities import RclpyCall
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeOwner
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
@@ -80,7 +80,7 @@ class NodeNeverSpun(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             waiting = {node.name: node for node in facts.classes if _waits(node)}
             if not facts.init_calls or not waiting:
                 continue

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import NODE, has
+from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
 _NODE = (
@@ -71,7 +71,7 @@ class NodeNotConstructed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node in facts.classes:
                 yield from self._check(facts, node)
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
 _NODE = (
@@ -58,7 +58,7 @@ class NodeWithoutBase(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for class_ in facts.module.classes.values():
                 if _lacks_base(facts, class_.node):
                     message = f"{class_.name} uses methods of Node, but does not inherit from it"

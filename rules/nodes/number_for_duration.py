@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _DURATION = "rclpy.duration.Duration"
 _TIME = "rclpy.time.Time"
@@ -66,7 +66,7 @@ class NumberForDuration(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node, problem in _problems(facts):
                 yield self.report(facts.module.location(node), problem)
 

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of, has, is_method
+from scaffold.model.rclpy.api import class_of, has, is_method
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
 _PRESETS = "rclpy.qos.qos_profile_"
@@ -88,7 +88,7 @@ class ObjectCalledWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 problem = _problem(facts, call)
                 if problem:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.publish_rate import publish_calls
+from scaffold.model.programs.publishing import publish_calls
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _NODE = (
     "from rclpy.node import Node\n"
@@ -51,7 +52,7 @@ class OneShotVolatile(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for publisher in facts.publishers:
                 owner = publisher.owner
                 if not isinstance(owner, NodeClass) or owner.constructor is None:

@@ -6,9 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.call_fit import misfit
-from scaffold.model.called_function import called_function
-from scaffold.model.handlers import is_harmless
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.python.signatures import misfit
+from scaffold.model.rclpy.called_functions import called_function
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -79,7 +80,7 @@ class OwnCallUnfit(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 called = called_function(package, facts, call)
                 problem = misfit(call, called.takes, bound=called.bound) if called else ""

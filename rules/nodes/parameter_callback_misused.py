@@ -6,11 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Callback
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import CALLBACKS, callback_arguments
-from scaffold.model.parameter_results import RESULT
-from scaffold.model.returns import returned
+from scaffold.model.python.returns import returned
+from scaffold.model.rclpy.entities import Callback
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.callbacks import RESULT
+from scaffold.model.rclpy.parameters.objects import CALLBACKS, callback_arguments
 
 _OF_ONE = frozenset({"name", "value", "type_", "get_parameter_value"})
 _OF_MAPPINGS = frozenset({"get", "items", "keys", "values"})
@@ -78,7 +78,7 @@ class ParameterCallbackMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for method in CALLBACKS:
                 for attribute in facts.module.index.attributes(method):
                     call = facts.module.parent(attribute)

@@ -6,12 +6,12 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.descriptors import DESCRIPTOR, message_made
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_entities import Parameter
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import is_of_node
-from scaffold.model.values import UNKNOWN
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.entities import Parameter
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
+from scaffold.model.rclpy.parameters.objects import is_of_node
 
 _RANGES = ("floating_point_range", "integer_range")
 _NODE = (
@@ -90,7 +90,7 @@ class ParameterDeclaredWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for one in (one for one in facts.parameters if is_of_node(facts, one)):
                 for node, problem in _problems(facts, one):
                     if not is_harmless(facts.module, one.call, problem.rpartition(": ")[2]):

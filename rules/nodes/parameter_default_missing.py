@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Parameter
+from scaffold.model.rclpy.entities import Parameter
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -50,7 +51,7 @@ class ParameterDefaultMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for parameter in facts.parameters:
                 problem = self._problem(parameter)
                 if problem:

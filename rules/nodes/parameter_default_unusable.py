@@ -6,11 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_entities import Parameter
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import is_of_node
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.api import PARAMETER, class_of
+from scaffold.model.rclpy.entities import Parameter
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.objects import is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "the type is Parameter.Type.{}"
@@ -77,7 +77,7 @@ class ParameterDefaultUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for one in (one for one in facts.parameters if is_of_node(facts, one)):
                 node = one.default_node
                 problem = _type_problem(one) or (_default_problem(facts, one, node) if node else "")

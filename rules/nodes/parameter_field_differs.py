@@ -6,10 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.declared_parameters import Declared, declared_by
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import FIELDS, is_listed_parameter, name_asked, parameter_read
-from scaffold.model.values import UNKNOWN
+from scaffold.model.parameters.declared import Declared, declared_by
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.objects import (
+    FIELDS,
+    is_listed_parameter,
+    name_asked,
+    parameter_read,
+)
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -82,7 +87,7 @@ class ParameterFieldDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for name in FIELDS:
                 for field in facts.module.index.attributes(name):
                     read, declared = _read(package, facts, field)

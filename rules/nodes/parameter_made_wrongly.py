@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import PARAMETER
-from scaffold.model.values import UNKNOWN
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.api import PARAMETER
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _KINDS = {
     "BOOL": bool,
@@ -76,7 +76,7 @@ class ParameterMadeWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 for node, problem in _problems(facts, call):
                     yield self.report(facts.module.location(node), problem)

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import ParameterRead
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_values import stands_for_value
+from scaffold.model.rclpy.entities import ParameterRead
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.values import stands_for_value
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -70,7 +70,7 @@ class ParameterMessageUsed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for read in facts.parameter_reads:
                 used = _used_as_number(facts, read)
                 if used is not None:

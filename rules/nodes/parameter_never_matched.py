@@ -6,16 +6,16 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_alone, declared_by, has_always
-from scaffold.model.near import nearest
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import (
+from scaffold.model.parameters.declared import declared_alone, declared_by, has_always
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.model.rclpy.parameters.objects import (
     is_listed_parameter,
     name_asked,
     names_compared,
     types_compared,
 )
+from scaffold.suggestions import nearest
 
 _TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
 _NODE = (
@@ -68,7 +68,7 @@ class ParameterNeverMatched(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         alone = {node: {str(one.name) for one in found} for node, found in declared_alone(package)}
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for attribute in facts.module.index.attributes("name"):
                 node = _owner(facts, attribute)
                 if node is not None and node in alone:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.parameter_values import objects_used
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.parameters.values import objects_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -79,7 +80,7 @@ class ParameterObjectUsed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for read, use in objects_used(facts):
                 _, end = facts.module.span(read.call)
                 fix = Fix("take the value", (Edit(facts.module.path, end, end, ".value"),))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_alone, has_always
-from scaffold.model.handlers import is_harmless
-from scaffold.model.near import nearest
-from scaffold.model.node_entities import Parameter, ParameterRead
-from scaffold.model.parameter_objects import names_used_by
+from scaffold.model.parameters.declared import declared_alone, has_always
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.entities import Parameter, ParameterRead
+from scaffold.model.rclpy.parameters.objects import names_used_by
+from scaffold.suggestions import nearest
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

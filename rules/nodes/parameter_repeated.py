@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -48,7 +49,7 @@ class ParameterRepeated(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for one in facts.parameters:
                 if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
                     message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"

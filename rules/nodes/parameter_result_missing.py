@@ -6,12 +6,12 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Callback
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import CALLBACKS
-from scaffold.model.parameter_results import wrong_value
-from scaffold.model.returns import is_generator, may_end_with_items, returned
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.returns import is_generator, may_end_with_items, returned
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.entities import Callback
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.callbacks import wrong_value
+from scaffold.model.rclpy.parameters.objects import CALLBACKS
 
 _ON, _POST, _PRE = CALLBACKS
 _NODE = (
@@ -97,7 +97,7 @@ class ParameterResultMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for method in CALLBACKS:
                 for attribute in facts.module.index.attributes(method):
                     call = facts.module.parent(attribute)

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import Declared, declared_by
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import ParameterMade, parameters_set
+from scaffold.model.parameters.declared import Declared, declared_by
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.objects import ParameterMade, parameters_set
 
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor\n"
@@ -69,7 +69,7 @@ class ParameterSetRefused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for owner, made in parameters_set(facts):
                 problem = _problem(declared_by(owner, package), made)
                 if problem:

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import FIELDS
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.rclpy.api import PARAMETER, class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.objects import FIELDS
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -56,7 +56,7 @@ class ParameterValueCalled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 problem = _problem(facts, call.func)
                 if problem:

@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_by
-from scaffold.model.handlers import is_harmless
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.parameter_objects import parameter_read
+from scaffold.model.parameters.declared import declared_by
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.parameters.objects import parameter_read
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -55,7 +55,7 @@ class ParameterValueUnfit(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if not facts.parameter_reads and not facts.parameters:
                 continue
             for node, problem in _problems(package, facts):

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import PARAMETER, class_of
+from scaffold.model.rclpy.api import PARAMETER, class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _METHODS = ("set_parameters", "set_parameters_atomically")
 _NODE = (
@@ -56,7 +56,7 @@ class ParametersSetWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for method in _METHODS:
                 for attribute in facts.module.index.attributes(method):
                     call = facts.module.parent(attribute)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
 _TERMINAL |= {"readline", "termios", "tty", "typer"}
@@ -49,7 +49,7 @@ class PrintInNode(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if _is_at_terminal(facts):
                 continue
             for node in facts.classes:

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.errors import ViewError
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import Unknown
+from scaffold.model.python.values import Unknown
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.source import ViewError
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -57,7 +57,7 @@ class PublisherNeverUsed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if not facts.init_calls or facts.module.in_tests:
                 continue  # a class that others inherit from, or use
             for publisher in facts.publishers:

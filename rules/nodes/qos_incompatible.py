@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Endpoint, Publisher
-from scaffold.model.qos import conflict_of
-from scaffold.model.topics import topics_of
+from scaffold.model.programs.topics import topics_of
+from scaffold.model.rclpy.entities import Endpoint, Publisher
+from scaffold.model.rclpy.qos import conflict_of
 
 _NODE = (
     "from rclpy.node import Node\n"

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Publisher, Subscription
+from scaffold.model.rclpy.entities import Publisher, Subscription
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"
@@ -51,7 +52,7 @@ class QosMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             entities: list[Publisher | Subscription] = [*facts.publishers, *facts.subscriptions]
             for entity in entities:
                 problem = self._problem(entity)

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import Endpoint
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.values import kind_of
+from scaffold.model.python.values import kind_of
+from scaffold.model.rclpy.entities import Endpoint
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _POLICIES = {
     "reliability": "ReliabilityPolicy",
@@ -96,7 +96,7 @@ class QosUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for entity in facts.entities:
                 given = entity.argument("qos_profile") if isinstance(entity, Endpoint) else None
                 problem = _problem(facts, given.node, given.value) if given else ""

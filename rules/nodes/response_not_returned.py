@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.message_types import MessageTypes
-from scaffold.model.node_entities import Service
-from scaffold.model.returns import is_generator, may_end, returned, value_set_before
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.messages.inference import MessageTypes
+from scaffold.model.python.returns import is_generator, may_end, returned, value_set_before
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.entities import Service
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"

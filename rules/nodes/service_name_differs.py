@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_entities import Endpoint
-from scaffold.model.topics import is_private, is_remapped
+from scaffold.model.programs.topics import is_private, is_remapped
+from scaffold.model.rclpy.entities import Endpoint
+from scaffold.model.rclpy.file import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -60,7 +61,7 @@ class ServiceNameDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        files = list(package.rclpy_files())
+        files = list(rclpy_files(package))
         offered = [one for facts in files for one in (*facts.services, *facts.action_servers)]
         wanted = [one for facts in files for one in (*facts.clients, *facts.action_clients)]
         served = {item.name for item in offered}

@@ -6,9 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_harmless
-from scaffold.model.identity import other_name
-from scaffold.model.launch_uses import Use, meant_package
+from scaffold.model.launch.references import Use, meant_package
+from scaffold.model.manifest.package_name import other_name
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.file import rclpy_files
 
 _FUNCTIONS = frozenset(
     f"ament_index_python{module}.{function}"
@@ -57,7 +58,7 @@ class ShareOfMisspeltPackage(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
                     continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.model.rclpy.file import rclpy_files
 
 _MAIN = (
     "import rclpy\n\n\n"
@@ -44,7 +45,7 @@ class ShutdownRepeated(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.shutdown_calls:
                 if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                     continue

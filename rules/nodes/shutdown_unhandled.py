@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_entities import RclpyCall
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.entities import RclpyCall
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
 _HANDLED = (
@@ -73,7 +73,7 @@ class ShutdownUnhandled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if not facts.init_calls:
                 continue
             for call in facts.spin_calls:

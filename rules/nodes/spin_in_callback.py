@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_waits import in_callbacks
+from scaffold.model.programs.blocking import in_callbacks
+from scaffold.model.rclpy.file import rclpy_files
 
 MOST = 2
 """Arguments that name no executor: the node, and a future."""
@@ -53,7 +54,7 @@ class SpinInCallback(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for function, origin in in_callbacks(facts):
                 for call in facts.spin_calls:
                     if call.name.startswith("executor.") or len(call.call.args) > MOST:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.executors import Shutdowns
-from scaffold.model.node_entities import RclpyCall
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.programs.executors import Shutdowns
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.entities import RclpyCall
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
@@ -54,7 +54,7 @@ class SpunWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             shutdowns = Shutdowns(facts)
             for call in facts.spin_calls:
                 problem = _problem(facts, call, shutdowns)

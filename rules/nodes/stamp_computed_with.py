@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.rclpy_names import class_of
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NODE = (
@@ -81,7 +81,7 @@ class StampComputedWith(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             if not any(facts.module.index.attributes("stamp")):
                 continue
             for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:

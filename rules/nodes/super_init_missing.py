@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -80,7 +80,7 @@ class SuperInitMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for node in facts.classes:
                 skipped = _skipping(facts, node)
                 if skipped is not None:

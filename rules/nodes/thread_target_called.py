@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.handlers import is_asked_about
-from scaffold.model.nodes import NodeFacts
+from scaffold.model.python.guards import is_asked_about
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
@@ -87,7 +87,7 @@ class ThreadTargetCalled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for call in facts.module.walk(ast.Call):
                 for node, problem in _problems(facts, call):
                     yield self.report(facts.module.location(node), problem)

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.node_owners import NodeClass
-from scaffold.model.nodes import NodeFacts
-from scaffold.model.returns import is_generator, may_end, returned
-from scaffold.model.scopes import FunctionNode
+from scaffold.model.python.returns import is_generator, may_end, returned
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass
 
 _TRANSITIONS = (
     *("on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error"),
@@ -92,7 +92,7 @@ class TransitionResult(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             for class_ in facts.classes:
                 if class_.is_lifecycle:
                     for name, function in class_.methods.items():

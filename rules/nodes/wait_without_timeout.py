@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.node_waits import in_callbacks, in_constructors
+from scaffold.model.programs.blocking import in_callbacks, in_constructors
+from scaffold.model.rclpy.file import rclpy_files
 
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
 _NODE = (
@@ -49,7 +50,7 @@ class WaitWithoutTimeout(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             seen: set[ast.AST] = set()
             for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
                 for call in facts.calls_in(function):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest_structure import FORMATS, GROUPS, collapse, structure
-from scaffold.model.manifest_values import CONDITION, GROUP_CONDITION, fits
+from scaffold.model.manifest.structure import FORMATS, GROUPS, collapse, structure
+from scaffold.model.manifest.values import CONDITION, GROUP_CONDITION, fits
 
 DEPEND = '<package format="{}">\n  <depend condition="{}">rclpy</depend>\n</package>\n'
 

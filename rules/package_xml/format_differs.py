@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest import XmlModel
-from scaffold.model.manifest_structure import FORMATS
+from scaffold.model.manifest.manifest import XmlModel
+from scaffold.model.manifest.structure import FORMATS
 
 LINE = (
     '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" '

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.brought_along import provided_by
-from scaffold.model.known import similar_package
-from scaffold.model.needs import declared, needs
+from scaffold.model.catalog import provided_by, similar_package
+from scaffold.model.manifest.requirements import declared, needs
 
 _INTERFACES = ("_msgs", "_srvs")
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'

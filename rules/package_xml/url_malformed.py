@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest_structure import structure
-from scaffold.model.manifest_values import is_uri
+from scaffold.model.manifest.structure import structure
+from scaffold.model.manifest.values import is_uri
 
 
 class UrlMalformed(Rule):

@@ -44,11 +44,11 @@ class XmlNotWellFormed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.model import xml_files
+        from scaffold.ament import xmllint
 
-        for path in xml_files.of_package(package):
+        for path in xmllint.of_package(package):
             if path != MANIFEST:
-                mistake = xml_files.mistake(package, path)
+                mistake = xmllint.mistake(package, path)
                 if mistake is not None:
                     at, message = mistake
                     yield self.report(at, message)

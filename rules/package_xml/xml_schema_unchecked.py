@@ -66,8 +66,8 @@ class XmlSchemaUnchecked(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.model import xml_schema
+        from scaffold.ament import xmllint
 
-        for verdict in xml_schema.verdicts(package):
+        for verdict in xmllint.verdicts(package):
             if not verdict.is_checked:
                 yield self.report(verdict.location, verdict.message)

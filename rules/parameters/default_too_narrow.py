@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_by
-from scaffold.model.parameter_files import parameter_file, parameter_paths, value_type
-from scaffold.model.parameter_types import a_type, agreed_type, narrow_default
-from scaffold.model.parameter_use import nodes_for
+from scaffold.model.launch.parameter_files import nodes_for
+from scaffold.model.parameters.declared import declared_by
+from scaffold.model.parameters.files import parameter_file, parameter_paths, value_type
+from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.errors import ParseError
-from scaffold.model import yaml_tree
-from scaffold.model.parameter_files import parameter_paths
-from scaffold.model.yaml_tree import Mapping, Scalar, Sequence, YamlNode
+from scaffold.formats import yaml as yaml_tree
+from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
+from scaffold.model.parameters.files import parameter_paths
+from scaffold.source import ParseError
 
 _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_by, place_of
-from scaffold.model.handlers import is_harmless
-from scaffold.model.node_entities import ParameterRead
-from scaffold.model.node_owners import NodeClass, NodeOwner
-from scaffold.model.parameter_files import parameter_file, parameter_paths
-from scaffold.model.parameter_use import nodes_for
-from scaffold.model.yaml_tree import Sequence
+from scaffold.formats.yaml import Sequence
+from scaffold.model.launch.parameter_files import nodes_for
+from scaffold.model.parameters.declared import declared_by, place_of
+from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.model.python.guards import is_harmless
+from scaffold.model.rclpy.entities import ParameterRead
+from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import declared_by, place_of
-from scaffold.model.launch_markup import MarkupNode, is_known, markup_files
-from scaffold.model.near import nearest
-from scaffold.model.node_owners import NodeClass, NodeOwner
-from scaffold.model.package_programs import nodes_of
+from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
+from scaffold.model.parameters.declared import declared_by, place_of
+from scaffold.model.programs.executables import nodes_of
+from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.suggestions import nearest
 
 _WORDS = {
     r"[+-]?(?:0|[1-9]\d*)": "integer",

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import own_nodes
-from scaffold.model.parameter_files import ParameterFile, parameter_file, parameter_paths
-from scaffold.model.parameter_use import names_alike, node_names, use_of
+from scaffold.model.launch.parameter_files import names_alike, node_names, use_of
+from scaffold.model.parameters.declared import own_nodes
+from scaffold.model.parameters.files import ParameterFile, parameter_file, parameter_paths
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import Declared, declared_by, place_of
-from scaffold.model.launch_nodes import started_nodes
-from scaffold.model.launch_values import value_given
-from scaffold.model.parameter_files import number_of, parameter_file, parameter_paths
-from scaffold.model.parameter_use import nodes_for
+from scaffold.model.launch.nodes import started_nodes
+from scaffold.model.launch.parameter_files import nodes_for
+from scaffold.model.launch.parameter_values import value_given
+from scaffold.model.parameters.declared import Declared, declared_by, place_of
+from scaffold.model.parameters.files import number_of, parameter_file, parameter_paths
 
 _NODE = (
     "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"

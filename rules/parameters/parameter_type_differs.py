@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.declared_parameters import declared_by
-from scaffold.model.launch_nodes import consumers
-from scaffold.model.launch_values import value_given
-from scaffold.model.parameter_files import Entry, parameter_file, parameter_paths, value_type
-from scaffold.model.parameter_types import a_type, agreed_type, narrow_default
-from scaffold.model.parameter_use import nodes_for
-from scaffold.model.yaml_tree import Scalar
+from scaffold.formats.yaml import Scalar
+from scaffold.model.launch.nodes import consumers
+from scaffold.model.launch.parameter_files import nodes_for
+from scaffold.model.launch.parameter_values import value_given
+from scaffold.model.parameters.declared import declared_by
+from scaffold.model.parameters.files import Entry, parameter_file, parameter_paths, value_type
+from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

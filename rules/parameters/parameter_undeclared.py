@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.declared_parameters import Declared, declared_by
-from scaffold.model.launch_nodes import StartedNode, started_nodes
-from scaffold.model.near import nearest
-from scaffold.model.parameter_files import parameter_file, parameter_paths
-from scaffold.model.parameter_use import is_loaded, nodes_for, use_of
+from scaffold.model.launch.nodes import StartedNode, started_nodes
+from scaffold.model.launch.parameter_files import is_loaded, nodes_for, use_of
+from scaffold.model.parameters.declared import Declared, declared_by
+from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.suggestions import nearest
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch_nodes import StartedNode
-from scaffold.model.parameter_files import Section, parameter_file, parameter_paths
-from scaffold.model.parameter_use import use_of
+from scaffold.model.launch.nodes import StartedNode
+from scaffold.model.launch.parameter_files import use_of
+from scaffold.model.parameters.files import Section, parameter_file, parameter_paths
 
 _CONTROL = "controller_manager"
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.setup_py import EntryPoint
+from scaffold.model.rclpy.file import node_facts
+from scaffold.model.setup_py.setup_py import EntryPoint
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
@@ -99,7 +100,7 @@ class EntryPointUnusable(Rule):
                 )
                 yield self.report(function, message)
             return
-        facts = package.node_facts(path)
+        facts = node_facts(package, path)
         if any(node.name == entry.function for node in facts.classes):
             message = f"{entry.function} is a node class: a program needs a function that spins it"
             yield self.report(entry, message)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest import Manifest
-from scaffold.model.placeholders import is_placeholder, is_placeholder_address
-from scaffold.model.spdx import spdx_of
+from scaffold.model.manifest.manifest import Manifest
+from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
+from scaffold.model.manifest.spdx import spdx_of
 
 _MANIFEST = (
     '<package format="3">\n'

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model import setup_keywords
-from scaffold.model.identity import other_name
+from scaffold.model.manifest.package_name import other_name
+from scaffold.model.setup_py import edit as setup_edit
 
 _MANIFEST = '<package format="3"><name>talker</name></package>\n'
 
@@ -66,7 +66,7 @@ class NameDiffers(Rule):
         setup = package.setup_py
         line = package.manifest.all("name")[0].location.line
         message = f"the name is {keyword.value!r}, but {name!r} in package.xml, line {line}"
-        start, end = setup_keywords.literal_span(setup, keyword)
+        start, end = setup_edit.literal_span(setup, keyword)
         fix = None
         if setup.module.source.text[start + 1 : end - 1] == keyword.value:
             edit = Edit("setup.py", start + 1, end - 1, name)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.own_modules import names_imported
-from scaffold.model.python_module import PythonModule
-from scaffold.model.setup_py import SetupPy
+from scaffold.model.install.modules import names_imported
+from scaffold.model.python.module import PythonModule
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.setup_py.setup_py import SetupPy
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
@@ -72,7 +73,7 @@ class NodeWithoutEntryPoint(Rule):
         started = {entry.module for entry in setup.entry_points}
         used = names_imported(package)
         copied = _started_classes(package, started)
-        for facts in package.rclpy_files():
+        for facts in rclpy_files(package):
             module = facts.module
             name = module.path.removesuffix(".py").replace("/", ".")
             if name in started or name in used or not facts.classes or not _is_program(module):
@@ -102,7 +103,7 @@ def _started_classes(package: Package, started: set[str]) -> set[str]:
     """Return the names of the nodes that entry points start; others of the name are copies."""
     return {
         node.name
-        for facts in package.rclpy_files()
+        for facts in rclpy_files(package)
         if facts.module.path.removesuffix(".py").replace("/", ".") in started
         for node in facts.classes
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model import setup_keywords
+from scaffold.model.setup_py import edit as setup_edit
 
 EXTRAS = ("test", "tests", "testing")
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
@@ -54,7 +54,7 @@ class TestsNotRun(Rule):
         if setup.keyword("tests_require") is not None:
             return
         new = "extras_require={'test': ['pytest']}"
-        edit = setup_keywords.insert(setup, new)
+        edit = setup_edit.insert(setup, new)
         can_fix = edit is not None and setup.keyword("extras_require") is None
         message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {new}"
         yield self.report(setup, message, Fix(f"add {new}", (edit,)) if edit and can_fix else None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model import setup_keywords
+from scaffold.model.setup_py import edit as setup_edit
 
 _NEW = "extras_require={'test': ['pytest']}"
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    {},\n)\n"
@@ -47,7 +47,7 @@ class TestsRequireIgnored(Rule):
         old = setup.keyword("tests_require")
         if old is None or setup.keyword("extras_require") is not None:
             return
-        span = setup_keywords.span(setup, "tests_require")
+        span = setup_edit.span(setup, "tests_require")
         fix = Fix(f"write {_NEW}", (Edit("setup.py", *span, _NEW),)) if span else None
         message = f"setuptools 72 and later ignore tests_require: colcon runs 0 tests; write {_NEW}"
         yield self.report(old, message, fix)

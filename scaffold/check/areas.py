@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from scaffold.model.package import SETUP_CFG, SETUP_PY, Package
+from scaffold.files.tree import SETUP_CFG, SETUP_PY
+from scaffold.model.package import Package
 
 
 def silent(package: Package) -> frozenset[str]:

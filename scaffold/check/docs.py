@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.check.rule import Example, Report, Rule
 
 if TYPE_CHECKING:
-    from scaffold.style.codes import StyleCode
+    from scaffold.ament.codes import StyleCode
 
 _LANGUAGES = {".xml": "xml", ".py": "python", ".txt": "cmake", ".cfg": "ini", ".yaml": "yaml"}
 
@@ -35,8 +35,8 @@ def page(rule: type[Rule]) -> str:
 
 def style_page(style: StyleCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
-    from scaffold.style.finding import FLAKE8, PEP257
-    from scaffold.style.fixable import SAFE, UNSAFE
+    from scaffold.ament.finding import FLAKE8, PEP257
+    from scaffold.ament.fixable import SAFE, UNSAFE
 
     names = [
         name

@@ -5,12 +5,13 @@ from __future__ import annotations
 import pickle
 
 from scaffold.check import runner
-from scaffold.check.diagnostic import Diagnostic, Safety
 from scaffold.check.rule import Example, Report, Rule
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Safety
+from scaffold.files.tree import MemoryTree
 from scaffold.model.package import Package
-from scaffold.model.rosdep import RosdepKeys
-from scaffold.model.tree import MemoryTree
-from scaffold.model.workspace import Workspace
+from scaffold.model.workspace.rosdep import RosdepKeys
+from scaffold.model.workspace.workspace import Workspace
 
 
 def package_of(example: Example) -> Package:

@@ -4,22 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from scaffold.check.diagnostic import (
-    Change,
-    CreateFile,
-    Diagnostic,
-    Edit,
-    Fix,
-    MakeExecutable,
-    Remove,
-    Safety,
-)
 from scaffold.check.overlay import Overlay
 from scaffold.check.soundness import breaks
-from scaffold.errors import ViewError
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
+from scaffold.files.tree import MANIFEST
 from scaffold.model.package import Package
-from scaffold.model.tree import MANIFEST
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 MAX_ROUNDS = 10
 """Fixes that still find work after this many rounds work against each other."""
@@ -196,7 +188,7 @@ def _go_together(one: Edit, other: Edit) -> bool:
     """Tell whether both insert a dependency, each on a line of its own, at one place."""
     if one.path != MANIFEST or not one.start == one.end == other.start == other.end:
         return False
-    from scaffold.model.manifest_edit import inserted_dependency
+    from scaffold.model.manifest.edit import inserted_dependency
 
     first, second = inserted_dependency(one), inserted_dependency(other)
     return bool(first and second and first.is_before == second.is_before) and (
@@ -218,7 +210,7 @@ def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
     """Return the order of edits; at one place dependencies stand as people sort them."""
     if edit.path != MANIFEST or edit.start != edit.end:
         return edit.start, edit.end, (0, "")
-    from scaffold.model.manifest_edit import inserted_dependency
+    from scaffold.model.manifest.edit import inserted_dependency
 
     inserted = inserted_dependency(edit)
     return edit.start, edit.end, (inserted.rank, inserted.name) if inserted else (0, "")

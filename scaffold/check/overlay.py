@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
-from scaffold.model.disk import MOST_BYTES
-from scaffold.model.tree import Tree, within
+from scaffold.files.disk import MOST_BYTES
+from scaffold.files.tree import Tree, within
 
 MOST_KEPT = 2_000_000
 """Bytes of a file up to which it is read only once; nobody edits larger ones."""

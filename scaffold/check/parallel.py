@@ -6,17 +6,17 @@ import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Sequence
 
-from scaffold.check import notes
-from scaffold.check.diagnostic import Diagnostic
+from scaffold.check.cache import worker_reads
 from scaffold.check.session import Result
-from scaffold.model.discovery import Target
+from scaffold.diagnostic import Diagnostic
+from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 
 BATCH = 16
 """Packages per batch: large enough to share the start of ruff, small enough for progress."""
 
 Batch = Callable[[Sequence[Target]], list[Result]]
-_Found = tuple[list[tuple[int, list[Diagnostic]]], list[notes.Note]]
+_Found = tuple[list[tuple[int, list[Diagnostic]]], list[worker_reads.Note]]
 
 _work: tuple[Batch, Sequence[Target], Sequence[Package]]
 """Set before the workers are forked and inherited by them: rules are loaded by path and could not
@@ -47,7 +47,7 @@ def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
 def _run(start: int) -> _Found:
     check, targets, packages = _work
     found = [(one.files, one.diagnostics) for one in check(targets[start : start + BATCH])]
-    return found, list(notes.take(packages))
+    return found, list(worker_reads.take(packages))
 
 
 def _all_packages(targets: Sequence[Target]) -> list[Package]:

@@ -8,10 +8,10 @@ from collections.abc import Collection, Sequence
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import CodeType, ModuleType
 
-from scaffold.check import compiled
+from scaffold.check.cache import rule_bytecode
 from scaffold.check.rule import Rule
 from scaffold.errors import ContentError
-from scaffold.model.disk import digest
+from scaffold.files.disk import digest
 
 
 def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]]:
@@ -30,7 +30,7 @@ def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]
     for root in roots:
         prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
         files = _rule_files(root)
-        codes = compiled.codes(root, [path for _, path in files], _compile)
+        codes = rule_bytecode.codes(root, [path for _, path in files], _compile)
         for (area, path), code in zip(files, codes, strict=True):
             if area in without:
                 continue

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from scaffold.check.diagnostic import Diagnostic, Fix, Severity
-from scaffold.model.source import Location
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import Fix
+from scaffold.source import Location
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package

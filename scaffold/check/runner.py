@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import islice
 
-from scaffold.check.diagnostic import Diagnostic
-from scaffold.check.internal import FileTooLarge, RuleCrashed, UnparsableFile
+from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.rule import Rule
-from scaffold.errors import EXHAUSTED, TooLargeError, ViewError, exhausted
+from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, crash_message
+from scaffold.errors import EXHAUSTED, exhausted
+from scaffold.files.tree import MANIFEST
 from scaffold.model.package import Package
-from scaffold.model.source import Location
-from scaffold.model.tree import MANIFEST
+from scaffold.source import Location, TooLargeError, ViewError
 
-MOST_FINDINGS = 5000
-"""Of one code in one package; a flood of them must not hold the check up."""
 MOST_REFUSED = 100
 """Files of one package that exhaust a rule one after the other."""
 
@@ -56,15 +54,6 @@ def _crash(rule: Rule, package: Package, error: Exception) -> Diagnostic:
     path = _file_at_fault(package, error) or MANIFEST
     message = crash_message(f"the rule {rule.code} {rule.name}", error)
     return RuleCrashed().report(Location.start_of(path), message)
-
-
-def crash_message(what: str, error: Exception) -> str:
-    """Return the message about a defect: what failed, how, and where in our code."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    where = f" (line {trace.tb_lineno} of {trace.tb_frame.f_code.co_name})" if trace else ""
-    return f"{what} failed: {type(error).__name__}: {error}{where}"
 
 
 def _file_at_fault(package: Package, error: Exception) -> str | None:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
-from scaffold.check.diagnostic import Diagnostic, Severity
-from scaffold.check.internal import (
+from scaffold.check.engine_rules import (
     INTERNAL_RULES,
     FileTooLarge,
     RuleCrashed,
@@ -16,12 +15,13 @@ from scaffold.check.internal import (
 )
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
-from scaffold.model.discovery import Target
+from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, Severity
+from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.style import StyleCheck
+    from scaffold.ament import StyleCheck
 
 
 PARALLEL_FROM = 8
@@ -128,7 +128,7 @@ class Session:
         chosen = self.selection.select
         if chosen and all(prefix[:2] in self._areas for prefix in chosen):
             return None
-        from scaffold.style import StyleCheck
+        from scaffold.ament import StyleCheck
 
         return StyleCheck(packages)
 
@@ -160,16 +160,16 @@ class Session:
 
 def _bounded(found: list[Diagnostic]) -> list[Diagnostic]:
     """Leave out what one code says too often, and say so."""
-    if len(found) <= runner.MOST_FINDINGS:
+    if len(found) <= MOST_FINDINGS:
         return found
     counts: dict[str, int] = {}
     kept: list[Diagnostic] = []
     for one in found:
         counts[one.code] = count = counts.get(one.code, 0) + 1
-        if count <= runner.MOST_FINDINGS:
+        if count <= MOST_FINDINGS:
             kept.append(one)
-        elif count == runner.MOST_FINDINGS + 1:
-            said = f"{one.code} is found more than {runner.MOST_FINDINGS} times"
+        elif count == MOST_FINDINGS + 1:
+            said = f"{one.code} is found more than {MOST_FINDINGS} times"
             kept.append(TooManyFindings().report(one.location, f"{said}; the rest is not shown"))
     return kept
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from scaffold.errors import ParseError
-from scaffold.model.source import Source
+from scaffold.source import ParseError, Source
 
 
 def reader_of(path: str) -> Callable[[str, str], None] | None:
@@ -43,26 +42,26 @@ def _read_python(path: str, text: str) -> None:
 
 
 def _read_xml(path: str, text: str) -> None:
-    from scaffold.model import xml_tree
+    from scaffold.formats import xml as xml_tree
 
     xml_tree.parse(Source(path, text))
 
 
 def _read_cmake(path: str, text: str) -> None:
-    from scaffold.model.cmake import CMakeLists
+    from scaffold.model.cmake.lists import CMakeLists
 
     for at, message in CMakeLists.parse(Source(path, text)).errors:
         raise ParseError(at, message)
 
 
 def _read_yaml(path: str, text: str) -> None:
-    from scaffold.model import yaml_tree
+    from scaffold.formats import yaml as yaml_tree
 
     yaml_tree.parse(Source(path, text))
 
 
 def _read_ini(path: str, text: str) -> None:
-    from scaffold.model.ini import IniFile
+    from scaffold.formats.ini import IniFile
 
     IniFile.parse(Source(path, text))
 

@@ -10,11 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable
 
-from scaffold.check.diagnostic import Diagnostic
-from scaffold.check.internal import UnusedSuppression
-from scaffold.errors import ViewError
+from scaffold.check.engine_rules import UnusedSuppression
+from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
-from scaffold.model.source import Source
+from scaffold.source import Source, ViewError
 
 _COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
 _CODE = r"\b[A-Z]+[0-9]+"

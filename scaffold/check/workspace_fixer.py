@@ -10,15 +10,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from scaffold.check import fixer
+from scaffold.check.cache.results import Needs
 from scaffold.check.fixer import MAX_ROUNDS, Fixed
 from scaffold.check.overlay import Overlay
-from scaffold.check.remembered import Needs
 from scaffold.check.session import PARALLEL_FROM
 
 if TYPE_CHECKING:
-    from scaffold.check.diagnostic import Diagnostic
     from scaffold.check.session import Session
-    from scaffold.model.discovery import Target
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.model.discovery.targets import Target
 
 
 class Progress(Protocol):

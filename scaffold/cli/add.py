@@ -11,13 +11,13 @@ from scaffold.cli import terminal
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from scaffold.check.diagnostic import Diagnostic
     from scaffold.check.session import Session
     from scaffold.config import Config
-    from scaffold.generate.add import Added
-    from scaffold.generate.piece import Target, Wanted
-    from scaffold.generate.questions import Given
-    from scaffold.generate.template import Question, Template
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.generate.add.add import Added
+    from scaffold.generate.add.rendered_part import Target, Wanted
+    from scaffold.generate.questions.questions import Given
+    from scaffold.generate.templates.template import Question, Template
     from scaffold.model.package import Package
     from scaffold.plan import WritePlan
 
@@ -26,7 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
     from scaffold import content
     from scaffold.cli import flags, settings
-    from scaffold.generate import parts, questions, template
+    from scaffold.generate import parts
+    from scaffold.generate.questions import questions
+    from scaffold.generate.templates import template
 
     templates = template.load(content.roots("templates", settings.load().content))
     kinds = parts.addable(templates)
@@ -62,7 +64,8 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check.session import Session
     from scaffold.cli import writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
-    from scaffold.generate import add, repository
+    from scaffold.generate import repository
+    from scaffold.generate.add import add
 
     target, wanted = _order(options)
     session = Session(registry.load(content.roots("rules")), Selection())
@@ -91,11 +94,12 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
     """Return the package that is meant, and what is to be added to it."""
     from scaffold import config, content
     from scaffold.errors import InputError
-    from scaffold.generate import parts, template
-    from scaffold.generate.defaults import User
-    from scaffold.generate.piece import Target, Wanted
-    from scaffold.generate.questions import choose
-    from scaffold.generate.template import PARTS
+    from scaffold.generate import parts
+    from scaffold.generate.add.rendered_part import Target, Wanted
+    from scaffold.generate.questions.defaults import User
+    from scaffold.generate.questions.questions import choose
+    from scaffold.generate.templates import template
+    from scaffold.generate.templates.template import PARTS
     from scaffold.model.package import Package
 
     settings = config.load(content=tuple(options.content))
@@ -114,9 +118,10 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
 
 def _asked(templates: Mapping[str, Template]) -> list[Question]:
     """Return the questions that may be answered; the name is an argument of its own."""
-    from scaffold.generate import parts, questions
-    from scaffold.generate.own import OF_PACKAGES
-    from scaffold.generate.template import BASE
+    from scaffold.generate import parts
+    from scaffold.generate.add.regenerate import OF_PACKAGES
+    from scaffold.generate.questions import questions
+    from scaffold.generate.templates.template import BASE
 
     kinds = [templates[kind] for kind in parts.addable(templates)]
     names = {kind.name_question for kind in kinds}
@@ -129,8 +134,8 @@ def _given(
     options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
 ) -> dict[str, Given]:
     """Return the user's answers; what the configuration says of packages, these know better."""
-    from scaffold.generate import defaults, questions
-    from scaffold.generate.own import OF_PACKAGES
+    from scaffold.generate.add.regenerate import OF_PACKAGES
+    from scaffold.generate.questions import defaults, questions
 
     asked = _asked(templates)
     table = questions.from_table(
@@ -145,9 +150,9 @@ def _given(
 def _directory(given: str | None) -> str:
     """Return the directory of the package that is meant."""
     from scaffold.errors import InputError
-    from scaffold.model import colcon
-    from scaffold.model.disk import Disk
-    from scaffold.model.tree import MANIFEST
+    from scaffold.files.disk import Disk
+    from scaffold.files.tree import MANIFEST
+    from scaffold.model.discovery import colcon
 
     if given is not None:
         if not os.path.isfile(os.path.join(given, MANIFEST)):
@@ -163,7 +168,7 @@ def _directory(given: str | None) -> str:
 
 def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -> None:
     """Raise if a file of the package cannot be parsed; ``--force`` wants only those it edits."""
-    from scaffold.check.internal import UnparsableFile
+    from scaffold.check.engine_rules import UnparsableFile
     from scaffold.errors import InputError
 
     for diagnostic in before:
@@ -178,7 +183,7 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
 
 def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:
     """Return what the checker says only now, and what nobody expects."""
-    from scaffold.generate import add
+    from scaffold.generate.add import add
 
     found = add.new_diagnostics(before, session.check(added.package))
     return [diagnostic for diagnostic in found if not added.is_expected(diagnostic)]
@@ -186,7 +191,7 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
     """Compare with what is there; files of others are edited, files of the part are not."""
-    from scaffold.model.tree import DiskTree
+    from scaffold.files.tree import DiskTree
     from scaffold.plan import WritePlan
 
     tree = package.tree if isinstance(package.tree, DiskTree) else None
@@ -220,7 +225,7 @@ def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
     What it says of other files is not: they may be looked at only now that there is a program.
     Nor is what it would say of the package's own lines without any edit.
     """
-    from scaffold.check.diagnostic import Severity
+    from scaffold.diagnostic import Severity
 
     if any(one.is_needed for one in added.by_hand):
         return False
@@ -268,7 +273,7 @@ def _show(
 
 
 def _diff(plan: WritePlan, above: WritePlan | None) -> str:
-    from scaffold.generate.provenance import NAME
+    from scaffold.generate.update.provenance import NAME
 
     return plan.diff(hidden=[NAME]) + (above.diff() if above is not None else "")
 
@@ -282,7 +287,7 @@ def _summary(
 ) -> str:
     """Return what is written and edited, and the next commands."""
     from scaffold.generate import repository
-    from scaffold.generate.provenance import NAME
+    from scaffold.generate.update.provenance import NAME
     from scaffold.plan import State
 
     words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
@@ -315,9 +320,9 @@ def _summary(
 def _next_commands(package: Package, added: Added) -> list[str]:
     from shlex import quote
 
-    from scaffold.generate import place
+    from scaffold.generate import destination
 
-    top = place.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
+    top = destination.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
     build = f"colcon build --packages-select {package.name}"
     if top and os.path.realpath(top) != os.path.realpath("."):
         build = f"cd {quote(_shortest(top))} && {build}"

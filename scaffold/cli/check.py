@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from scaffold.check.selection import Selection
     from scaffold.check.session import Result, Session
     from scaffold.config import Config
-    from scaffold.model.discovery import Target
-    from scaffold.model.tree import Tree
+    from scaffold.files.tree import Tree
+    from scaffold.model.discovery.targets import Target
     from scaffold.plan import WritePlan
 
 FORMATS = ("text", "json")
@@ -71,12 +71,12 @@ def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold import config, content, reporters
     from scaffold.check import registry
-    from scaffold.check.remembered import Memory
+    from scaffold.check.cache.results import Memory
     from scaffold.check.session import Session
-    from scaffold.cli import progress
+    from scaffold.cli.interactive import progress
     from scaffold.cli.settings import warn
-    from scaffold.model import discovery
-    from scaffold.model.disk import Disk
+    from scaffold.files.disk import Disk
+    from scaffold.model.discovery import targets as discovery
 
     disk = Disk()
     settings = config.load(content=tuple(options.content), disk=disk)
@@ -136,9 +136,9 @@ def _write_fixes(
 
     from scaffold.check import workspace_fixer
     from scaffold.cli import writing
-    from scaffold.cli.progress import Bar
+    from scaffold.cli.interactive.progress import Bar
     from scaffold.errors import ScaffoldError
-    from scaffold.model import discovery
+    from scaffold.model.discovery import targets as discovery
 
     with ExitStack() as stack:
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
@@ -210,7 +210,7 @@ def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
         ConflictError: a file has changed since it was read.
     """
     from scaffold.errors import ConflictError
-    from scaffold.model.tree import DiskTree
+    from scaffold.files.tree import DiskTree
     from scaffold.plan import WritePlan
 
     plan = WritePlan.of(
@@ -262,9 +262,9 @@ def _report_fixes(
 
 def _reference(targets: Sequence[Target]) -> int:
     """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
+    from scaffold.ament.pep257 import reference
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.reporters.paths import shown
-    from scaffold.style import reference
 
     count = 0
     for package, one in reference.differences([target.package for target in targets]):
@@ -281,9 +281,9 @@ def _fixes(count: int) -> str:
 
 def exit_code(results: list[Result]) -> int:
     """Return 0 for nothing but advice, 1 for something found, 3 for a rule that failed."""
-    from scaffold.check.diagnostic import Severity
-    from scaffold.check.internal import RuleCrashed
+    from scaffold.check.engine_rules import RuleCrashed
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold.diagnostic import Severity
 
     found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if any(diagnostic.code == RuleCrashed.code for diagnostic in found):
@@ -311,6 +311,6 @@ def _selection(options: argparse.Namespace, settings: Config, rules: list[type[R
 
 
 def _style_codes() -> set[str]:
-    from scaffold.style.codes import CODES
+    from scaffold.ament.codes import CODES
 
     return set(CODES)

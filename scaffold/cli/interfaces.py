@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
-    from scaffold.model.interfaces import Definitions, Interface
+    from scaffold.model.interfaces.definitions import Definitions, Interface
 
 FORMATS = ("text", "json")
 
@@ -58,9 +58,9 @@ def run(options: argparse.Namespace) -> int:
 
 def _definitions(directory: str) -> Definitions:
     from scaffold.errors import InputError
-    from scaffold.model import discovery
-    from scaffold.model.interfaces import Definitions
-    from scaffold.model.workspace import Workspace
+    from scaffold.model.discovery import targets as discovery
+    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.workspace.workspace import Workspace
 
     if not os.path.isdir(directory):
         raise InputError(f"{directory}: no such directory")
@@ -72,7 +72,7 @@ def _definitions(directory: str) -> Definitions:
 
 
 def _as_text(interface: Interface) -> str:
-    from scaffold.model.interfaces import render
+    from scaffold.model.interfaces.definitions import render
 
     return f"# {interface.full_name}\n# from {interface.origin}\n{render(interface)}"
 

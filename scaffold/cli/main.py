@@ -8,7 +8,7 @@ import os
 import sys
 
 from scaffold import __version__
-from scaffold.check import memory
+from scaffold.check.cache import runs
 from scaffold.cli import terminal
 from scaffold.cli.exit_codes import (
     BROKEN_PIPE,
@@ -67,7 +67,7 @@ def _run(given: list[str]) -> int:
         terminal.show(f"ros2-scaffold {__version__}")
         sys.exit(CLEAN)
     verb = next((word for word in given if not word.startswith("-")), "")
-    slot = memory.Slot.of(given) if verb == "check" else None
+    slot = runs.Slot.of(given) if verb == "check" else None
     last = slot.last if slot is not None else None
     if last is not None and last.is_current():
         # Before argparse: laying out the flags takes longer than looking at a small package.

@@ -13,14 +13,14 @@ from scaffold.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
-    from scaffold.check.diagnostic import Diagnostic
-    from scaffold.cli.wizard import Asked
+    from scaffold.cli.interactive.wizard import Asked
     from scaffold.config import Config
+    from scaffold.diagnostic import Diagnostic
     from scaffold.generate.draft import Draft
     from scaffold.generate.edit.addition import ByHand
-    from scaffold.generate.questions import Given
+    from scaffold.generate.questions.questions import Given
     from scaffold.generate.repository import Place
-    from scaffold.generate.template import Template
+    from scaffold.generate.templates.template import Template
     from scaffold.plan import WritePlan
 
 
@@ -28,7 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
     from scaffold import content
     from scaffold.cli import flags, settings
-    from scaffold.generate import parts, questions, template
+    from scaffold.generate import parts
+    from scaffold.generate.questions import questions
+    from scaffold.generate.templates import template
 
     templates = template.load(content.roots("templates", settings.load().content))
     parser.set_defaults(templates=templates)
@@ -54,8 +56,9 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.errors import ScaffoldError
-    from scaffold.generate import dependency_names, draft, place, repository, template
-    from scaffold.generate.defaults import User
+    from scaffold.generate import dependency_names, destination, draft, repository
+    from scaffold.generate.questions.defaults import User
+    from scaffold.generate.templates import template
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
@@ -69,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
         user = User(options.destination_directory)
         around = repository.place_of(options.destination_directory, is_parent=True)
         made = draft.draft(roots, templates, given, user, place=around)
-        place.check(options.destination_directory, made.name)
+        destination.check(options.destination_directory, made.name)
         left = _left_to_owners(options, made, around)
         plan = _plan(options, made, left)
         above = _plan_above(made, around, left, force=options.force)
@@ -107,17 +110,17 @@ def _ask(
     Raises:
         InputError: there is no terminal.
     """
-    from scaffold.generate import draft, place
-    from scaffold.generate.defaults import User
+    from scaffold.generate import destination, draft
+    from scaffold.generate.questions.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise InputError("PACKAGE is needed: the name of the new package; see `new --help`")
-    from scaffold.cli import wizard
+    from scaffold.cli.interactive import wizard
 
     user = User(options.destination_directory)
 
     def try_name(name: str) -> None:
-        place.check(options.destination_directory, name)
+        destination.check(options.destination_directory, name)
         _refuse_existing(options, name)
 
     def try_package(answers: Mapping[str, Given]) -> None:
@@ -136,13 +139,14 @@ def _dependencies(
     Raises:
         InputError: one is certainly wrong.
     """
-    from scaffold.generate import dependency_names, values
+    from scaffold.generate import dependency_names
+    from scaffold.generate.questions import answer_types
 
     wanted = given.get("dependencies")
     if wanted is None:
         return (), ()
     try:
-        names = values.dependencies(wanted.value)
+        names = answer_types.dependencies(wanted.value)
     except InputError as error:
         raise InputError(f"{wanted.origin}: {error}") from error
     where = options.destination_directory
@@ -163,7 +167,7 @@ def _besides_answers(options: argparse.Namespace) -> list[str]:
 
 def _in_order(templates: dict[str, Template]) -> list[Template]:
     """Return the base first: its questions are the general ones."""
-    from scaffold.generate.template import BASE
+    from scaffold.generate.templates.template import BASE
 
     return [templates[BASE], *(one for name, one in templates.items() if name != BASE)]
 
@@ -171,7 +175,7 @@ def _in_order(templates: dict[str, Template]) -> list[Template]:
 def _given(
     options: argparse.Namespace, templates: dict[str, Template], settings: Config
 ) -> dict[str, Given]:
-    from scaffold.generate import defaults, questions
+    from scaffold.generate.questions import defaults, questions
 
     asked = questions.unique(_in_order(templates))
     configured = questions.from_table(defaults.configured(settings), asked)
@@ -197,7 +201,8 @@ def _left_to_owners(
 
 def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> WritePlan:
     """Compare with what is there; an existing package is left alone without ``--force``."""
-    from scaffold.generate import provenance, repository
+    from scaffold.generate import repository
+    from scaffold.generate.update import provenance
     from scaffold.plan import WritePlan
 
     directory = _refuse_existing(options, made.name)
@@ -310,7 +315,7 @@ def _summary(
 
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:
-    from scaffold.generate import provenance
+    from scaffold.generate.update import provenance
     from scaffold.plan import State
 
     notes_of = {provenance.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
@@ -339,10 +344,10 @@ def _reading_order(path: str) -> tuple[tuple[bool, str], ...]:
 def _next_commands(options: argparse.Namespace, made: Draft) -> list[str]:
     from shlex import quote
 
-    from scaffold.generate import place
+    from scaffold.generate import destination
 
     directory = os.path.join(options.destination_directory, made.name)
-    top = place.workspace(options.destination_directory) or options.destination_directory
+    top = destination.workspace(options.destination_directory) or options.destination_directory
     build = f"colcon build --packages-select {made.name}"
     if os.path.realpath(top) != os.path.realpath("."):
         build = f"cd {quote(top)} && {build}"

@@ -34,10 +34,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
     from scaffold import content
+    from scaffold.ament.codes import CODES
     from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
-    from scaffold.style.codes import CODES
 
     own = settings.load(options.content).content
     rules = all_rules(registry.load(content.roots("rules", own)))
@@ -64,10 +64,10 @@ def run(options: argparse.Namespace) -> int:
 
 def _page(word: str, rules: list[type[Rule]]) -> str:
     """Return what is known about the rule of a code or a name."""
+    from scaffold.ament.codes import CODES
     from scaffold.check import docs
     from scaffold.check.selection import nearest
     from scaffold.errors import InputError
-    from scaffold.style.codes import CODES
 
     for rule in rules:
         if word.upper() == rule.code or word == rule.name:

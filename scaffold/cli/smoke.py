@@ -98,11 +98,11 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from signal import Signals
 
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
-    from scaffold.model import discovery
+    from scaffold.model.discovery import targets
     from scaffold.smoke.report import report
-    from scaffold.smoke.smoke import Options, packages_of, smoke
+    from scaffold.smoke.session import Options, packages_of, smoke
 
-    packages = packages_of(discovery.find(options.paths))
+    packages = packages_of(targets.find(options.paths))
     with _Progress() as progress:
         result = smoke(
             packages,

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from scaffold.generate.draft import Draft
     from scaffold.generate.examples import Example, Tried
-    from scaffold.generate.template import Template
+    from scaffold.generate.templates.template import Template
     from scaffold.model.package import Package
 
 ACTIONS = ("list", "test")
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     """List templates, or test them."""
     from scaffold import content
     from scaffold.cli import settings
-    from scaffold.generate import template
+    from scaffold.generate.templates import template
 
     if options.directory is None:
         options.directory = options.content
@@ -76,7 +76,7 @@ def _own(directory: str | None) -> tuple[str, ...]:
 
 
 def _listed(templates: Mapping[str, Template], names: Sequence[str]) -> str:
-    from scaffold.generate.template import Role
+    from scaffold.generate.templates.template import Role
 
     width = max(map(len, names), default=0)
     lines: list[str] = []

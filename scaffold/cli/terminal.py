@@ -1,4 +1,4 @@
-"""The one way to standard output and standard error; ``tests/test_terminal.py`` sees to that.
+"""The one way to standard output and standard error; ``tests/cli/test_terminal.py`` sees to that.
 
 Foreign text is neutralized on its way (``scaffold.printable``). Standard output that cannot be
 written ends the run; standard error that cannot be written changes nothing but what is seen.

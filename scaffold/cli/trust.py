@@ -61,7 +61,7 @@ def _add(directory: str) -> None:
 
 def _list() -> None:
     from scaffold import trust
-    from scaffold.model.disk import Disk
+    from scaffold.files.disk import Disk
 
     disk = Disk()
     for directory, owner in trust.trusted(disk).items():

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
-    from scaffold.generate.update import Updated
+    from scaffold.generate.update.update import Updated
     from scaffold.plan import WritePlan
 
 
@@ -34,10 +34,12 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import InputError
-    from scaffold.generate import repository, template, update
-    from scaffold.generate.defaults import User
-    from scaffold.generate.provenance import NAME
-    from scaffold.model.tree import DiskTree
+    from scaffold.files.tree import DiskTree
+    from scaffold.generate import repository
+    from scaffold.generate.questions.defaults import User
+    from scaffold.generate.templates import template
+    from scaffold.generate.update import update
+    from scaffold.generate.update.provenance import NAME
     from scaffold.plan import WritePlan
 
     directory = os.path.normpath(options.directory)

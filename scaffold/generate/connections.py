@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from scaffold.generate.template import Question, Template
+from scaffold.generate.templates.template import Question, Template
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.source import Location
+    from scaffold.source import Location
 
 _TYPED = {"service_name": "service", "action_name": "action", "topic": "message"}
 """The types of questions for names, and of those for what goes by such a name."""

@@ -8,12 +8,13 @@ from datetime import date, datetime, timezone
 from typing import Any
 
 from scaffold.errors import InputError
-from scaffold.generate import licenses, names
 from scaffold.generate.parts import Part
-from scaffold.generate.questions import flag
-from scaffold.generate.render import Renderer
-from scaffold.generate.template import DEPEND_KINDS, PARTS, Question, Role, Template
-from scaffold.model.known import BUILD_TOOLS
+from scaffold.generate.questions import names
+from scaffold.generate.questions.questions import flag
+from scaffold.generate.templates import licenses
+from scaffold.generate.templates.render import Renderer
+from scaffold.generate.templates.template import DEPEND_KINDS, PARTS, Question, Role, Template
+from scaffold.model.catalog import BUILD_TOOLS
 
 VERSION = "0.1.0"
 """Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""

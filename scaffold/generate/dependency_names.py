@@ -9,12 +9,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.errors import InputError
-from scaffold.model import known
-from scaffold.model.disk import Disk
-from scaffold.model.rosdep import RosdepKeys, cached_keys
+from scaffold.files.disk import Disk
+from scaffold.model import catalog
+from scaffold.model.workspace.rosdep import RosdepKeys, cached_keys
 
 if TYPE_CHECKING:
-    from scaffold.check.diagnostic import Diagnostic
+    from scaffold.diagnostic import Diagnostic
 
 _PYTHON = "python3-"
 _SHORT = 5
@@ -42,7 +42,7 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
     for name in names:
         if name in _names() or here.has(name):
             continue
-        heir = known.ROS1_PACKAGES.get(name)
+        heir = catalog.ROS1_PACKAGES.get(name)
         if heir:
             raise InputError(f"{origin}: {name!r} is of ROS 1; ROS 2 has {heir} instead")
         resolves = here.rosdep.resolves(name) if here.rosdep is not None else None
@@ -70,7 +70,7 @@ _NAMES: set[str] = set()
 def _names() -> set[str]:
     """Return the names that are known everywhere: common packages and keys of Python modules."""
     if not _NAMES:
-        _NAMES.update(known.ROS_PACKAGES, known.BUILD_TOOLS, known.module_keys())
+        _NAMES.update(catalog.ROS_PACKAGES, catalog.BUILD_TOOLS, catalog.module_keys())
     return _NAMES
 
 
@@ -78,10 +78,10 @@ def _is_slip(name: str, other: str) -> bool:
     """Tell whether a name is another one with a slip of the finger, and nothing else."""
     if name.startswith(_PYTHON) and other.startswith(_PYTHON):
         # Two short names of Python modules resemble each other by chance: pip, pil.
-        return known.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
-    if known.is_near(name, other):
+        return catalog.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
+    if catalog.is_near(name, other):
         return True
-    return _SHORTEST <= len(name) < _SHORT and known.is_one_slip(name, other)
+    return _SHORTEST <= len(name) < _SHORT and catalog.is_one_slip(name, other)
 
 
 class _Here:
@@ -99,10 +99,10 @@ class _Here:
     @cached_property
     def packages(self) -> frozenset[str]:
         """The names of the packages of the workspace, and of those beside the new one."""
-        from scaffold.generate import place
+        from scaffold.generate import destination
         from scaffold.model.package import Package
 
-        found = place.neighbours(os.path.realpath(self._directory))
+        found = destination.neighbours(os.path.realpath(self._directory))
         return frozenset(Package.at(directory).name or "" for directory in found)
 
     @cached_property

@@ -10,19 +10,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from scaffold import home
 from scaffold.config import USER_FILE
 from scaffold.errors import ContentError, InputError
-from scaffold.generate import parts, questions
+from scaffold.generate import parts
 from scaffold.generate.connections import clashes, uses
 from scaffold.generate.context import package_context, part_scopes, today
-from scaffold.generate.defaults import User
 from scaffold.generate.parts import Part, Request
-from scaffold.generate.questions import Given
-from scaffold.generate.render import Rendered, Renderer
+from scaffold.generate.questions import questions
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
 from scaffold.generate.repository import NOWHERE, Place, inside, unread
-from scaffold.generate.template import BASE, PARTS, Question, Role, Template
+from scaffold.generate.templates.render import Rendered, Renderer
+from scaffold.generate.templates.template import BASE, PARTS, Question, Role, Template
 
 if TYPE_CHECKING:
-    from scaffold.check.diagnostic import Diagnostic
     from scaffold.check.rule import Rule
+    from scaffold.diagnostic import Diagnostic
 
 
 class Draft(NamedTuple):
@@ -177,9 +178,9 @@ class Check:
     """
 
     def __init__(self, package: Draft) -> None:
+        from scaffold.ament import StyleCheck
+        from scaffold.files.tree import MemoryTree
         from scaffold.model.package import Package
-        from scaffold.model.tree import MemoryTree
-        from scaffold.style import StyleCheck
 
         tree = MemoryTree(inside(package.rendered.files), package.rendered.executable)
         self._package = Package(tree, directory=package.name)

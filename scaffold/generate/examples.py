@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ScaffoldError
 from scaffold.generate import draft
-from scaffold.generate.defaults import User
 from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD
-from scaffold.generate.questions import Given
-from scaffold.generate.template import PARTS, Role, Template, of_role
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates.template import PARTS, Role, Template, of_role
 
 if TYPE_CHECKING:
-    from scaffold.check.diagnostic import Diagnostic
     from scaffold.check.rule import Rule
+    from scaffold.diagnostic import Diagnostic
 
 PACKAGE = "example_package"
 """The name of a package whose example has none."""

@@ -7,11 +7,11 @@ from collections import Counter
 from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
-from scaffold.model import copyright as notices
-from scaffold.model.copyright import Header
-from scaffold.model.launch_files import ENDINGS
-from scaffold.model.left_out import is_left_out
+from scaffold.ament import copyright as notices
+from scaffold.ament.copyright import Header
+from scaffold.model.launch.files import ENDINGS
 from scaffold.model.package import Package
+from scaffold.model.workspace.gitignore import is_left_out
 
 _T = TypeVar("_T", bound=Hashable)
 

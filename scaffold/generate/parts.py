@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
-from scaffold.generate.fields import Fields, refuse_missing
-from scaffold.generate.names import header_name
-from scaffold.generate.questions import Given
-from scaffold.generate.template import PARTS, Role, Template
+from scaffold.generate.questions.fields import Fields, refuse_missing
+from scaffold.generate.questions.names import header_name
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates.template import PARTS, Role, Template
 
 ADD = "add"
 """The question for parts, written KIND:NAME or as a mapping with answers of their own."""
@@ -182,7 +182,7 @@ def contents(requested: Iterable[Request]) -> str:
 
 
 def _request(entry: Mapping[str, Any], origin: str, templates: Mapping[str, Template]) -> Request:
-    from scaffold.generate.questions import choose
+    from scaffold.generate.questions.questions import choose
 
     kind = choose(str(entry.get(KIND)), kinds(templates), origin)
     template = templates[kind]

@@ -6,36 +6,34 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from scaffold.errors import (
-    EXHAUSTED,
-    MissingFileError,
-    ParseError,
-    TooLargeError,
-    ViewError,
-    exhausted,
+from scaffold.errors import EXHAUSTED, exhausted
+from scaffold.files.disk import LargeFileError
+from scaffold.files.limits import most_bytes, too_large, why_unread
+from scaffold.files.tree import (
+    CMAKE_LISTS,
+    MANIFEST,
+    SETUP_CFG,
+    SETUP_PY,
+    DiskTree,
+    MemoryTree,
+    Tree,
 )
-from scaffold.model.disk import LargeFileError
-from scaffold.model.source import Location, Source
-from scaffold.model.tree import MANIFEST, DiskTree, MemoryTree, Tree
 from scaffold.record import NamedTuple
+from scaffold.source import Location, MissingFileError, ParseError, Source, TooLargeError, ViewError
 
 if TYPE_CHECKING:
     import os
 
-    from scaffold.model.cmake import CMakeLists
-    from scaffold.model.disk import Disk
-    from scaffold.model.ini import IniFile
-    from scaffold.model.manifest import Manifest
-    from scaffold.model.nodes import NodeFacts
-    from scaffold.model.python_module import PythonModule
-    from scaffold.model.setup_py import SetupPy
-    from scaffold.model.workspace import Neighbourhood, Workspace
+    from scaffold.files.disk import Disk
+    from scaffold.formats.ini import IniFile
+    from scaffold.model.cmake.lists import CMakeLists
+    from scaffold.model.manifest.manifest import Manifest
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.setup_py.setup_py import SetupPy
+    from scaffold.model.workspace.workspace import Neighbourhood, Workspace
 
 View = TypeVar("View")
 
-CMAKE_LISTS = "CMakeLists.txt"
-SETUP_PY = "setup.py"
-SETUP_CFG = "setup.cfg"
 _FILES_OF_VIEWS = {
     "manifest": MANIFEST,
     "cmake": CMAKE_LISTS,
@@ -43,25 +41,6 @@ _FILES_OF_VIEWS = {
     "setup_cfg": SETUP_CFG,
 }
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
-
-MOST_BYTES = 500_000
-"""Of a file with code; among 800 public packages the largest has 270 kB."""
-MOST_BYTES_OF_DATA = 1_000_000
-"""Of YAML and documents; the largest YAML file of those packages has 270 kB."""
-MOST_BYTES_OF_CMAKE = 250_000
-"""Of CMakeLists.txt; the largest of those packages has 60 kB."""
-MOST_BYTES_OF_DECLARATIONS = 100_000
-"""Of package.xml, setup.py and setup.cfg, which have a few kB."""
-MOST_BYTES_OF_LINE = 20_000
-"""Of a line of code; in the Python files of those packages the longest has 2 kB."""
-MOST_WORDS = 100_000
-"""Of a file with code, signs and lines counted as well: the largest of them has 70 000."""
-MOST_WORDS_OF_CMAKE = 30_000
-"""Of CMakeLists.txt; the largest has 10 000."""
-MOST_WORDS_OF_DECLARATIONS = 20_000
-"""Of package.xml, setup.py and setup.cfg, which have up to 1 000."""
-_CODE = (".py", ".cfg", "CMakeLists.txt")
-_DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
 
 
 class Identity(NamedTuple):
@@ -187,7 +166,7 @@ class Package:
         """package.xml."""
 
         def parse() -> Manifest:
-            from scaffold.model.manifest import Manifest
+            from scaffold.model.manifest.manifest import Manifest
 
             return Manifest.parse(self._bytes_as_declared(MANIFEST))
 
@@ -198,7 +177,7 @@ class Package:
         """CMakeLists.txt, unless nobody reads it: colcon builds ament_python with setup.py."""
 
         def parse() -> CMakeLists:
-            from scaffold.model.cmake import CMakeLists
+            from scaffold.model.cmake.lists import CMakeLists
 
             if self.build_type == "ament_python" and self.has(SETUP_PY):
                 raise MissingFileError(CMAKE_LISTS)
@@ -214,7 +193,7 @@ class Package:
         """setup.py."""
 
         def parse() -> SetupPy:
-            from scaffold.model.setup_py import SetupPy
+            from scaffold.model.setup_py.setup_py import SetupPy
 
             return SetupPy.parse(self.module(SETUP_PY))
 
@@ -225,7 +204,7 @@ class Package:
         """setup.cfg."""
 
         def parse() -> IniFile:
-            from scaffold.model.ini import IniFile
+            from scaffold.formats.ini import IniFile
 
             return IniFile.parse(self.source(SETUP_CFG))
 
@@ -235,7 +214,7 @@ class Package:
         """A Python file."""
 
         def parse() -> PythonModule:
-            from scaffold.model.python_module import PythonModule
+            from scaffold.model.python.module import PythonModule
 
             return PythonModule.parse_bytes(path, self._read(path))
 
@@ -248,22 +227,6 @@ class Package:
                 yield self.module(path)
             except ViewError:
                 continue
-
-    def node_facts(self, path: str) -> NodeFacts:
-        """What the rclpy code of a Python file says."""
-
-        def parse() -> NodeFacts:
-            from scaffold.model.nodes import NodeFacts
-
-            return NodeFacts.of(self.module(path), self)
-
-        return self._view(("nodes", path), parse)
-
-    def rclpy_files(self) -> Iterator[NodeFacts]:
-        """What the Python files that import rclpy say; tests try what nodes must not do."""
-        for module in self.modules():
-            if "rclpy" in module.imports_by_root and not module.in_tests:
-                yield self.node_facts(module.path)
 
     @property
     def python_files(self) -> tuple[str, ...]:
@@ -313,7 +276,7 @@ class Package:
     def workspace(self) -> Neighbourhood:
         """The packages around this one, itself included."""
         if self._neighbourhood is None:
-            from scaffold.model.workspace import Neighbourhood, Workspace
+            from scaffold.model.workspace.workspace import Neighbourhood, Workspace
 
             around = self._workspace or Workspace([self], self.outside)
             self._neighbourhood = Neighbourhood(around)
@@ -326,7 +289,7 @@ class Package:
             return self._workspace.disk
         if isinstance(self.tree, DiskTree):
             return self.tree.disk
-        from scaffold.model.disk import Disk
+        from scaffold.files.disk import Disk
 
         return Disk()
 
@@ -402,7 +365,7 @@ class Package:
         try:
             data = self.tree.read(path, most_bytes(path))
         except LargeFileError as error:
-            raise TooLargeError(at, _too_large(error.size, path)) from error
+            raise TooLargeError(at, too_large(error.size, path)) from error
         except OSError as error:
             reason = error.strerror or str(error)
             raise ParseError(at, f"cannot be read: {reason}") from error
@@ -412,7 +375,7 @@ class Package:
         return data
 
     def _bytes_as_declared(self, path: str) -> Source:
-        from scaffold.model.manifest import decode
+        from scaffold.model.manifest.manifest import decode
 
         return decode(path, self._read(path))
 
@@ -458,51 +421,3 @@ class Package:
         if isinstance(found, ViewError):
             raise found
         return cast("View", found)
-
-
-def why_unread(path: str, data: bytes) -> str:
-    """Return why a file is not read, empty if it is: the bounds are far above what people write.
-
-    Some checks take a time that grows with the square of a line, so lines have a bound, too; and
-    a file of two bytes for each word takes ten times as long as text of the same size.
-    """
-    if len(data) > most_bytes(path):
-        return _too_large(len(data), path)
-    if len(data) <= MOST_BYTES_OF_LINE or not (path == MANIFEST or path.endswith(_CODE)):
-        return ""
-    longest = max(map(len, data.splitlines()))
-    if longest > MOST_BYTES_OF_LINE:
-        most = MOST_BYTES_OF_LINE // 1000
-        return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
-    most = _most_words(path)
-    words = len(data) if len(data) <= most else _words(data)
-    if words > most:
-        return f"{words} words and signs of {most} that are read: it is not checked"
-    return ""
-
-
-def _too_large(size: int, path: str) -> str:
-    return f"{size // 1000} kB of {most_bytes(path) // 1000} kB that are read: it is not checked"
-
-
-def _words(data: bytes) -> int:
-    """Count what code is made of, as time and memory go by that and not by bytes."""
-    import re
-
-    return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))
-
-
-def most_bytes(path: str) -> int:
-    """Return the size up to which a file is read: by kind, far above what people write."""
-    if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
-        return MOST_BYTES_OF_DECLARATIONS
-    if path.endswith(CMAKE_LISTS):
-        return MOST_BYTES_OF_CMAKE
-    return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MOST_BYTES
-
-
-def _most_words(path: str) -> int:
-    """Return the same in words and signs."""
-    if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
-        return MOST_WORDS_OF_DECLARATIONS
-    return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MOST_WORDS

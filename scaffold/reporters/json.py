@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TextIO
 
-from scaffold.check.diagnostic import Diagnostic
 from scaffold.check.session import Result, Summary
+from scaffold.diagnostic import Diagnostic
 from scaffold.printable import json_text
 from scaffold.reporters.paths import shown
 

@@ -6,8 +6,9 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TextIO
 
-from scaffold.check.diagnostic import Safety, Severity
 from scaffold.check.session import Result, Summary
+from scaffold.diagnostic import Severity
+from scaffold.edits import Safety
 from scaffold.printable import printable
 from scaffold.reporters.paths import shown
 

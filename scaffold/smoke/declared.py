@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
-from scaffold.errors import ViewError
-from scaffold.model.node_entities import Endpoint
-from scaffold.model.nodes import NodeClass, NodeFacts, NodeOwner
 from scaffold.model.package import Package
-from scaffold.model.program_starts import Start, run_of, starts_of
-from scaffold.model.publish_rate import publish_rates
-from scaffold.model.publish_reach import PublishReach, Reach
-from scaffold.model.scopes import FunctionNode
-from scaffold.model.values import Unknown
+from scaffold.model.programs.entry_points import Start, run_of, starts_of
+from scaffold.model.programs.publishing import PublishReach, Reach, publish_rates
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.python.values import Unknown
+from scaffold.model.rclpy.entities import Endpoint
+from scaffold.model.rclpy.file import NodeClass, NodeFacts, NodeOwner
 from scaffold.smoke.expectation import Expectation, Offer, Publication
+from scaffold.source import ViewError
 
 _MAX_BASES = 8
 _Entity = TypeVar("_Entity", bound=Endpoint)

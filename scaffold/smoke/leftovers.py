@@ -14,7 +14,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from scaffold.smoke import ledger, process, process_table, shared_memory
+from scaffold.smoke import ledger, process, process_table
+from scaffold.smoke.isolation import shared_memory
 from scaffold.smoke.process import Origin
 
 MARKER = ".ros2-scaffold-smoke"

@@ -10,7 +10,7 @@ from typing import Any, TextIO, TypeVar, cast
 
 from scaffold.printable import printable
 from scaffold.smoke.result import Executable, Package, Problem, Smoke, Stop, Topic
-from scaffold.smoke.trial import ending
+from scaffold.smoke.run import ending
 
 FORMATS = ("text", "json")
 

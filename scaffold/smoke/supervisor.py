@@ -25,7 +25,8 @@ import stat
 import sys
 import time
 
-from scaffold.smoke import process_table, shared_memory
+from scaffold.smoke import process_table
+from scaffold.smoke.isolation import shared_memory
 from scaffold.smoke.process_table import Process
 
 TYPE_CHECKING = False

@@ -16,8 +16,8 @@ import pytest
 from scaffold.check.soundness import reader_of
 from scaffold.cli.main import main
 from scaffold.errors import ScaffoldError
-from scaffold.model import colcon
-from scaffold.model.disk import Disk
+from scaffold.files.disk import Disk
+from scaffold.model.discovery import colcon
 from tests import oracles
 from tests.oracles import Finding
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from scaffold.check.diagnostic import Edit
 from scaffold.check.fixer import splice
-from scaffold.model.source import Source
+from scaffold.edits import Edit
 from scaffold.record import NamedTuple
+from scaffold.source import Source
 
 NOTHING: Mapping[str, Sequence[str]] = {}
 

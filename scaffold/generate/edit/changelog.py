@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
-from scaffold.model.source import Source
+from scaffold.source import Source
 
 UPCOMING = "Forthcoming"
 _LIKE_OURS = r"\* Add the [a-z ]+ ``\w+``\."

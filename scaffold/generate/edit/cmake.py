@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, inside, spliced
-from scaffold.model import cmake_edit
-from scaffold.model.cmake import LAST_CALLS, CMakeLists, Install
-from scaffold.model.cmake_edit import Edits
-from scaffold.model.cmake_parser import Argument, Command
-from scaffold.model.source import Source
+from scaffold.model.cmake import edit as cmake_edit
+from scaffold.model.cmake.edit import Edits
+from scaffold.model.cmake.lists import LAST_CALLS, CMakeLists, Install
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.source import Source
 
 PYTEST = "ament_cmake_pytest"
 PYTHON = "ament_cmake_python"

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from scaffold.errors import ConflictError, InputError
 from scaffold.generate.edit.addition import Addition, Compiled
 from scaffold.generate.edit.cmake import INSTALL_PYTHON, Editor
-from scaffold.model import cmake_edit
-from scaffold.model.cmake import CMakeLists, Install
-from scaffold.model.cmake_edit import Edits
-from scaffold.model.cmake_interfaces import GENERATE, Generation, generations_of
-from scaffold.model.cmake_parser import Argument, Command
+from scaffold.model.cmake import edit as cmake_edit
+from scaffold.model.cmake.edit import Edits
+from scaffold.model.cmake.lists import CMakeLists, Install
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.rosidl import GENERATE, Generation, generations_of
 
 GENERATORS = "rosidl_default_generators"
 RUNTIME = "rosidl_default_runtime"

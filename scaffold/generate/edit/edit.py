@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
-from scaffold.errors import ParseError, ViewError
+from scaffold.files.tree import CMAKE_LISTS, MANIFEST, SETUP_CFG, SETUP_PY
+from scaffold.formats.ini import IniFile
 from scaffold.generate.edit import changelog, cmake, launch, manifest, readme, setup_cfg, setup_py
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome
 from scaffold.generate.edit.layout import layout_of
-from scaffold.model.ini import IniFile
-from scaffold.model.launch_files import launch_files
-from scaffold.model.package import CMAKE_LISTS, SETUP_CFG, SETUP_PY, Package
-from scaffold.model.setup_py import EntryPoint
-from scaffold.model.source import Source
-from scaffold.model.tree import MANIFEST
+from scaffold.model.launch.files import launch_files
+from scaffold.model.package import Package
+from scaffold.model.setup_py.setup_py import EntryPoint
+from scaffold.source import ParseError, Source, ViewError
 
 README = "README.md"
 CHANGELOG = "CHANGELOG.rst"

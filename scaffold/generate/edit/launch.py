@@ -7,13 +7,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
-from scaffold.model import setup_edit
-from scaffold.model.launch_py import FUNCTION, LaunchCall, LaunchFile, returns
-from scaffold.model.python_module import PythonModule
-from scaffold.model.setup_edit import Block
-from scaffold.model.source import Source
+from scaffold.model.launch.python_file import FUNCTION, LaunchCall, LaunchFile, returns
+from scaffold.model.python.module import PythonModule
+from scaffold.model.setup_py import edit as setup_edit
+from scaffold.model.setup_py.edit import Block
+from scaffold.source import Source
 
 _MARKUP = {
     ".xml": '<node pkg="{}" exec="{}"/>',

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.generate.edit.cmake import INSTALL_PYTHON
-from scaffold.generate.provenance import NAME as PROVENANCE
-from scaffold.model.cmake_facts import programs
-from scaffold.model.cmake_interfaces import is_interface_package
+from scaffold.generate.update.provenance import NAME as PROVENANCE
+from scaffold.model.cmake.ament import programs
+from scaffold.model.cmake.rosidl import is_interface_package
 from scaffold.model.package import Package
-from scaffold.model.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 
 SCRIPTS = "scripts"
 """The directory for programs of a package that has no Python yet."""

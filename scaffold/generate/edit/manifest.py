@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
-from scaffold.model import manifest_edit
-from scaffold.model.manifest import Manifest
-from scaffold.model.source import Source
+from scaffold.model.manifest import edit as manifest_edit
+from scaffold.model.manifest.manifest import Manifest
+from scaffold.source import Source
 
 _TAGS = {
     "buildtool": ("build",),

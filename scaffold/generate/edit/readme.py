@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
-from scaffold.model.source import Source
+from scaffold.source import Source
 
 _DELIMITER = re.compile(r"\s*(?:\|\s*)?:?-+:?\s*(?:\|\s*:?-+:?\s*)*(?:\|\s*)?")
 _FRAME = ("Prerequisites", "Build", "Test", "Author", "License")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
+from scaffold.formats.ini import IniFile, IniOption
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, spliced
-from scaffold.model.ini import IniFile, IniOption
-from scaffold.model.source import Source
+from scaffold.source import Source
 
 SECTION = "options.entry_points"
 KEY = "console_scripts"

@@ -6,14 +6,15 @@ import ast
 from collections.abc import Callable, Sequence
 from fnmatch import fnmatchcase
 
-from scaffold.check.diagnostic import Edit
+from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, inside, spliced
-from scaffold.model import setup_edit, setup_keywords
-from scaffold.model.python_module import PythonModule
-from scaffold.model.setup_files import matches
-from scaffold.model.setup_py import DataFile, FindPackages, SetupPy
-from scaffold.model.source import Source
-from scaffold.model.values import UNKNOWN, Glob
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.values import UNKNOWN, Glob
+from scaffold.model.setup_py import edit as setup_edit
+from scaffold.model.setup_py import edit as setup_keywords
+from scaffold.model.setup_py.package_data import matches
+from scaffold.model.setup_py.setup_py import DataFile, FindPackages, SetupPy
+from scaffold.source import Source
 
 PYTEST = "python3-pytest"
 """The rosdep key of pytest."""

@@ -13,7 +13,7 @@ from scaffold.generate.payload.payloads import (
     SectionPayload,
     ServicePayload,
 )
-from scaffold.model.interfaces import KINDS, Definitions
+from scaffold.model.interfaces.definitions import KINDS, Definitions
 
 __all__ = [
     "ActionPayload",
@@ -59,10 +59,10 @@ def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
 
 def definitions(directory: str = ".") -> Definitions:
     """Return the definitions of the workspace around a directory, installed ones, common ones."""
-    from scaffold.model import colcon
-    from scaffold.model.disk import Disk
+    from scaffold.files.disk import Disk
+    from scaffold.model.discovery import colcon
     from scaffold.model.package import Package
-    from scaffold.model.workspace import Workspace
+    from scaffold.model.workspace.workspace import Workspace
 
     disk = Disk()
     sources = colcon.sources_at(disk, disk.real(directory))

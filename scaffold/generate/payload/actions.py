@@ -7,7 +7,7 @@ from scaffold.generate.payload.code import Block
 from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.payloads import ActionPayload
 from scaffold.generate.payload.recipe import ActionRecipe
-from scaffold.model.interfaces import Definitions, Interface
+from scaffold.model.interfaces.definitions import Definitions, Interface
 
 _FIBONACCI = "example_interfaces/action/Fibonacci"
 

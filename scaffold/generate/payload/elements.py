@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from keyword import iskeyword
 
 from scaffold.generate.payload.imports import MODULES
-from scaffold.model.interface_syntax import Field
+from scaffold.model.interfaces.syntax import Field
 
 ELEMENTS = 3
 """Of an array of any length."""

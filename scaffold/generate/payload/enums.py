@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 
 from scaffold.generate.payload import words
-from scaffold.model.interface_syntax import Constant, Field, Section
-from scaffold.model.interface_values import INTEGER_RANGES
+from scaffold.model.interfaces.syntax import Constant, Field, Section
+from scaffold.model.interfaces.types import INTEGER_RANGES
 
 _DULL = re.compile(
     "UNKNOWN|NONE|NOT_SET|UNSET|UNSPECIFIED|UNDEFINED|INVALID|NOTHING|ERROR|FAIL|DEFAULT|DISABLED"

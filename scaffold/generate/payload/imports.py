@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Sequence
 
-from scaffold.generate.filters import MAX_COLUMNS
 from scaffold.generate.payload.lookup import Types
+from scaffold.generate.templates.filters import MAX_COLUMNS
 
 MODULES = ("math", "struct", "uuid", "zlib")
 """Modules of the standard library that statements may use."""

@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 
 from scaffold.errors import InputError
-from scaffold.model.interface_syntax import Field, Section
-from scaffold.model.interfaces import Definitions, Interface, spell
+from scaffold.model.interfaces.definitions import Definitions, Interface, spell
+from scaffold.model.interfaces.syntax import Field, Section
 
 WORDS = {"msg": "message", "srv": "service", "action": "action"}
 """What people call the kinds of interfaces."""

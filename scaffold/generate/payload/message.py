@@ -12,7 +12,7 @@ from scaffold.generate.payload.lookup import HEADER, Types
 from scaffold.generate.payload.payloads import Payload
 from scaffold.generate.payload.recipe import Recipe
 from scaffold.generate.payload.walk import MAX_BRIEF, Walk
-from scaffold.model.interfaces import Definitions
+from scaffold.model.interfaces.definitions import Definitions
 
 MAX_LINES = 24
 """Statements that a reader takes in."""

@@ -12,8 +12,8 @@ from scaffold.generate.payload.lookup import Types
 from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
 from scaffold.generate.payload.payloads import SectionPayload
 from scaffold.generate.payload.walk import MAX_BRIEF, Walk
-from scaffold.model.interface_syntax import Field, Section
-from scaffold.model.interface_values import FLOATS, INTEGER_RANGES
+from scaffold.model.interfaces.syntax import Field, Section
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 
 STEPS = 10
 """Of an action that does not tell how many it has."""

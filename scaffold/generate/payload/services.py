@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from scaffold.generate.payload import lookup, recipe, section
 from scaffold.generate.payload.payloads import ServicePayload
-from scaffold.model.interfaces import Definitions
+from scaffold.model.interfaces.definitions import Definitions
 
 
 def of_service(text: str, interfaces: Definitions) -> ServicePayload:

@@ -10,8 +10,8 @@ from scaffold.generate.payload import elements, enums, recipe, words
 from scaffold.generate.payload.code import COUNT, NOW, WIDTH, Block
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
 from scaffold.generate.payload.recipe import FRAME, Recipe
-from scaffold.model.interface_syntax import Constant, Field, Section
-from scaffold.model.interface_values import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.model.interfaces.syntax import Constant, Field, Section
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 
 WRAPPERS = ("std_msgs", "example_interfaces")
 """Packages with messages that hold nothing but a primitive value."""

@@ -1,0 +1,220 @@
+"""Python style and docstrings of packages, with the verdict of the Jazzy ament linters."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.ament import ruff
+from scaffold.ament.codes import CODES
+from scaffold.ament.files import select
+from scaffold.ament.finding import CRASHED, UNPARSABLE, Finding
+from scaffold.ament.findings_cache import Cache
+from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, Severity, crash_message
+from scaffold.edits import Edit, Fix, Safety
+from scaffold.errors import EXHAUSTED, ScaffoldError, exhausted
+from scaffold.files.disk import LargeFileError
+from scaffold.files.limits import most_bytes, why_unread
+from scaffold.model.package import Package
+from scaffold.source import Location, Source, ViewError
+
+if TYPE_CHECKING:
+    from scaffold.ament.ruff import Said
+
+
+_OWN_CODES = {UNPARSABLE: "unparsable-file", CRASHED: "rule-crashed"}
+"""The codes of the engine that come from here, and their names."""
+
+
+def _identity() -> str:
+    """Return what the findings about a file depend on beside its content."""
+    top = os.path.dirname(__file__)
+    own = []
+    for folder, _, files in os.walk(top):
+        for name in files:
+            if name.endswith(".py"):
+                status = os.stat(os.path.join(folder, name))
+                place = os.path.relpath(folder, top)
+                own.append(f"{place}/{name}:{status.st_size}:{status.st_mtime_ns}")
+    own.sort()
+    return f"{sys.version_info[:3]}{own}{ruff.identity()}"
+
+
+class _File:
+    """A file to check: read once, answered from the cache or by ruff and the own rules."""
+
+    def __init__(self, path: str, on_disk: str, data: bytes, linters: int) -> None:
+        self.path = path
+        self.on_disk = on_disk
+        self.data = data
+        self.linters = linters
+        self.key = ""
+        self.findings: list[Finding] | None = None
+
+
+def _unread(path: str, linters: int, why: str) -> _File:
+    file = _File(path, "", b"", linters)
+    file.findings = [Finding("E902", 1, 1, why, linters=linters)]
+    return file
+
+
+class StyleCheck:
+    """Checks the Python files of packages; ruff runs in the background from the start."""
+
+    def __init__(self, packages: Sequence[Package]) -> None:
+        self._scratch = ""
+        self._run: ruff.Run | None = None
+        self._cache = Cache.of_user(_identity)
+        self._files = {id(package): self._read(package) for package in packages}
+        self._keep = list(packages)
+        wanted = [one for files in self._files.values() for one in files if one.findings is None]
+        if wanted:
+            self._run = ruff.Run([one.on_disk for one in wanted])
+        self._said: Mapping[str, list[Said]] | None = None
+
+    def diagnostics(self, package: Package) -> list[Diagnostic]:
+        """Return what the two linters would report about a package, each thing once.
+
+        Raises:
+            EnvironmentMissingError: ruff does not run.
+        """
+        found: list[Diagnostic] = []
+        counts: dict[str, int] = {}
+        for file in self._files.pop(id(package), ()):
+            for one in self._findings(file):
+                counts[one.code] = count = counts.get(one.code, 0) + 1
+                if count <= MOST_FINDINGS + 1:
+                    found.append(_diagnostic(package, file.path, one))
+        return found
+
+    def _findings(self, file: _File) -> list[Finding]:
+        if file.findings is not None:
+            return file.findings
+        from scaffold.ament.verdict import check
+
+        def said() -> Sequence[Said]:
+            return self._results().get(file.on_disk, [])
+
+        name = file.path.rpartition("/")[2]
+        try:
+            findings = check(name, file.data, said, file.linters)
+        except ScaffoldError:
+            raise
+        except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
+            return [_failure(error, file.linters)]
+        if self._cache is not None and file.key:
+            self._cache.put(file.key, findings)
+        return findings
+
+    def _results(self) -> Mapping[str, list[Said]]:
+        if self._said is None:
+            try:
+                self._said = self._run.results() if self._run else {}
+            finally:
+                self.close()
+        return self._said
+
+    def close(self) -> None:
+        """End ruff and remove what was written for it; nothing is left to do after a full run."""
+        if self._run is not None:
+            self._run.close()
+            self._run = None
+        if self._scratch:
+            import shutil
+
+            shutil.rmtree(self._scratch, ignore_errors=True)
+            self._scratch = ""
+
+    def __del__(self) -> None:
+        self.close()
+
+    def _read(self, package: Package) -> list[_File]:
+        files: list[_File] = []
+        links = getattr(package.tree, "broken_links", ())
+        for path, linters in select((*package.tree.files, *links)).items():
+            try:
+                data = package.tree.read(path, most_bytes(path))
+            except LargeFileError:
+                files.append(_unread(path, linters, "the file is too large to be checked"))
+                continue
+            except OSError as error:
+                why = "it links to nothing" if path in links else error.strerror or "it is no file"
+                files.append(_unread(path, linters, f"the file cannot be read: {why}"))
+                continue
+            if why_unread(path, data):
+                files.append(_unread(path, linters, "the file is too large to be checked"))
+                continue
+            file = _File(path, "", data, linters)
+            if self._cache is not None:
+                file.key = self._cache.key(path.rpartition("/")[2], linters, data)
+                file.findings = self._cache.get(file.key)
+            if file.findings is None:
+                file.on_disk = self._place(package, file, len(files))
+            files.append(file)
+        return files
+
+    def _place(self, package: Package, file: _File, number: int) -> str:
+        """Return where ruff finds the file.
+
+        A package in memory is written out for it, and so is a file whose name is no text: ruff
+        does not give such a name back.
+        """
+        if package.root is not None and _is_text(package.root) and _is_text(file.path):
+            return os.path.abspath(os.path.join(package.root, file.path))
+        if not self._scratch:
+            import tempfile
+
+            self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
+        directory = os.path.join(self._scratch, f"{id(package):x}-{number}")
+        os.makedirs(directory, exist_ok=True)
+        name = file.path.rpartition("/")[2]
+        on_disk = os.path.join(directory, name if _is_text(name) else "module.py")
+        with open(on_disk, "wb") as out:
+            out.write(file.data)
+        return on_disk
+
+
+def _is_text(path: str) -> bool:
+    return not any("\ud800" <= character <= "\udfff" for character in path)
+
+
+def _failure(error: Exception, linters: int) -> Finding:
+    """Return the one finding of a file whose check failed: its own fault, or a defect of ours."""
+    if isinstance(error, EXHAUSTED):
+        return Finding(UNPARSABLE, 1, 1, exhausted(error), linters=linters)
+    return Finding(CRASHED, 1, 1, crash_message("the check of its style", error), linters=linters)
+
+
+def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
+    if finding.code in _OWN_CODES:
+        name, at = _OWN_CODES[finding.code], Location.start_of(path)
+        return Diagnostic(finding.code, name, Severity.ERROR, at, finding.message)
+    code = CODES[finding.code]
+    end = (finding.end_line or finding.line, finding.end_column or finding.column)
+    location = Location(path, finding.line, finding.column, *max(end, finding[1:3]))
+    fix = _fix(package, path, finding) if finding.fix else None
+    message = finding.message or code.summary
+    return Diagnostic(code.code, code.name, code.severity, location, message, fix)
+
+
+def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
+    """Return the fix with offsets in the text as it is on disk."""
+    try:
+        source = package.editable(path)
+    except ViewError:
+        return None
+    if source.has_lone_returns:
+        return None
+    shift = 1 if source.text.startswith("\ufeff") else 0
+    changes = tuple(_edits(source, path, finding, shift))
+    safety = Safety.UNSAFE if finding.fix_is_unsafe else Safety.SAFE
+    return Fix(finding.fix_title or "apply ruff's fix", changes, safety)
+
+
+def _edits(source: Source, path: str, finding: Finding, shift: int) -> Iterator[Edit]:
+    for line, column, end_line, end_column, text in finding.fix:
+        start = source.offset(line, column + (shift if line == 1 else 0))
+        end = source.offset(end_line, end_column + (shift if end_line == 1 else 0))
+        yield Edit(path, start, end, text.replace("\n", source.newline))

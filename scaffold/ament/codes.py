@@ -1,0 +1,591 @@
+"""All style codes of ament_flake8 and ament_pep257 on Jazzy: names, explanations, severities.
+
+The codes are those that people know from flake8 and pydocstyle. What the ini file of ament_flake8
+and the convention ``ament`` of ament_pep257 leave out is not here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from scaffold.ament.finding import FLAKE8, PEP257
+from scaffold.diagnostic import Severity
+from scaffold.record import NamedTuple
+
+BOTH = FLAKE8 | PEP257
+
+
+class StyleCode(NamedTuple):
+    """A code of the Python linters."""
+
+    code: str
+    name: str
+    summary: str
+    """One line, what is wrong; the message of a finding that has none of its own."""
+    linters: int = FLAKE8
+    """FLAKE8, PEP257 or both: who reports it on Jazzy."""
+    severity: Severity = Severity.WARNING
+    """ERROR where the code fails when it is imported or run."""
+
+
+_TABLE = (
+    StyleCode("A001", "shadowed-builtin", "a variable hides a builtin"),
+    StyleCode("A002", "shadowed-builtin-argument", "an argument hides a builtin"),
+    StyleCode("A003", "shadowed-builtin-attribute", "a class attribute hides a builtin"),
+    StyleCode(
+        "C400",
+        "generator-to-list",
+        "a generator inside list() instead of a list comprehension",
+    ),
+    StyleCode(
+        "C401",
+        "generator-to-set",
+        "a generator inside set() instead of a set comprehension",
+    ),
+    StyleCode(
+        "C402",
+        "generator-to-dict",
+        "a generator inside dict() instead of a dict comprehension",
+    ),
+    StyleCode(
+        "C403",
+        "list-comprehension-to-set",
+        "a list comprehension inside set() instead of a set comprehension",
+    ),
+    StyleCode(
+        "C404",
+        "list-comprehension-to-dict",
+        "a list comprehension inside dict() instead of a dict comprehension",
+    ),
+    StyleCode("C405", "literal-to-set", "a list or tuple inside set() instead of a set literal"),
+    StyleCode("C406", "literal-to-dict", "a list or tuple inside dict() instead of a dict literal"),
+    StyleCode("C408", "call-instead-of-literal", "dict(), list() or tuple() instead of a literal"),
+    StyleCode(
+        "C409",
+        "literal-inside-tuple",
+        "a literal or comprehension inside tuple() that is not needed",
+    ),
+    StyleCode("C410", "literal-inside-list", "a literal inside list() that is not needed"),
+    StyleCode("C411", "list-around-comprehension", "list() around a list comprehension"),
+    StyleCode("C413", "call-around-sorted", "list() or reversed() around sorted()"),
+    StyleCode(
+        "C414",
+        "double-cast",
+        "nested calls such as list(sorted()) inside set() or sorted()",
+    ),
+    StyleCode(
+        "C415",
+        "subscript-reversal",
+        "a reversed slice inside reversed(), set() or sorted()",
+    ),
+    StyleCode("C416", "copying-comprehension", "a comprehension that only copies"),
+    StyleCode("C417", "map-with-lambda", "map() with a lambda instead of a comprehension"),
+    StyleCode("C418", "dict-around-dict", "dict() around a dict literal or comprehension"),
+    StyleCode("C419", "comprehension-in-any-all", "a list comprehension inside any() or all()"),
+    StyleCode(
+        "D200",
+        "spread-one-liner",
+        "a one-line docstring is spread over several lines",
+        BOTH,
+    ),
+    StyleCode(
+        "D201",
+        "blank-before-docstring",
+        "blank lines before the docstring of a function",
+        BOTH,
+    ),
+    StyleCode(
+        "D202",
+        "blank-after-docstring",
+        "blank lines after the docstring of a function",
+        BOTH,
+    ),
+    StyleCode(
+        "D204",
+        "class-docstring-not-separated",
+        "no single blank line after the docstring of a class",
+        BOTH,
+    ),
+    StyleCode(
+        "D205",
+        "summary-not-separated",
+        "no single blank line after the summary line of a docstring",
+        BOTH,
+    ),
+    StyleCode("D206", "docstring-indented-with-tabs", "a docstring is indented with tabs", BOTH),
+    StyleCode(
+        "D207",
+        "under-indented-docstring",
+        "a docstring is indented less than its quotes",
+        BOTH,
+    ),
+    StyleCode(
+        "D208",
+        "over-indented-docstring",
+        "a docstring is indented more than its quotes",
+        BOTH,
+    ),
+    StyleCode(
+        "D209",
+        "closing-quotes-not-alone",
+        "the closing quotes of a multi-line docstring are not on their own line",
+        BOTH,
+    ),
+    StyleCode(
+        "D210",
+        "whitespace-around-docstring",
+        "whitespace between the quotes and the text of a docstring",
+        BOTH,
+    ),
+    StyleCode(
+        "D211",
+        "blank-before-class-docstring",
+        "blank lines before the docstring of a class",
+        BOTH,
+    ),
+    StyleCode(
+        "D213",
+        "summary-on-first-line",
+        "the summary of a multi-line docstring does not start on the second line",
+        PEP257,
+    ),
+    StyleCode(
+        "D214",
+        "over-indented-section",
+        "a docstring section is indented more than the docstring",
+        PEP257,
+    ),
+    StyleCode(
+        "D215",
+        "over-indented-section-underline",
+        "the dashes of a docstring section are indented too far",
+        PEP257,
+    ),
+    StyleCode("D300", "docstring-quotes", "a docstring is not in triple double quotes", BOTH),
+    StyleCode("D301", "backslash-in-docstring", "a docstring with backslashes is not raw", BOTH),
+    StyleCode(
+        "D400",
+        "summary-without-period",
+        "the first line of a docstring does not end with a period",
+        BOTH,
+    ),
+    StyleCode(
+        "D401",
+        "summary-not-imperative",
+        "the first line of a docstring is not a command",
+        BOTH,
+    ),
+    StyleCode(
+        "D402",
+        "signature-in-docstring",
+        "the first line of a docstring is the function's signature",
+        BOTH,
+    ),
+    StyleCode(
+        "D403",
+        "summary-not-capitalized",
+        "the first word of a docstring is not capitalized",
+        BOTH,
+    ),
+    StyleCode(
+        "D405",
+        "section-name-case",
+        "the name of a docstring section is not capitalized",
+        PEP257,
+    ),
+    StyleCode(
+        "D406",
+        "section-name-suffix",
+        "something follows the name of a docstring section",
+        PEP257,
+    ),
+    StyleCode(
+        "D407",
+        "section-without-underline",
+        "no dashes below the name of a docstring section",
+        PEP257,
+    ),
+    StyleCode(
+        "D408",
+        "section-underline-position",
+        "the dashes of a docstring section are not right below its name",
+        PEP257,
+    ),
+    StyleCode(
+        "D409",
+        "section-underline-length",
+        "the dashes of a docstring section are not as long as its name",
+        PEP257,
+    ),
+    StyleCode("D410", "section-not-separated", "no blank line after a docstring section", PEP257),
+    StyleCode(
+        "D411",
+        "section-without-blank-before",
+        "no blank line before a docstring section",
+        PEP257,
+    ),
+    StyleCode(
+        "D412",
+        "blank-after-section-name",
+        "blank lines between the name of a docstring section and its content",
+        BOTH,
+    ),
+    StyleCode(
+        "D413",
+        "last-section-not-separated",
+        "no blank line after the last docstring section",
+        PEP257,
+    ),
+    StyleCode("D414", "empty-section", "a docstring section without content", BOTH),
+    StyleCode(
+        "D415",
+        "summary-without-punctuation",
+        "the first line of a docstring does not end with . ? or !",
+        PEP257,
+    ),
+    StyleCode(
+        "D416",
+        "section-name-without-colon",
+        "the name of a docstring section does not end with a colon",
+        PEP257,
+    ),
+    StyleCode(
+        "D417",
+        "undocumented-argument",
+        "a docstring does not describe all arguments",
+        PEP257,
+    ),
+    StyleCode("D418", "docstring-on-overload", "an @overload has a docstring", PEP257),
+    StyleCode("D419", "empty-docstring", "a docstring without text", BOTH),
+    StyleCode("E101", "mixed-indentation", "the indentation mixes tabs and spaces"),
+    StyleCode(
+        "E111",
+        "indentation-not-multiple-of-four",
+        "the indentation is not a multiple of four",
+    ),
+    StyleCode("E112", "missing-indented-block", "an indented block is missing"),
+    StyleCode("E113", "unexpected-indentation", "unexpected indentation"),
+    StyleCode(
+        "E114",
+        "comment-indentation-not-multiple-of-four",
+        "the indentation of a comment is not a multiple of four",
+    ),
+    StyleCode("E115", "comment-not-indented", "a comment is not indented like its block"),
+    StyleCode("E116", "comment-over-indented", "a comment is indented without a block"),
+    StyleCode("E117", "over-indented", "a block is indented too far"),
+    StyleCode("E122", "continuation-not-indented", "a continuation line is not indented"),
+    StyleCode(
+        "E124",
+        "closing-bracket-not-aligned",
+        "a closing bracket does not match the visual indentation",
+    ),
+    StyleCode(
+        "E125",
+        "continuation-like-next-line",
+        "a continuation line is indented like the block that follows",
+    ),
+    StyleCode("E127", "continuation-over-indented", "a continuation line is indented too far"),
+    StyleCode(
+        "E128",
+        "continuation-under-indented",
+        "a continuation line is not indented far enough",
+    ),
+    StyleCode(
+        "E129",
+        "visual-indent-like-next-line",
+        "a visually indented line is indented like the block that follows",
+    ),
+    StyleCode(
+        "E131",
+        "continuation-unaligned",
+        "a continuation line is not aligned with the ones above it",
+    ),
+    StyleCode("E201", "whitespace-after-bracket", "whitespace after an opening bracket"),
+    StyleCode("E202", "whitespace-before-bracket", "whitespace before a closing bracket"),
+    StyleCode(
+        "E203",
+        "whitespace-before-punctuation",
+        "whitespace before a comma, semicolon or colon",
+    ),
+    StyleCode(
+        "E211",
+        "whitespace-before-arguments",
+        "whitespace before the bracket of a call or an index",
+    ),
+    StyleCode("E221", "spaces-before-operator", "several spaces before an operator"),
+    StyleCode("E222", "spaces-after-operator", "several spaces after an operator"),
+    StyleCode("E223", "tab-before-operator", "a tab before an operator"),
+    StyleCode("E224", "tab-after-operator", "a tab after an operator"),
+    StyleCode(
+        "E225",
+        "missing-whitespace-around-operator",
+        "whitespace is missing around an operator",
+    ),
+    StyleCode(
+        "E227",
+        "missing-whitespace-around-bitwise-operator",
+        "whitespace is missing around a bitwise or shift operator",
+    ),
+    StyleCode("E228", "missing-whitespace-around-modulo", "whitespace is missing around %"),
+    StyleCode(
+        "E231",
+        "missing-whitespace-after-punctuation",
+        "whitespace is missing after a comma, semicolon or colon",
+    ),
+    StyleCode(
+        "E251",
+        "whitespace-around-keyword-equals",
+        "whitespace around = of a keyword argument",
+    ),
+    StyleCode(
+        "E252",
+        "missing-whitespace-around-default-equals",
+        "whitespace is missing around = of an annotated argument",
+    ),
+    StyleCode("E261", "comment-too-close", "fewer than two spaces before an inline comment"),
+    StyleCode("E262", "inline-comment-start", "an inline comment does not start with '# '"),
+    StyleCode("E265", "block-comment-start", "a block comment does not start with '# '"),
+    StyleCode("E266", "block-comment-hashes", "a block comment starts with several #"),
+    StyleCode("E271", "spaces-after-keyword", "several spaces after a keyword"),
+    StyleCode("E272", "spaces-before-keyword", "several spaces before a keyword"),
+    StyleCode("E273", "tab-after-keyword", "a tab after a keyword"),
+    StyleCode("E274", "tab-before-keyword", "a tab before a keyword"),
+    StyleCode("E275", "missing-whitespace-after-keyword", "whitespace is missing after a keyword"),
+    StyleCode("E301", "missing-blank-line", "no blank line before a method"),
+    StyleCode("E302", "missing-blank-lines", "no two blank lines before a class or function"),
+    StyleCode("E303", "too-many-blank-lines", "too many blank lines"),
+    StyleCode("E304", "blank-line-after-decorator", "a blank line after a decorator"),
+    StyleCode(
+        "E305",
+        "missing-blank-lines-after-definition",
+        "no two blank lines after a class or function",
+    ),
+    StyleCode(
+        "E306",
+        "missing-blank-line-before-nested-definition",
+        "no blank line before a nested definition",
+    ),
+    StyleCode("E401", "several-imports-on-one-line", "several imports on one line"),
+    StyleCode("E402", "late-import", "an import below other code of the module"),
+    StyleCode("E501", "line-too-long", "the line has more than 99 characters"),
+    StyleCode("E502", "redundant-backslash", "a backslash between brackets"),
+    StyleCode("E701", "statement-after-colon", "a statement follows the colon on the same line"),
+    StyleCode("E702", "several-statements-on-one-line", "several statements on one line"),
+    StyleCode("E703", "trailing-semicolon", "the statement ends with a semicolon"),
+    StyleCode("E711", "comparison-to-none", "comparison to None with == or !="),
+    StyleCode("E712", "comparison-to-bool", "comparison to True or False with == or !="),
+    StyleCode("E713", "negated-membership-test", "'not x in y' instead of 'x not in y'"),
+    StyleCode("E714", "negated-identity-test", "'not x is y' instead of 'x is not y'"),
+    StyleCode("E721", "type-comparison", "types compared with == or !="),
+    StyleCode(
+        "E722",
+        "bare-except",
+        "bare 'except:' catches SystemExit and KeyboardInterrupt, too",
+    ),
+    StyleCode("E731", "assigned-lambda", "a lambda is assigned to a name"),
+    StyleCode("E741", "ambiguous-variable-name", "a variable is called l, O or I"),
+    StyleCode("E742", "ambiguous-class-name", "a class is called l, O or I"),
+    StyleCode("E743", "ambiguous-function-name", "a function is called l, O or I"),
+    StyleCode(
+        "E902",
+        "unreadable-source",
+        "the file cannot be read as Python",
+        BOTH,
+        Severity.ERROR,
+    ),
+    StyleCode("E999", "syntax-error", "the file is not Python", BOTH, Severity.ERROR),
+    StyleCode("F401", "unused-import", "an import is not used"),
+    StyleCode("F402", "import-shadowed-by-loop", "a loop variable replaces an import"),
+    StyleCode("F403", "star-import", "a star import hides what is defined"),
+    StyleCode(
+        "F404",
+        "late-future-import",
+        "a __future__ import below other code",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F405", "name-from-star-import", "a name may come from a star import"),
+    StyleCode(
+        "F406",
+        "nested-star-import",
+        "a star import inside a class or function",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F407",
+        "unknown-future-feature",
+        "an unknown feature is imported from __future__",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F501",
+        "percent-format-invalid",
+        "a % format that is not valid",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F502",
+        "percent-format-expects-mapping",
+        "a % format wants a mapping and gets none",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F503",
+        "percent-format-expects-sequence",
+        "a % format wants a sequence and gets none",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F504",
+        "percent-format-unused-argument",
+        "a named argument of a % format is not used",
+    ),
+    StyleCode(
+        "F505",
+        "percent-format-missing-argument",
+        "a named argument of a % format is missing",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F506",
+        "percent-format-mixed",
+        "a % format mixes positions and names",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F507",
+        "percent-format-count",
+        "a % format gets the wrong number of values",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F508",
+        "percent-format-star",
+        "a % format with * and a mapping",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F509",
+        "percent-format-character",
+        "a % format with an unknown character",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F521",
+        "format-invalid",
+        "a format string that is not valid",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F522", "format-unused-named-argument", "a named argument of .format() is not used"),
+    StyleCode("F523", "format-unused-argument", "an argument of .format() is not used"),
+    StyleCode(
+        "F524",
+        "format-missing-argument",
+        "an argument of .format() is missing",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F525",
+        "format-mixed-numbering",
+        ".format() mixes automatic and manual numbers",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F541", "f-string-without-placeholder", "an f-string without placeholders"),
+    StyleCode(
+        "F601",
+        "repeated-key-literal",
+        "a literal key of a dict is repeated with other values",
+    ),
+    StyleCode(
+        "F602",
+        "repeated-key-variable",
+        "a variable key of a dict is repeated with other values",
+    ),
+    StyleCode(
+        "F621",
+        "too-many-values-before-star",
+        "too many targets before a starred one",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F622",
+        "two-starred-targets",
+        "two starred targets in one assignment",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F631", "assert-on-tuple", "assert on a tuple, which is always true"),
+    StyleCode("F632", "is-with-literal", "'is' with a literal instead of '=='"),
+    StyleCode("F633", "print-shift", ">> with print", severity=Severity.ERROR),
+    StyleCode("F634", "if-on-tuple", "if on a tuple, which is always true"),
+    StyleCode("F701", "break-outside-loop", "break outside a loop", severity=Severity.ERROR),
+    StyleCode("F702", "continue-outside-loop", "continue outside a loop", severity=Severity.ERROR),
+    StyleCode(
+        "F704",
+        "yield-outside-function",
+        "yield or await outside a function",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F706",
+        "return-outside-function",
+        "return outside a function",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F707",
+        "default-except-not-last",
+        "a bare except that is not the last one",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F722", "annotation-syntax", "an annotation in quotes that is not Python"),
+    StyleCode("F811", "redefinition", "a name is defined again without being used"),
+    StyleCode("F821", "undefined-name", "a name is not defined", severity=Severity.ERROR),
+    StyleCode(
+        "F822",
+        "undefined-export",
+        "a name in __all__ is not defined",
+        severity=Severity.ERROR,
+    ),
+    StyleCode(
+        "F823",
+        "unbound-local",
+        "a local variable is used before its assignment",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("F841", "unused-variable", "a local variable is not used"),
+    StyleCode("F842", "unused-annotation", "a local variable is annotated and not used"),
+    StyleCode(
+        "F901",
+        "raise-not-implemented",
+        "raise NotImplemented instead of NotImplementedError",
+        severity=Severity.ERROR,
+    ),
+    StyleCode("I100", "import-order", "an import stands in the wrong place"),
+    StyleCode("I101", "imported-names-order", "imported names are not sorted"),
+    StyleCode("I201", "import-groups-not-separated", "no blank line between groups of imports"),
+    StyleCode(
+        "I666",
+        "mixed-import-groups",
+        "one import statement for modules of different groups",
+    ),
+    StyleCode(
+        "Q000",
+        "string-quotes",
+        "double quotes around a string that single quotes would do for",
+    ),
+    StyleCode("Q001", "multiline-string-quotes", "single quotes around a multi-line string"),
+    StyleCode("Q002", "single-quoted-docstring", "single quotes around a docstring"),
+    StyleCode(
+        "Q003",
+        "avoidable-escape",
+        "escaped quotes that other quotes around the string would save",
+    ),
+    StyleCode("W191", "tab-indentation", "the indentation contains tabs"),
+    StyleCode("W291", "trailing-whitespace", "trailing whitespace"),
+    StyleCode("W292", "no-newline-at-end", "no newline at the end of the file"),
+    StyleCode("W293", "whitespace-on-blank-line", "whitespace on a blank line"),
+    StyleCode("W391", "blank-line-at-end", "blank line at the end of the file"),
+    StyleCode("W605", "invalid-escape", "an escape sequence that does not exist"),
+)
+
+CODES: Mapping[str, StyleCode] = {one.code: one for one in _TABLE}
+"""By code, in alphabetical order."""

@@ -1,0 +1,437 @@
+"""Copyright notices and licence headers of source files, judged as ament_copyright does."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+from collections.abc import Sequence
+from contextlib import suppress
+from fnmatch import fnmatchcase
+from functools import lru_cache
+
+from scaffold.ament.files import broken_links, lintable
+from scaffold.files.disk import LargeFileError
+from scaffold.model.cmake.lists import CMakeLists
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ViewError
+
+EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cmake", ".py"})
+REPOSITORY_FILES = ("CONTRIBUTING.md", "LICENSE")
+
+_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licences.tsv")
+_YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
+_NOTICE = rf"copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
+_NEAR = 12  # words that a header must share with a known one to be called a variant of it
+_HOLDER = 12  # words that the name of a copyright holder has at most
+
+
+class Header(NamedTuple):
+    """What a source file says about its copyright."""
+
+    path: str
+    location: Location
+    """The first notice; the first line when there is none."""
+    holders: tuple[str, ...] = ()
+    licence: str | None = None
+    """The SPDX identifier of the known header; ``None`` when there is no such header."""
+    text: str = ""
+    """What stands behind the last notice, in one line."""
+    unreadable: str = ""
+    """Why ament_copyright ends in a traceback on this file."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the linter accepts the file."""
+        return bool(self.holders) and self.licence is not None
+
+
+def headers(package: Package) -> list[Header]:
+    """Return the headers of the source files that ament_copyright looks at.
+
+    These are C, C++, CMake and Python files except empty ones and the ``setup.py`` beside
+    package.xml.
+    """
+    return package.remember("copyright", lambda: _headers(package))
+
+
+def _headers(package: Package) -> list[Header]:
+    found: list[Header] = []
+    for path in lintable(package):
+        if os.path.splitext(path)[1] not in EXTENSIONS or path == "setup.py":
+            continue
+        try:
+            data = package.tree.read(path)
+        except LargeFileError:
+            with suppress(ViewError):
+                package.data(path)  # which makes it known as too large
+            continue
+        except OSError:
+            continue  # SC001 of whoever needs the file
+        if data:
+            found.append(read(path, data))
+    for path in broken_links(package):
+        if os.path.splitext(path)[1] in EXTENSIONS:
+            at = Location.start_of(path)
+            found.append(Header(path, at, unreadable="this link leads to no file"))
+    return found
+
+
+def read(path: str, data: bytes) -> Header:
+    """Return the header of a source file that is not empty."""
+    at = Location.start_of(path)
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        said = f"byte 0x{data[error.start]:02x} in line {line} is not UTF-8"
+        return Header(path, at, unreadable=said)
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    start = _behind_first_lines(text)
+    if start is None:
+        return Header(path, at, unreadable="the file ends behind its first line")
+    for block in (_line_comments(text, start), _block_comment(text, start)):
+        notices, rest = _notices(block)
+        if notices:
+            first = notices[0].split("\n", 1)[0]
+            offset = max(text.find(first), 0)
+            line = text.count("\n", 0, offset) + 1
+            column = offset - text.rfind("\n", 0, offset)
+            at = Location(path, line, column, line, column + len(first))
+            holders = tuple(_holder(notice) for notice in notices)
+            said = " ".join(rest.split())
+            return Header(path, at, holders, identify(said), said)
+    return Header(path, at)
+
+
+def _behind_first_lines(text: str) -> int | None:
+    """Return the offset behind shebang, coding and empty lines; None if nothing follows them."""
+    at = 0
+    while True:
+        begin = 1 if at == 0 and text[0] == "\ufeff" else at
+        if begin >= len(text):
+            return None
+        end = _next_line(text, at)
+        line = text[at:end]
+        is_coding = "coding=" in line or "coding:" in line
+        if text[begin] != "#" or not (is_coding or text.startswith("#!", begin)):
+            break
+        at = end
+    while at < len(text) and _next_line(text, at) == at + 1:
+        at += 1
+    return at
+
+
+def _next_line(text: str, at: int) -> int:
+    end = text.find("\n", at)
+    return len(text) if end < 0 else end + 1
+
+
+def _line_comments(text: str, start: int) -> str:
+    """Return the first block of line comments, wherever it is, without the comment marks."""
+    mark = "\ufeff" if start == 0 and text[0] == "\ufeff" else ""
+    match = re.compile(rf"^{mark}(#|///|//)", re.MULTILINE).search(text, start)
+    if match is None:
+        return ""
+    token = match[1]
+    end = _next_line(text, match.start(1))
+    while text.startswith(token, end):
+        end = _next_line(text, end)
+    lines = text[match.start(1) : end].splitlines()
+    return "\n".join(line[len(token) + 1 :] for line in lines)
+
+
+def _block_comment(text: str, start: int) -> str:
+    """Return the lines of the first block comment without their common beginning."""
+    mark = "\ufeff" if start == 0 and text[0] == "\ufeff" else ""
+    for opening, closing in ((r"/[*]", r"[*]/"), ("<!--", "-->")):
+        first = re.compile(rf"^{mark}({opening})", re.MULTILINE).search(text, start)
+        last = re.compile(rf"{closing}$", re.MULTILINE).search(text, start)
+        if first is None or last is None:
+            continue
+        lines = text[first.start(1) : last.start()].splitlines()
+        if len(lines) > 1:
+            lines = lines[1:-1] or lines[1:]
+        if len(lines) > 1:
+            lines = _without_common_beginning(lines)
+        return "\n".join(lines)
+    return ""
+
+
+def _without_common_beginning(lines: list[str]) -> list[str]:
+    first, last = min(lines), max(lines)
+    same = 0
+    while same < len(first) and first[same] == last[same : same + 1]:
+        same += 1
+    return [line[same:] for line in lines]
+
+
+def _notices(block: str) -> tuple[list[str], str]:
+    """Return the copyright notices, and what stands behind the last one."""
+    found: list[str] = []
+    end = 0
+    notice = re.compile(_NOTICE, re.IGNORECASE | re.MULTILINE)
+    for word in re.finditer("copyright", block, re.IGNORECASE):
+        if word.start() < end or not _begins_line(block, word.start(), end):
+            continue
+        match = notice.match(block, word.start())
+        if match:
+            found.append(match[0])
+            end = match.end()
+    return found, block[end:]
+
+
+def _begins_line(block: str, at: int, floor: int) -> bool:
+    r"""Tell whether only blanks, one other character or ``\copyright`` stand before ``at``."""
+    before = _back(block, at, floor)
+    if _is_near_start(block, before, at, floor):
+        return True
+    command = "\\copyright"
+    at = before - len(command)
+    if at < floor or block[at:before].lower() != command:
+        return False
+    return _is_near_start(block, _back(block, at, floor), at, floor)
+
+
+def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
+    """Tell whether the blanks from ``before`` to ``at`` begin a line, or its second character."""
+    if before == floor or "\n" in block[before:at]:
+        return True
+    return before - 1 == floor or block[before - 2] == "\n"
+
+
+def _back(block: str, at: int, floor: int) -> int:
+    while at > floor and block[at - 1].isspace():
+        at -= 1
+    return at
+
+
+def _holder(notice: str) -> str:
+    # linear: whatever is left of the line matches
+    match = re.fullmatch(_NOTICE, notice, re.IGNORECASE)
+    return match[2].strip() if match else ""
+
+
+# -- known texts
+
+
+class Known(NamedTuple):
+    """A text of a licence: the parts between the places for names."""
+
+    licence: str
+    sections: tuple[str, ...]
+
+
+@lru_cache(maxsize=1)
+def known_texts() -> dict[str, list[Known]]:
+    """Return the known texts by what they are: ``header``, or the name of a file."""
+    found: dict[str, list[Known]] = {}
+    with open(_DATA, encoding="utf-8") as file:
+        for line in file:
+            kind, licence, *sections = line.rstrip("\n").split("\t")
+            found.setdefault(kind, []).append(Known(licence, tuple(sections)))
+    return found
+
+
+@lru_cache(maxsize=256)
+def identify(text: str) -> str | None:
+    """Return the SPDX identifier of the known header that is in a text, blanks joined."""
+    for known in known_texts()["header"]:
+        if _in_order(text, known.sections):
+            return known.licence
+    return None
+
+
+def _in_order(text: str, sections: tuple[str, ...]) -> bool:
+    last = -1
+    for section in sections:
+        at = text.find(section)
+        if at <= last:
+            return False
+        last = at
+    return True
+
+
+def departure(text: str) -> tuple[str, str, str] | None:
+    """Return the licence that an unknown header comes near to, and where it departs.
+
+    Returns:
+        The SPDX identifier, the words expected and the words found there; ``None`` when the text
+        is like none of the known ones.
+    """
+    best: tuple[int, str, str, str] | None = None
+    words = text.split()
+    for known in known_texts()["header"]:
+        same, expected, given = _compare(words, [part.split() for part in known.sections])
+        enough = min(_NEAR, sum(map(len, (part.split() for part in known.sections))) // 2)
+        if same >= enough and (best is None or same > best[0]):
+            best = same, known.licence, " ".join(expected[:4]), " ".join(given[:4])
+    return best[1:] if best else None
+
+
+def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str], list[str]]:
+    """Return how many words agree, and what was expected and given behind them."""
+    same = at = 0
+    for number, section in enumerate(sections):
+        reach = at + _HOLDER if number else len(words)
+        starts = (i for i in range(at, min(reach, len(words))) if words[i : i + 3] == section[:3])
+        at = next(starts, at)
+        for expected, word in enumerate(section):
+            if words[at : at + 1] != [word]:
+                following = [w for part in sections[number + 1 :] for w in ("<holder>", *part)]
+                return same, section[expected:] + following, words[at:]
+            same += 1
+            at += 1
+    return same, [], words[at:]
+
+
+def identify_file(name: str, data: bytes) -> str | None:
+    """Return the SPDX identifier of a LICENSE or CONTRIBUTING.md, ``None`` if it is unknown."""
+    text = " ".join(data.decode("utf-8", "replace").split())
+    for known in known_texts()[name]:
+        last = -1
+        for mark in known.sections:
+            at = _find_marked(text, mark)
+            if at <= last:
+                break
+            last = at
+        else:
+            return known.licence
+    return None
+
+
+def _find_marked(text: str, mark: str) -> int:
+    """Find a long text of which only length, digest and first characters are kept."""
+    from hashlib import sha256
+
+    length, digest, beginning = mark.split(" ", 2)
+    at = text.find(beginning)
+    while at >= 0:
+        part = text[at : at + int(length)]
+        if sha256(part.encode()).hexdigest()[: len(digest)] == digest:
+            return at
+        at = text.find(beginning, at + 1)
+    return -1
+
+
+LINTER = "ament_cmake_copyright"
+COLLECTIONS = ("ament_lint_common", LINTER)
+
+
+class Use(NamedTuple):
+    """How a package uses ament_copyright."""
+
+    runs: bool
+    why_not: str = ""
+    """Why the linter does not run; for people."""
+    excluded: tuple[str, ...] = ()
+    """Patterns of files that it is told to leave out."""
+
+    def covers(self, path: str) -> bool:
+        """Tell whether the linter looks at a file."""
+        return self.runs and not any(
+            fnmatchcase(path, pattern) and path.count("/") == pattern.count("/")
+            for pattern in self.excluded
+        )
+
+
+def copyright_use(package: Package) -> Use:
+    """Return how a package uses ament_copyright: by CMake, or by a test in Python."""
+    return package.remember("copyright_use", lambda: _use(package))
+
+
+def _use(package: Package) -> Use:
+    uses = [use for use in (_by_cmake(package), _by_pytest(package)) if use is not None]
+    running = [use for use in uses if use.runs]
+    if running:
+        return running[0]
+    return uses[0] if uses else Use(runs=False, why_not="no test of this package runs it")
+
+
+def _by_cmake(package: Package) -> Use | None:
+    try:
+        cmake = package.cmake
+        declared = package.manifest.declared_names
+    except ViewError:
+        return None
+    calls = cmake.find("ament_copyright")
+    if calls:
+        arguments = [a for call in calls for a in call.arguments if a.text != "EXCLUDE"]
+        return _excluding(cmake, cmake.expand_list(arguments))
+    finds = cmake.find("ament_lint_auto_find_test_dependencies")
+    finds = finds or cmake.find("ament_auto_find_test_dependencies")
+    if not finds or not any(_brings_linter(package, name) for name in declared):
+        return None
+    for command in cmake.find("set", "list"):
+        words = [argument.text for argument in command.arguments]
+        line = command.location.line
+        if words[:1] == [f"{LINTER}_FOUND"] and words[1:2] not in ([], ["FALSE"], ["OFF"], ["0"]):
+            return Use(runs=False, why_not=f"CMakeLists.txt line {line} switches it off")
+        if "AMENT_LINT_AUTO_EXCLUDE" in words[:2] and LINTER in words:
+            return Use(runs=False, why_not=f"CMakeLists.txt line {line} excludes it")
+    return _excluding(cmake, _file_excludes(cmake))
+
+
+def _brings_linter(package: Package, name: str) -> bool:
+    """Tell whether a dependency is the linter or a collection, ours or of the workspace."""
+    if name in COLLECTIONS:
+        return True
+    other = package.workspace.get(name) if name.endswith("_lint_common") else None
+    try:
+        return other is not None and not other.manifest.run_names.isdisjoint(COLLECTIONS)
+    except ViewError:
+        return False
+
+
+def _file_excludes(cmake: CMakeLists) -> list[str] | None:
+    found: list[str] = []
+    for command in cmake.find("set", "list"):
+        words = [argument.text for argument in command.arguments]
+        if "AMENT_LINT_AUTO_FILE_EXCLUDE" in words[:2]:
+            start = words.index("AMENT_LINT_AUTO_FILE_EXCLUDE") + 1
+            values = cmake.expand_list(command.arguments[start:], command)
+            if values is None:
+                return None
+            found += values
+    return found
+
+
+def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
+    if values is None:
+        return Use(runs=False, why_not="which files CMakeLists.txt excludes cannot be told")
+    return Use(runs=True, excluded=tuple(cmake.path_of(value) for value in values))
+
+
+def _by_pytest(package: Package) -> Use | None:
+    found: Use | None = None
+    for path in package.python_files:
+        if "test" not in path:
+            continue
+        try:
+            module = package.module(path)
+        except ViewError:
+            continue
+        if "ament_copyright" not in module.source.text:
+            continue
+        if "ament_copyright" not in module.imports_by_root:
+            continue
+        if re.search(r"pytest\.mark\.(?:skip|xfail)|pytest\.skip\(", module.source.text):
+            found = Use(runs=False, why_not=f"{path} is skipped")
+            continue
+        return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
+    return found
+
+
+def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
+    """Return what follows ``--exclude`` in lists of arguments."""
+    found: list[str] = []
+    for node in lists:
+        values = [item.value for item in node.elts if isinstance(item, ast.Constant)]
+        excluding = False
+        for value in values:
+            if isinstance(value, str) and value.startswith("--"):
+                excluding = value == "--exclude"
+            elif excluding and isinstance(value, str):
+                found.append(value.removeprefix("./"))
+    return tuple(found)

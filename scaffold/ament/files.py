@@ -1,0 +1,64 @@
+"""Which files the linters of ament look at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from scaffold.ament.finding import FLAKE8, PEP257
+from scaffold.model.package import Package
+
+IGNORE_MARKER = "AMENT_IGNORE"
+
+
+def lintable(package: Package) -> tuple[str, ...]:
+    """Return the files that every ament linter that walks directories itself would visit.
+
+    They leave out directories that begin with ``_`` or ``.``, and directories with a file or a
+    directory named AMENT_IGNORE and all that is below.
+    """
+    return package.remember("ament_files", lambda: tuple(_visited(package, package.files)))
+
+
+def broken_links(package: Package) -> list[str]:
+    """Return the links to nothing that the linters stop at: they see a name, and no file."""
+    return _visited(package, getattr(package.tree, "broken_links", ()))
+
+
+def _visited(package: Package, paths: Iterable[str]) -> list[str]:
+    marked = [
+        path[: -len(IGNORE_MARKER)]
+        for path in (*package.files, *package.tree.directories)
+        if path.rpartition("/")[2] == IGNORE_MARKER
+    ]
+    if "" in marked:
+        return []
+    ignored = tuple(marked)
+    return [
+        path
+        for path in paths
+        if not path.startswith(ignored) and "/_" not in f"/{path.rpartition('/')[0]}"
+    ]
+
+
+def select(files: Iterable[str]) -> dict[str, int]:
+    """Return the linters (FLAKE8, PEP257, both) of each file that one of them checks.
+
+    Both take ``*.py``. ament_flake8 leaves out directories with an AMENT_IGNORE file and all
+    directories whose name starts with a dot or an underscore; ament_pep257 knows only the second.
+    """
+    listed = list(files)
+    ignored = tuple(
+        path[: -len(IGNORE_MARKER)] for path in listed if path.rpartition("/")[2] == IGNORE_MARKER
+    )
+    found: dict[str, int] = {}
+    for path in listed:
+        if not path.endswith(".py"):
+            continue
+        parents = path.split("/")[:-1]
+        if any(parent.startswith((".", "_")) for parent in parents):
+            continue
+        linters = PEP257
+        if not any(path.startswith(directory) for directory in ignored):
+            linters |= FLAKE8
+        found[path] = linters
+    return found

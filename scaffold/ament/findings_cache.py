@@ -1,0 +1,64 @@
+"""Findings by content: a file that was checked before needs neither ruff nor the own rules.
+
+One small file per checked file, named after a digest of its bytes and of everything else that the
+findings depend on. A cache that cannot be read or written is as good as none.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+from collections.abc import Callable, Sequence
+
+from scaffold.ament.finding import Finding
+from scaffold.files import cache
+from scaffold.files.disk import digest
+
+MAX_ENTRIES = 20_000
+KEPT_ENTRIES = 15_000
+_MAGIC = b"scaffold-style-1\n"
+
+
+class Cache:
+    """A directory of findings."""
+
+    def __init__(self, directory: str, depends_on: str) -> None:
+        self._directory = directory
+        self._salt = depends_on.encode("utf-8", "surrogateescape")
+
+    @classmethod
+    def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
+        """Return the user's cache, unless it is switched off or there is no home for it."""
+        kept = cache.directory("style")
+        return None if kept is None else cls(kept, depends_on())
+
+    def key(self, name: str, linters: int, data: bytes) -> str:
+        """Return the key of a file: of its bytes and of what else rules look at."""
+        kind = "init" if name == "__init__.py" else "module"
+        return digest(b"%s\0%s %d\0%s" % (self._salt, kind.encode(), linters, data))
+
+    def get(self, key: str) -> list[Finding] | None:
+        """Return the findings stored under a key."""
+        data = cache.read_sealed(self._path(key), _MAGIC)
+        return None if data is None else [Finding(*one) for one in marshal.loads(data)]  # noqa: S302  own files
+
+    def put(self, key: str, findings: Sequence[Finding]) -> None:
+        """Store findings."""
+        cache.write_sealed(self._path(key), _MAGIC, marshal.dumps([*map(tuple, findings)]))
+
+    def trim(self) -> None:
+        """Drop the oldest entries when there are too many."""
+        try:
+            entries = [
+                (entry.stat().st_mtime, entry.path)
+                for shard in os.scandir(self._directory)
+                for entry in os.scandir(shard.path)
+            ]
+            if len(entries) > MAX_ENTRIES:
+                for _, path in sorted(entries)[:-KEPT_ENTRIES]:
+                    os.unlink(path)
+        except OSError:
+            return
+
+    def _path(self, key: str) -> str:
+        return os.path.join(self._directory, key[:2], key[2:])

@@ -1,0 +1,135 @@
+"""A001 to A003: names that hide a builtin, with the verdict of flake8-builtins 2.1.0."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.text import PythonText
+
+_NAMES = """
+    ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup
+    BlockingIOError BrokenPipeError BufferError BytesWarning ChildProcessError
+    ConnectionAbortedError ConnectionError ConnectionRefusedError ConnectionResetError
+    DeprecationWarning EOFError Ellipsis EncodingWarning EnvironmentError Exception
+    ExceptionGroup FileExistsError FileNotFoundError FloatingPointError FutureWarning
+    GeneratorExit IOError ImportError ImportWarning IndentationError IndexError InterruptedError
+    IsADirectoryError KeyError KeyboardInterrupt LookupError MemoryError ModuleNotFoundError
+    NameError NotADirectoryError NotImplemented NotImplementedError OSError OverflowError
+    PendingDeprecationWarning PermissionError ProcessLookupError RecursionError ReferenceError
+    ResourceWarning RuntimeError RuntimeWarning StopAsyncIteration StopIteration SyntaxError
+    SyntaxWarning SystemError SystemExit TabError TimeoutError TypeError UnboundLocalError
+    UnicodeDecodeError UnicodeEncodeError UnicodeError UnicodeTranslateError UnicodeWarning
+    UserWarning ValueError Warning ZeroDivisionError __build_class__ __import__ __loader__
+    __package__ __spec__ abs aiter all anext any ascii bin bool breakpoint bytearray bytes
+    callable chr classmethod compile complex copyright delattr dict dir divmod enumerate eval
+    exec exit filter float format frozenset getattr globals hasattr hash help hex id input int
+    isinstance issubclass iter len license list locals map max memoryview min next object oct
+    open ord pow print property quit range repr reversed round set setattr slice sorted
+    staticmethod str sum super tuple type vars zip
+"""
+
+BUILTINS = frozenset(_NAMES.split())
+"""The builtins of Python 3.12 without those that flake8-builtins lets pass."""
+
+_Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+_Function = (ast.FunctionDef, ast.AsyncFunctionDef)
+_BINDING = (
+    ast.Assign,
+    ast.AnnAssign,
+    ast.NamedExpr,
+    ast.For,
+    ast.AsyncFor,
+    ast.With,
+    ast.AsyncWith,
+    *_Comprehension,
+    ast.ExceptHandler,
+    ast.Import,
+    ast.ImportFrom,
+    *_Function,
+    ast.ClassDef,
+)
+Named = Iterator[tuple[str, int, int]]
+"""A name with its line, and its column from 0 in bytes."""
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield the names that hide a builtin."""
+    in_class = {
+        id(child)
+        for node in text.nodes
+        if isinstance(node, ast.ClassDef)
+        for child in node.body
+        if isinstance(child, (ast.Assign, ast.AnnAssign, *_Function))
+    }
+    for node in text.nodes:
+        if not isinstance(node, _BINDING):
+            continue
+        code = "A003" if id(node) in in_class else "A001"
+        for name, line, column in _bound(node):
+            if name in BUILTINS:
+                kind = "attribute of a class" if code == "A003" else "variable"
+                yield _finding(text, code, kind, name, line, column)
+        if isinstance(node, _Function):
+            for argument in _arguments(node):
+                if argument.arg in BUILTINS:
+                    line, column = argument.lineno, argument.col_offset
+                    yield _finding(text, "A002", "argument", argument.arg, line, column)
+
+
+def _finding(text: PythonText, code: str, kind: str, name: str, line: int, column: int) -> Finding:
+    at = text.column(line, column)
+    return Finding(code, line, at, f"the {kind} '{name}' hides the builtin of that name")
+
+
+def _bound(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of statement
+    """Yield the names that a node binds, at the place where flake8-builtins reports them."""
+    if isinstance(node, ast.Assign):
+        for target in node.targets:
+            yield from _unpack(target)
+    elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)):
+        yield from _unpack(node.target)
+    elif isinstance(node, (ast.For, ast.AsyncFor)):
+        yield from _at(node, [name for name, _, _ in _unpack(node.target)])
+    elif isinstance(node, (ast.With, ast.AsyncWith)):
+        for item in node.items:
+            yield from _at(node, _flat(item.optional_vars, starred=True))
+    elif isinstance(node, _Comprehension):
+        for generator in node.generators:
+            yield from _at(node, _flat(generator.target, starred=False))
+    elif isinstance(node, ast.ExceptHandler):
+        yield from _at(node, [node.name or ""])
+    elif isinstance(node, (ast.Import, ast.ImportFrom)):
+        yield from _at(node, [alias.asname or "" for alias in node.names])
+    elif isinstance(node, (*_Function, ast.ClassDef)):
+        yield from _at(node, [node.name])
+
+
+def _at(node: ast.stmt | ast.expr | ast.ExceptHandler, names: Sequence[str]) -> Named:
+    for name in names:
+        yield name, node.lineno, node.col_offset
+
+
+def _unpack(target: ast.expr) -> Named:
+    """Yield the names of an assignment's target, however deep."""
+    if isinstance(target, ast.Name):
+        yield target.id, target.lineno, target.col_offset
+    elif isinstance(target, ast.Starred):
+        yield from _unpack(target.value)
+    elif isinstance(target, (ast.Tuple, ast.List)):
+        for element in target.elts:
+            yield from _unpack(element)
+
+
+def _flat(target: ast.expr | None, *, starred: bool) -> list[str]:
+    """Return the names of a target, not deeper than one level."""
+    elements = target.elts if isinstance(target, (ast.Tuple, ast.List)) else [target]
+    if starred:
+        elements = [one.value if isinstance(one, ast.Starred) else one for one in elements]
+    return [one.id for one in elements if isinstance(one, ast.Name)]
+
+
+def _arguments(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.arg]:
+    arguments = node.args
+    return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]

@@ -1,0 +1,147 @@
+"""C400 to C419: calls that a literal or a comprehension would replace.
+
+flake8-comprehensions goes by names and shapes alone; ruff also asks whether the name still stands
+for the builtin, and places some findings at the argument instead of the call.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.text import PythonText
+
+_CASTS = {
+    "set": {"list", "reversed", "sorted", "tuple", "set"},
+    "sorted": {"list", "reversed", "sorted", "tuple"},
+    "list": {"list", "tuple"},
+    "tuple": {"list", "tuple"},
+}
+_COPY = (ast.ListComp, ast.SetComp, ast.DictComp)
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield the calls and comprehensions that can be written shorter."""
+    inner_maps: set[ast.AST] = set()
+    for node in text.nodes:
+        code = ""
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            code = _call(node, node.func.id, inner_maps)
+        elif isinstance(node, _COPY) and _copies(node):
+            code = "C416"
+        if code and isinstance(node, ast.expr):
+            column = text.column(node.lineno, node.col_offset)
+            end = node.end_lineno or node.lineno
+            end_column = text.column(end, node.end_col_offset or 0)
+            yield Finding(code, node.lineno, column, "", end, end_column)
+
+
+def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
+    """Return the code for a call of a name, empty when there is nothing to say."""
+    if not node.args:
+        return _empty_call(node, name)
+    first = node.args[0]
+    code = _of_one(node, name, first) if len(node.args) == 1 else ""
+    return code or _nested_call(name, first) or _map_call(node, name, first, inner_maps)
+
+
+def _nested_call(name: str, first: ast.expr) -> str:
+    """Return the code for what is done twice: sorting, copying, reversing."""
+    if name in ("reversed", "set", "sorted") and _is_reversal(first):
+        return "C415"
+    if not isinstance(first, ast.Call) or not isinstance(first.func, ast.Name):
+        return ""
+    if name in ("list", "reversed") and first.func.id == "sorted":
+        return "C413"
+    return "C414" if first.func.id in _CASTS.get(name, ()) else ""
+
+
+def _map_call(node: ast.Call, name: str, first: ast.expr, inner_maps: set[ast.AST]) -> str:
+    """Return the code for ``map`` with a lambda, alone or inside a call that collects it."""
+    if name == "map":
+        return "C417" if node not in inner_maps and _maps_lambda(node) else ""
+    if name not in ("list", "set", "dict") or len(node.args) != 1:
+        return ""
+    if not isinstance(first, ast.Call) or not _is_name(first.func, "map"):
+        return ""
+    if not _maps_lambda(first):
+        return ""
+    inner_maps.add(first)
+    return "C417" if name != "dict" or _returns_pair(first.args[0]) else ""
+
+
+def _empty_call(node: ast.Call, name: str) -> str:
+    if name == "dict" and all(keyword.arg for keyword in node.keywords):
+        return "C408"
+    return "C408" if name in ("tuple", "list") and not node.keywords else ""
+
+
+def _of_one(node: ast.Call, name: str, first: ast.expr) -> str:
+    """Return the code for a call with one positional argument."""
+    if isinstance(first, (ast.GeneratorExp, ast.ListComp)):
+        is_list = isinstance(first, ast.ListComp)
+        if name == "dict" and not node.keywords and _is_pair(first.elt):
+            return "C404" if is_list else "C402"
+        if is_list:
+            found = {"list": "C411", "set": "C403", "any": "C419", "all": "C419"}
+        else:
+            found = {"list": "C400", "set": "C401"}
+        return found.get(name, "")
+    if isinstance(first, (ast.Dict, ast.DictComp)):
+        return "C418" if name == "dict" and not node.keywords else ""
+    if isinstance(first, (ast.Tuple, ast.List)):
+        if name == "dict":
+            pairs = all(isinstance(one, ast.Tuple) and _is_pair(one) for one in first.elts)
+            return "C406" if pairs else ""
+        return {"tuple": "C409", "list": "C410", "set": "C405"}.get(name, "")
+    return ""
+
+
+def _is_pair(node: ast.expr) -> bool:
+    return isinstance(node, ast.Tuple) and len(node.elts) == len(("key", "value"))
+
+
+def _is_name(node: ast.expr, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name
+
+
+def _maps_lambda(node: ast.Call) -> bool:
+    return len(node.args) == len(("function", "values")) and isinstance(node.args[0], ast.Lambda)
+
+
+def _returns_pair(node: ast.expr) -> bool:
+    body = node.body if isinstance(node, ast.Lambda) else node
+    return isinstance(body, (ast.List, ast.Tuple)) and len(body.elts) == len(("key", "value"))
+
+
+def _is_reversal(node: ast.expr) -> bool:
+    if not isinstance(node, ast.Subscript) or not isinstance(node.slice, ast.Slice):
+        return False
+    part = node.slice
+    return part.lower is None and part.upper is None and _is_minus_one(part.step)
+
+
+def _is_minus_one(node: ast.expr | None) -> bool:
+    return (
+        isinstance(node, ast.UnaryOp)
+        and isinstance(node.op, ast.USub)
+        and isinstance(node.operand, ast.Constant)
+        and node.operand.value == 1
+    )
+
+
+def _copies(node: ast.ListComp | ast.SetComp | ast.DictComp) -> bool:
+    """Tell whether a comprehension yields just what it iterates over."""
+    if len(node.generators) != 1 or node.generators[0].ifs or node.generators[0].is_async:
+        return False
+    target = node.generators[0].target
+    if isinstance(node, ast.DictComp):
+        if not _is_pair(target) or not isinstance(target, ast.Tuple):
+            return False
+        return _same_name(node.key, target.elts[0]) and _same_name(node.value, target.elts[1])
+    return _same_name(node.elt, target)
+
+
+def _same_name(one: ast.expr, two: ast.expr) -> bool:
+    return isinstance(one, ast.Name) and isinstance(two, ast.Name) and one.id == two.id

@@ -1,0 +1,1 @@
+"""The I codes of flake8-import-order."""

@@ -1,0 +1,116 @@
+"""Sorts blocks of plain import statements: the fix of I100, I101 and I201."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.import_order.check import MIXED, Statement, describe, fold
+from scaffold.ament.flake8.pycodestyle.physical import MAX_LENGTH
+from scaffold.ament.python_text.text import PythonText
+from scaffold.record import NamedTuple
+
+CODES = ("I100", "I101", "I201")
+
+
+class _Import(NamedTuple):
+    """An import statement and the lines that it will have."""
+
+    statement: Statement
+    lines: str
+
+
+def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> list[Finding]:
+    """Give findings within a block that can be sorted the fix that sorts it."""
+    fixed = list(findings)
+    for block in _blocks(text, tree):
+        first, last = block[0].statement.line, block[-1].statement.end_line
+        sorted_block = _sorted(block)
+        if sorted_block == "".join(text.lines[first - 1 : last]).rstrip("\n"):
+            continue
+        end = len(text.lines[last - 1].rstrip("\n")) + 1
+        fix = ((first, 1, last, end, sorted_block),)
+        for at, finding in enumerate(fixed):
+            # What stands before the block is not moved, so its first line gains nothing.
+            gains = finding.line > first or finding.code == "I101"
+            if finding.code in CODES and gains and first <= finding.line <= last:
+                fixed[at] = finding._replace(fix=fix, fix_title="sort the imports")
+    return fixed
+
+
+def _blocks(text: PythonText, tree: ast.Module) -> Iterator[list[_Import]]:
+    """Yield runs of imports with nothing but blank lines between them."""
+    block: list[_Import] = []
+    for node in tree.body:
+        one = _plain(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
+        follows = block and _only_blank(text, block[-1].statement, one)
+        if block and not follows:
+            yield block
+            block = []
+        if one is not None:
+            block.append(one)
+    if block:
+        yield block
+
+
+def _only_blank(text: PythonText, before: Statement, one: _Import | None) -> bool:
+    if one is None:
+        return False
+    between = text.lines[before.end_line : one.statement.line - 1]
+    return not any(line.strip() for line in between)
+
+
+def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | None:
+    """Return a statement that has its lines to itself and no comments; else ``None``."""
+    statement = describe(node)
+    lines = "".join(text.lines[statement.line - 1 : statement.end_line]).rstrip("\n")
+    if node.col_offset or statement.group == MIXED or any(one in lines for one in "#;\\\f"):
+        return None
+    if list(statement.names) == sorted(statement.names):
+        return _Import(statement, lines)
+    if not isinstance(node, ast.ImportFrom):
+        return None
+    ordered = statement._replace(names=tuple(sorted(statement.names)))
+    if statement.line != statement.end_line:
+        sorted_lines = _in_place(text, node)
+        return _Import(ordered, sorted_lines) if sorted_lines else None
+    head, keyword, rest = lines.partition(" import ")
+    aliases = sorted(node.names, key=lambda alias: fold(alias.name))
+    names = ", ".join(f"{one.name} as {one.asname}" if one.asname else one.name for one in aliases)
+    listed = f"({names})" if rest.strip().startswith("(") else names
+    return _Import(ordered, f"{head}{keyword}{listed}")
+
+
+def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
+    """Return a statement of several lines with its names sorted; empty if a line gets too long."""
+    first, last = node.lineno, node.end_lineno or node.lineno
+    starts = text.line_starts
+    spans = [
+        (
+            starts[one.lineno - 1] + text.column(one.lineno, one.col_offset) - 1,
+            starts[(one.end_lineno or 0) - 1]
+            + text.column(one.end_lineno or 0, one.end_col_offset or 0)
+            - 1,
+        )
+        for one in node.names
+    ]
+    order = sorted(range(len(spans)), key=lambda at: fold(node.names[at].name))
+    parts: list[str] = []
+    at = starts[first - 1]
+    for (start, end), other in zip(spans, order, strict=True):
+        parts += text.text[at:start], text.text[slice(*spans[other])]
+        at = end
+    lines = "".join([*parts, text.text[at : starts[last]]]).rstrip("\n")
+    return "" if any(len(line) > MAX_LENGTH for line in lines.split("\n")) else lines
+
+
+def _sorted(block: Sequence[_Import]) -> str:
+    parts: list[str] = []
+    group = -1
+    for one in sorted(block, key=lambda one: one.statement.key):
+        if parts and one.statement.group != group:
+            parts.append("")
+        parts.append(one.lines)
+        group = one.statement.group
+    return "\n".join(parts)

@@ -1,0 +1,94 @@
+"""``# noqa`` the way flake8 reads it; pydocstyle's own way is in ``definitions``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+
+from scaffold.ament.finding import FLAKE8, Finding
+from scaffold.ament.python_text.text import PythonText
+from scaffold.ament.python_text.tokens import COMMENT, DEDENT, ENDMARKER, NEWLINES
+
+_INLINE = r"# noqa(?::[\s]?(?P<codes>([A-Z]+[0-9]+(?:[,\s]+)?)+))?"
+_FILE = r"^\s*# flake8[:=]\s*noqa"
+_ALL = ("",)
+
+
+def _skips_file(text: PythonText) -> bool:
+    """Tell whether a comment takes the whole file away from flake8."""
+    lowered = text.text.lower()
+    if "flake8" not in lowered:
+        return False
+    return any(re.match(_FILE, line, re.IGNORECASE) for line in text.lines)
+
+
+def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
+    """Take flake8's name off the findings that a comment silences; drop what nobody reports."""
+    if _skips_file(text):
+        return _without(findings, lambda _: True)
+    if "noqa" not in text.text.lower():
+        return list(findings)
+    silenced = _Silenced(text)
+    return _without(findings, silenced.covers)
+
+
+def _without(findings: Iterable[Finding], covers: Callable[[Finding], bool]) -> list[Finding]:
+    kept = []
+    for finding in findings:
+        if finding.linters & FLAKE8 and covers(finding):
+            if finding.linters == FLAKE8:
+                continue
+            kept.append(finding._replace(linters=finding.linters & ~FLAKE8))
+        else:
+            kept.append(finding)
+    return kept
+
+
+class _Silenced:
+    """The codes silenced on each line of a file."""
+
+    def __init__(self, text: PythonText) -> None:
+        self._text = text
+        self._groups = _groups(text)
+        self._codes: dict[int, tuple[str, ...]] = {}
+        # flake8-quotes skips the lines of all comments that end with the word.
+        self._quotes = {
+            token.start[0]
+            for token in text.tokens
+            if token.type == COMMENT and token.string.endswith("noqa")
+        }
+
+    def covers(self, finding: Finding) -> bool:
+        """Tell whether flake8 keeps quiet about a finding."""
+        if finding.code.startswith("Q") and finding.line in self._quotes:
+            return True
+        line = finding.line
+        if line not in self._codes:
+            self._codes[line] = self._read(line)
+        return finding.code.startswith(self._codes[line])
+
+    def _read(self, line: int) -> tuple[str, ...]:
+        first, last = self._groups.get(line, (line, line))
+        joined = "".join(self._text.lines[first - 1 : last])
+        found = re.search(_INLINE, joined, re.IGNORECASE)
+        if found is None:
+            return ()
+        if found["codes"] is None:
+            return _ALL
+        return tuple(code for code in re.split(r"[,\s]", found["codes"]) if code)
+
+
+def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
+    """Return first and last row of the rows that a string or a backslash ties together."""
+    found: dict[int, tuple[int, int]] = {}
+    first = last = 0
+    for token in text.tokens:
+        if token.type in (ENDMARKER, DEDENT):
+            continue
+        first = min(first, token.start[0]) if first else token.start[0]
+        last = max(last, token.end[0])
+        if token.type in NEWLINES:
+            for row in range(first, last + 1):
+                found[row] = (first, last)
+            first = last = 0
+    return found

@@ -1,0 +1,1 @@
+"""The E and W codes."""

@@ -1,0 +1,74 @@
+"""E251, E252, E275: blanks around the ``=`` of arguments, and behind keywords.
+
+On Python 3.12 the ``=`` of ``f'{value = }'`` inside a call counts as that of an argument, too.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.logical import LogicalLine
+from scaffold.ament.python_text.tokens import NAME, NL, OP, Position
+
+CODES = frozenset({"E251", "E252", "E275"})
+"""Codes of ruff that make a line worth a look."""
+
+CANDIDATES = r"\s=\s*[}!:]|=\s+[}!:]"
+"""What ruff passes over."""
+
+
+def check(logical: LogicalLine) -> Iterator[Finding]:
+    """Yield the places of a logical line where blanks are missing or too many."""
+    for (row, column), code in _around_equals(logical):
+        if code == "E251":
+            said = "whitespace around the '=' of a keyword argument or default"
+        else:
+            said = "whitespace is missing around the '=' of an annotated argument"
+        yield Finding(code, row, column + 1, said)
+    for token, following in pairwise(logical.tokens):
+        if (
+            token.end == following.start
+            and token.type == NAME
+            and _needs_blank(token.string, following.string)
+        ):
+            row, column = token.end
+            said = f"whitespace is missing after '{token.string}'"
+            yield Finding("E275", row, column + 1, said)
+
+
+def _needs_blank(word: str, following: str) -> bool:
+    if not keyword.iskeyword(word) or word in ("True", "False", "None"):
+        return False
+    if (word, following) in (("except", "*"), ("yield", ")")):
+        return False
+    return following not in ":\n"
+
+
+def _around_equals(logical: LogicalLine) -> Iterator[tuple[Position, str]]:
+    depth = 0
+    end: Position = logical.tokens[0].start
+    code = ""
+    annotated = False
+    in_def = re.match(r"(async\s+def|def)\b", logical.text) is not None
+    for token in logical.tokens:
+        if token.type == NL:
+            continue
+        if code and (token.start == end) == (code == "E252"):
+            yield end, code
+        code = ""
+        text = token.string if token.type == OP else ""
+        depth += (text in ("(", "[")) - (text in (")", "]"))
+        if text == "=" and depth:
+            code = "E252" if annotated and depth == 1 else "E251"
+            if (token.start == end) == (code == "E252"):
+                yield end, code
+        elif text == ":" and in_def and depth == 1:
+            annotated = True
+        elif text == "," and depth == 1:
+            annotated = False
+        annotated = annotated and depth > 0
+        end = token.end

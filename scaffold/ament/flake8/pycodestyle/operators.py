@@ -1,0 +1,173 @@
+"""E221 to E228, E231, E271 to E274: blanks around operators and keywords, behind punctuation.
+
+ruff finds the lines, this decides which code they get: a blank on one side only is E225 for
+pycodestyle whatever the operator, and blanks before a line break do not count.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Iterator
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.logical import LogicalLine
+from scaffold.ament.python_text.tokens import (
+    ERRORTOKEN,
+    FSTRING_END,
+    FSTRING_START,
+    NAME,
+    OP,
+    SILENT,
+    Position,
+    Token,
+)
+
+_KEYWORDS = frozenset(keyword.kwlist) - {"False", "None", "True"} | {"print"}
+_SOFT_KEYWORDS = frozenset({"_", "case", "match", "type"})
+_UNARY = frozenset({">>", "**", "*", "+", "-"})
+_ARITHMETIC = frozenset({"**", "*", "/", "//", "+", "-", "@"})
+_OPTIONAL = _ARITHMETIC | {"^", "&", "|", "<<", ">>", "%"}
+_SPACED = """
+    **= *= /= //= += -= != < > %= ^= &= |= == <= >= <<= >>= = and in is or -> :=
+"""
+
+_NEEDED = frozenset(_SPACED.split())
+
+_CODES = "E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274"
+CODES = frozenset(_CODES.split())
+"""Codes of ruff that make a line worth a look."""
+
+CANDIDATES = (
+    r"[,;:]\\\n"
+    r"|\{[^{}\n]*:[^{}\n]*\{"
+    r"|\S(?:  | ?\t)[ \t]*[-+*/|!<=>%&^:]"
+    r"|[-+*/|!<=>%&^](?:  | ?\t)"
+)
+"""What ruff passes over: a comma before a backslash, a format within a format, blanks at ``->``."""
+
+_OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
+_KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
+
+_ONE_SIDED = "whitespace is missing on a side of an operator"
+
+
+def check(logical: LogicalLine) -> Iterator[Finding]:
+    """Yield the places of a logical line where blanks are missing."""
+    for (row, column), code, message in _Scan(logical).faults():
+        yield Finding(code, row, column + 1, message)
+    for pattern, codes, what in (
+        (_OPERATOR, ("E221", "E222", "E223", "E224"), "operator"),
+        (_KEYWORD, ("E272", "E271", "E274", "E273"), "keyword"),
+    ):
+        for found in re.finditer(pattern, logical.text):
+            for group, side in ((1, "before"), (2, "after")):
+                if "\t" in found[group]:
+                    code, blanks = codes[group + 1], "a tab"
+                elif len(found[group]) > 1:
+                    code, blanks = codes[group - 1], "several spaces"
+                else:
+                    continue
+                row, column = logical.position(found.start(group))
+                yield Finding(code, row, column + 1, f"{blanks} {side} the {what}")
+
+
+class _Scan:
+    """One pass over the tokens of a logical line."""
+
+    def __init__(self, logical: LogicalLine) -> None:
+        self.logical = logical
+        self.braces: list[str] = []
+        """Open brackets, ``f`` for an f-string, ``l`` for the arguments of a lambda."""
+        self.wanted: bool | tuple[Position, bool] = False
+        """A blank must follow; or a place and whether one stood in front of the operator."""
+        self.before: Token | None = None
+
+    def faults(self) -> Iterator[tuple[Position, str, str]]:
+        for token in self.logical.tokens:
+            self._track(token)
+            if token.type in SILENT or token.type == ERRORTOKEN:
+                continue
+            if token.type == OP and token.string in (",", ";", ":") and self._is_tight(token):
+                yield token.start, "E231", f"whitespace is missing after '{token.string}'"
+            if self.wanted:
+                yield from self._behind(token)
+            elif token.type in (OP, NAME) and self.before is not None:
+                yield from self._in_front(token, self.before)
+            self.before = token
+
+    def _track(self, token: Token) -> None:
+        text, braces = token.string, self.braces
+        if token.type == OP and text in ("[", "(", "{"):
+            braces.append(text)
+        elif token.type == FSTRING_START:
+            braces.append("f")
+        elif token.type == NAME and text == "lambda":
+            braces.append("l")
+        elif braces and (
+            (token.type == OP and text in ("]", ")", "}"))
+            or token.type == FSTRING_END
+            or (braces[-1] == "l" and token.type == OP and text == ":")
+        ):
+            braces.pop()
+
+    def _is_tight(self, token: Token) -> bool:
+        """Tell whether something stands right behind a comma, semicolon or colon."""
+        row, column = token.end
+        following = self.logical.lines[row - 1][column : column + 1]
+        if following in (" ", "\t", "\xa0") or following in "\r\n":
+            return False
+        if token.string == ":":
+            return self.braces[-1:] != ["["] and self.braces[-2:] != ["f", "{"]
+        return not (token.string == "," and following in ")]")
+
+    def _behind(self, token: Token) -> Iterator[tuple[Position, str, str]]:
+        """Judge the token behind an operator."""
+        before, wanted = self.before, self.wanted
+        if before is None:
+            return
+        if token.start != before.end:
+            if not isinstance(wanted, bool) and not wanted[1]:
+                yield wanted[0], "E225", _ONE_SIDED
+            self.wanted = False
+            return
+        if (before.string == "/" and token.string in (",", ")", ":")) or (
+            before.string == ")" and token.string == ":"
+        ):
+            # The end of positional-only parameters; the state stays as it is.
+            return
+        if isinstance(wanted, bool) or wanted[1]:
+            yield before.end, "E225", _ONE_SIDED
+        elif before.string == "%":
+            yield wanted[0], "E228", "whitespace is missing around '%'"
+        elif before.string not in _ARITHMETIC:
+            yield wanted[0], "E227", f"whitespace is missing around '{before.string}'"
+        self.wanted = False
+
+    def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:
+        """Judge an operator and what stands in front of it."""
+        wanted: bool | None = False
+        if token.string == "=" and self._is_keyword_argument():
+            pass
+        elif token.string in _NEEDED:
+            wanted = True
+        elif token.string in _UNARY:
+            wanted = None if _is_operand(before) else False
+        elif token.string in _OPTIONAL:
+            wanted = None
+        if wanted is None:
+            self.wanted = (before.end, token.start != before.end)
+        elif wanted and token.start == before.end:
+            yield before.end, "E225", _ONE_SIDED
+        else:
+            self.wanted = wanted
+
+    def _is_keyword_argument(self) -> bool:
+        return self.braces[-1:] in (["l"], ["("]) or self.braces[-2:] == ["f", "{"]
+
+
+def _is_operand(token: Token) -> bool:
+    """Tell whether an operator behind the token has it as its left side."""
+    if token.type == OP:
+        return token.string in "}])"
+    return token.string not in _KEYWORDS and token.string not in _SOFT_KEYWORDS

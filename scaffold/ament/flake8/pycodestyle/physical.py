@@ -1,0 +1,106 @@
+"""E101, E501, W191, W29x, W391: what is wrong with a line as it stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.text import PythonText
+
+MAX_LENGTH = 99
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield what is wrong with single lines."""
+    if not text.lines:
+        return
+    if "\t" in text.text:
+        yield from _tabs(text)
+    if re.search(r"[ \t\v]\f*$", text.text, re.MULTILINE):
+        yield from _trailing(text)
+    yield from _end(text)
+    yield from _too_long(text)
+
+
+def _tabs(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        indent = line[: len(line) - len(line.lstrip(" \t"))]
+        if "\t" in indent:
+            at = indent.index("\t") + 1
+            yield Finding("W191", number, at, "the indentation contains tabs")
+        other = next((at for at, one in enumerate(indent, 1) if one != text.indent_char), 0)
+        if other:
+            yield Finding("E101", number, other, "the indentation mixes tabs and spaces")
+
+
+def _trailing(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        shown = line.rstrip("\n").rstrip("\r").rstrip("\f")
+        rest = shown.rstrip(" \t\v")
+        if shown == rest:
+            continue
+        start, end = len(rest) + 1, len(shown) + 1
+        code, what = (
+            ("W291", "trailing whitespace") if rest else ("W293", "whitespace on a blank line")
+        )
+        inside_string = _is_inside_string(text, number)
+        fix = () if inside_string else ((number, start, number, end, ""),)
+        yield Finding(code, number, start, what, number, end, fix, "remove the whitespace")
+
+
+def _is_inside_string(text: PythonText, line: int) -> bool:
+    return not text.tokens or line in text.multiline_rows
+
+
+def _end(text: PythonText) -> Iterator[Finding]:
+    last = text.lines[-1]
+    number = len(text.lines)
+    if last == "\n":
+        first = number
+        while first > 1 and not text.lines[first - 2].strip():
+            first -= 1
+        yield Finding(
+            "W391",
+            number,
+            1,
+            "blank line at the end of the file",
+            fix=((first, 1, number + 1, 1, ""),),
+            fix_title="remove the blank lines",
+        )
+    elif not last.endswith("\n"):
+        at = len(last) + 1
+        fix = ((number, at, number, at, "\n"),)
+        yield Finding(
+            "W292",
+            number,
+            at,
+            "no newline at the end of the file",
+            number,
+            at,
+            fix,
+            "add a newline",
+        )
+
+
+def _too_long(text: PythonText) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        if len(line) <= MAX_LENGTH:
+            continue
+        shown = line.rstrip()
+        length = len(shown)
+        if length <= MAX_LENGTH or (number == 1 and shown.startswith("#!")):
+            continue
+        if not _is_excused(text, number, shown):
+            said = f"the line has {length} characters, {MAX_LENGTH} are allowed"
+            yield Finding("E501", number, MAX_LENGTH + 1, said, number, length + 1)
+
+
+def _is_excused(text: PythonText, number: int, line: str) -> bool:
+    """Tell whether the line is one long word, such as a URL, in a comment or a string."""
+    words = line.split()
+    if len(line) - len(words[-1]) >= MAX_LENGTH - 7:
+        return False
+    if words[:-1] == ["#"]:
+        return True
+    return len(words) == 1 and number in text.multiline_rows

@@ -1,0 +1,318 @@
+"""E2, E4 and E7 codes where ruff's verdict is not pycodestyle's, judged on logical lines.
+
+A search over the raw text chooses the lines worth a look, so that a clean file costs little.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from scaffold.ament.finding import Finding, Replacement
+from scaffold.ament.python_text.logical import LogicalLine
+from scaffold.ament.python_text.text import PythonText
+from scaffold.ament.python_text.tokens import (
+    COMMENT,
+    FSTRING_END,
+    FSTRING_START,
+    OP,
+    Position,
+    Token,
+)
+
+_BLOCK_WORDS = "def async for if elif else try except finally with class while"
+_BLOCK_KEYWORDS = frozenset(_BLOCK_WORDS.split())
+_BLOCK = (
+    r"\s*(def|async\s+def|for|async\s+for|if|elif|else|try|except|finally|with|async\s+with"
+    r"|class|while)\b"
+)
+_BEFORE_IMPORTS = ("try", "except", "else", "finally", "with", "if", "elif")
+_DUNDER = r"__([^\s]+)__(?::\s*[a-zA-Z.0-9_\[\]\"]+)? = "
+_SINGLETON = r"(?:(\bNone|\bFalse|\bTrue)\s*)?([=!]=)\s*(?(1)|(None|False|True))\b"
+_NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{\s]+\s+(in|is)\s"
+# linear: Python refuses more than 200 parentheses that are open at a time
+_TYPES = r"[=!]=\s+type\s*\(([^)]*[^ )]) *\)|\btype\s*\([^)]*[^ )] *\)\s+[=!]="
+_SPACE = r"[\[({][ \t]|[ \t][\]}),;:](?!=)"
+_AMBIGUOUS = ("l", "O", "I")
+
+Said = Iterator[tuple[int, str, str]]
+"""Offset in the logical line, code, message."""
+
+
+def check(text: PythonText) -> Iterator[Finding]:
+    """Yield what is wrong with statements."""
+    for pattern, judge in (
+        (_SPACE + r"|\n[,;:]", spaces),
+        (r"[=!]=", comparisons),
+        (r"\bnot\b", negations),
+        (r"[;]|=[\s\\]*lambda\b", compounds),
+        (r"^[ \t]*except\b[^\n]*:", bare_except),
+    ):
+        for logical in _candidates(text, pattern):
+            yield from _placed(logical, judge(logical.text))
+    for logical in text.logical_lines:
+        if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
+            yield from _placed(logical, compounds(logical.text))
+    for logical in _candidates(text, r"\\\n"):
+        yield from needless_backslashes(logical)
+    for logical in _candidates(text, r"\b[lOI]\b"):
+        yield from ambiguous_names(logical)
+    yield from late_imports(text)
+
+
+def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
+    """Yield the logical lines that a pattern occurs in."""
+    seen = 0
+    for found in re.finditer(pattern, text.text, re.MULTILINE):
+        line = text.line_of(found.end() - 1)
+        if line <= seen:
+            continue
+        logical = text.logical_line_at(line)
+        if logical is not None:
+            seen = logical.end_row
+            if not logical.is_comment:
+                yield logical
+
+
+def _placed(logical: LogicalLine, said: Said) -> Iterator[Finding]:
+    """Yield what is said of a logical line where it stands in the file, with the fixes."""
+    brackets = _Brackets(logical)
+    for offset, code, message in said:
+        row, column = logical.position(offset)
+        yield _with_fix(logical, brackets, Finding(code, row, column + 1, message))
+
+
+def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Finding:
+    if finding.code in ("E201", "E202", "E203"):
+        place = finding.line, finding.column - 1
+        fix = _without_blanks(logical, place, brackets.around(place))
+        return finding._replace(fix=fix, fix_title="remove the whitespace")
+    if finding.code in ("E701", "E702"):
+        fix = _on_new_line(logical, finding)
+        return finding._replace(fix=fix, fix_title="put the statement on a line of its own")
+    return finding
+
+
+def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, ...]:
+    """Return what breaks a line behind its colon or at its semicolon."""
+    row = finding.line
+    line = logical.lines[row - 1].rstrip("\n")
+    indent = line[: len(line) - len(line.lstrip())]
+    opens = finding.code == "E701"
+    if logical.row != row or logical.end_row != row or "\t" in indent or len(indent) % 4:
+        return ()
+    if not opens and logical.first in _BLOCK_KEYWORDS:
+        return ()  # first the block gets a line of its own
+    behind = finding.column  # of the colon or semicolon, and the text after it
+    start = behind + 1 if opens else behind
+    end = behind + len(line[behind:]) - len(line[behind:].lstrip())
+    deeper = " " * 4 if opens else ""
+    return ((row, start, row, end + 1, f"\n{indent}{deeper}"),)
+
+
+def _without_blanks(
+    logical: LogicalLine, place: Position, around: Sequence[str]
+) -> tuple[Replacement, ...]:
+    """Return what takes the blanks at a place out; those around the colon of a slice as well."""
+    row, column = place
+    line = logical.lines[row - 1].rstrip("\n")
+    found = re.compile(r"[ \t]+").match(line, column)
+    if found is None or not line[:column].strip() or "f" in around:
+        # In f'{x = }' the blanks are seen.
+        return ()
+    start = len(line[:column].rstrip(" \t"))
+    end = found.end()
+    blanks = (row, start + 1, row, end + 1, "")
+    behind = re.compile(r"[ \t]+(?=[^ \t\\#])").match(line, end + 1)
+    is_slice = line[end : end + 1] == ":" and around[-1:] == ["["]
+    if is_slice and behind and "lambda" not in logical.text:
+        return (blanks, (row, end + 2, row, behind.end() + 1, ""))
+    return (blanks,)
+
+
+class _Brackets:
+    """Knows what is open in a logical line; asked in the order of the text, it reads it once."""
+
+    def __init__(self, logical: LogicalLine) -> None:
+        self._tokens = logical.tokens
+        self._at = 0
+        self._open: list[str] = []
+
+    def around(self, place: Position) -> Sequence[str]:
+        """Return what is open at a place: brackets, and ``f`` for an f-string."""
+        while self._at < len(self._tokens) and self._tokens[self._at].start < place:
+            self._read(self._tokens[self._at])
+            self._at += 1
+        return self._open
+
+    def _read(self, token: Token) -> None:
+        if token.type == FSTRING_START:
+            self._open.append("f")
+        elif token.type == OP and token.string in ("(", "[", "{"):
+            self._open.append(token.string)
+        elif self._open and (
+            token.type == FSTRING_END or (token.type == OP and token.string in (")", "]", "}"))
+        ):
+            self._open.pop()
+
+
+def spaces(line: str) -> Said:
+    """E201, E202, E203: blanks inside brackets and before punctuation."""
+    for found in re.finditer(_SPACE, line):
+        character = found[0].strip()
+        at = found.start()
+        if found[0][-1].isspace():
+            yield at + 1, "E201", f"whitespace after '{character}'"
+        elif line[at - 1] != ",":
+            code = "E202" if character in "}])" else "E203"
+            yield at, code, f"whitespace before '{character}'"
+
+
+def comparisons(line: str) -> Said:
+    """E711, E712, E721: equality where identity is meant."""
+    for found in re.finditer(_SINGLETON, line):
+        value = found[1] or found[3]
+        wanted = "is" if found[2] == "==" else "is not"
+        code = "E711" if value == "None" else "E712"
+        yield found.start(2), code, f"comparison to {value} with '{found[2]}', not '{wanted}'"
+    types = re.search(_TYPES, line)
+    if types:
+        inside = (types[1] or "").strip()
+        if not (inside.isidentifier() and inside not in ("None", "True", "False")):
+            yield types.start(), "E721", "types compared with '==', not with 'is' or isinstance()"
+
+
+def negations(line: str) -> Said:
+    """E713, E714: ``not`` in front of a test instead of within it."""
+    found = re.search(_NEGATION, line)
+    if found:
+        code, wanted = ("E713", "not in") if found[2] == "in" else ("E714", "is not")
+        yield found.start(1), code, f"'not ... {found[2]} ...' instead of '{wanted}'"
+
+
+def bare_except(line: str) -> Said:
+    """E722: every exception is caught, even the one that ends the program."""
+    if re.match(r"except\s*:", line):
+        yield 0, "E722", "bare 'except:' catches SystemExit and KeyboardInterrupt, too"
+
+
+def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
+    """E701, E702, E703, E731: several statements on one line."""
+    last = len(line) - 1
+    depth = dict.fromkeys("([{", 0)
+    pairs = {")": "(", "]": "[", "}": "{"}
+    before = 0
+    found = line.find(":")
+    while -1 < found < last:
+        for one in line[before:found]:
+            if one in depth:
+                depth[one] += 1
+            elif one in pairs:
+                depth[pairs[one]] -= 1
+        if max(depth.values()) <= 0 and line[found + 1] != "=":
+            keyword = re.compile(r"\blambda\b").search(line, 0, found)
+            if keyword:
+                target = line[: keyword.start()].rstrip()
+                if target[-1:] == "=" and target[:-1].strip().isidentifier():
+                    yield 0, "E731", f"a lambda is assigned to '{target[:-1].strip()}'; use def"
+                break
+            if not re.match(r"(async\s+def|def)\b", line) and re.match(_BLOCK, line):
+                yield found, "E701", "a statement follows the colon on the same line"
+        before = found
+        found = line.find(":", found + 1)
+    found = line.find(";")
+    while found > -1:
+        if found < last:
+            yield found, "E702", "several statements on one line"
+        else:
+            yield found, "E703", "the statement ends with a semicolon"
+        found = line.find(";", found + 1)
+
+
+def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:  # noqa: C901  one scan for all
+    """E741, E742, E743: names that look like digits."""
+    tokens = logical.tokens
+    depth = 0
+    function: int | None = None
+    in_header = False
+    for at in range(1, len(tokens)):
+        before, token = tokens[at - 1], tokens[at]
+        if before.string in ("def", "lambda"):
+            function, in_header = depth, True
+        elif function is not None and token.string == ":" and depth == function:
+            in_header = False
+        if token.string in "([{":
+            depth += 1
+        elif token.string in ")]}":
+            depth -= 1
+        assigned = token.string == ":=" or (token.string == "=" and depth == 0)
+        if assigned and before.string in _AMBIGUOUS:
+            yield _ambiguous("E741", "variable", before.string, before.start)
+        if token.string not in _AMBIGUOUS:
+            continue
+        binds = before.string in ("as", "for", "global", "nonlocal")
+        is_parameter = (
+            in_header
+            and at < len(tokens) - 1
+            and tokens[at + 1].string in ":,=)"
+            and before.string in ("lambda", ",", "*", "**", "(")
+        )
+        if binds or is_parameter:
+            yield _ambiguous("E741", "variable", token.string, token.start)
+        if before.string == "class":
+            yield _ambiguous("E742", "class", token.string, token.start)
+        if before.string == "def":
+            yield _ambiguous("E743", "function", token.string, token.start)
+
+
+def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:
+    return Finding(code, at[0], at[1] + 1, f"the {kind} name '{name}' looks like a digit")
+
+
+def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
+    """E502: a backslash between brackets, unless a comment stands before it."""
+    depth = start = end = 0
+    backslash: tuple[int, int] | None = None
+    for token in logical.tokens:
+        if token.type == COMMENT:
+            return
+        if token.start[0] != start and depth and backslash:
+            said = "the backslash between brackets is not needed"
+            yield Finding("E502", backslash[0], backslash[1], said)
+        if token.end[0] != end:
+            line = logical.lines[token.end[0] - 1].rstrip("\n")
+            backslash = (token.end[0], len(line)) if line.endswith("\\") else None
+            start = end = token.end[0]
+        else:
+            start = token.start[0]
+        if token.type == OP:
+            depth += (token.string in "([{") - (token.string in ")]}")
+
+
+def late_imports(text: PythonText) -> Iterator[Finding]:
+    """E402: imports at module level below other code."""
+    seen_code = seen_docstring = False
+    for logical in text.logical_lines:
+        if logical.is_comment or logical.indent:
+            continue
+        first = logical.first
+        if first in ("import", "from") and logical.text.startswith(f"{first} "):
+            if seen_code:
+                row, column = logical.position(0)
+                yield Finding("E402", row, column + 1, "import below other code of the module")
+        elif (first.startswith("__") and re.match(_DUNDER, logical.text)) or first.startswith(
+            _BEFORE_IMPORTS
+        ):
+            continue
+        elif _is_plain_string(first) and not seen_docstring:
+            seen_docstring = True
+        else:
+            seen_code = True
+
+
+def _is_plain_string(first: str) -> bool:
+    if first[:1] in "uUbB":
+        first = first[1:]
+    if first[:1] in "rR":
+        first = first[1:]
+    return first[:1] in ("'", '"')

@@ -1,0 +1,180 @@
+"""F codes: ruff's findings at the lines and in the cases that pyflakes reports."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.pyflakes import local_names
+from scaffold.ament.python_text.text import PythonText
+from scaffold.ament.ruff import Said
+
+
+def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+    """Yield what pyflakes would say, given what ruff says."""
+    stricter = _Stricter(text, said)
+    imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
+    codes = {one.code for one in said}
+    exports = _export_lines(text) if codes & {"F405", "F822"} else {}
+    handlers = _handler_lines(text) if "F841" in codes else {}
+    has_star_use = any(one.code == "F405" for one in said)
+    # A second import of the same names takes the place of the first.
+    last_stars = {one.message: one.line for one in said if one.code == "F403"}
+    for one in said:
+        finding = plain(one)
+        if one.code == "F401":
+            node = imports.get(finding.line)
+            finding = finding if node is None else _moved(text, finding, node)
+        elif one.code in ("F405", "F822"):
+            finding = _at(text, finding, exports)
+            if one.code == "F822" and text.name == "__init__.py":
+                continue
+        elif one.code == "F841":
+            finding = _at(text, finding, handlers)
+        elif one.code == "F823":
+            finding = local_names.at_last_use(text, finding)
+        if one.code not in OWN and not stricter.is_alone(one):
+            yield finding
+        if one.code == "F403" and not has_star_use and last_stars[one.message] == one.line:
+            unused = "nothing of the star import is used"
+            yield Finding("F401", finding.line, finding.column, unused)
+    yield from local_names.deleted_unused(text)
+
+
+def plain(said: Said) -> Finding:
+    """Return a finding of ruff as it stands."""
+    return Finding(
+        said.code,
+        said.line,
+        said.column,
+        worded(said.message),
+        said.end_line,
+        said.end_column,
+        said.fix,
+        said.fix_title,
+        fix_is_unsafe=said.fix_is_unsafe,
+    )
+
+
+def worded(message: str) -> str:
+    """Return a message of ruff in the form of ours: lower case start, no full stop."""
+    message = message.rstrip(".")
+    return message[:1].lower() + message[1:] if message[1:2].islower() else message
+
+
+OWN = frozenset({"F541", "F601", "F602", "F811"})
+"""Judged in ``literals`` and ``redefinitions``."""
+
+
+class _Stricter:
+    """Knows where ruff goes further than pyflakes does."""
+
+    def __init__(self, text: PythonText, said: Sequence[Said]) -> None:
+        self._text = text
+        self._codes = {(one.line, one.code) for one in said}
+
+    def is_alone(self, said: Said) -> bool:
+        """Tell whether only ruff says this."""
+        if said.code == "F507":
+            return said.line not in self._tuple_formats
+        if said.code == "F821" and (said.line, said.column) in self._conditional_deletions:
+            return True
+        if said.code == "F401":
+            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._by_alias
+        if said.code == "F841":
+            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._rebound
+        rival = {"F502": "F506", "F523": "F525"}.get(said.code)
+        return (said.line, rival) in self._codes
+
+    @cached_property
+    def _tuple_formats(self) -> set[int]:
+        return {
+            node.lineno
+            for node in self._text.nodes
+            if isinstance(node, ast.BinOp)
+            and isinstance(node.op, ast.Mod)
+            and isinstance(node.right, ast.Tuple)
+        }
+
+    @cached_property
+    def _by_alias(self) -> set[tuple[int, str]]:
+        return local_names.used_by_alias(self._text)
+
+    @cached_property
+    def _rebound(self) -> set[tuple[int, str]]:
+        return local_names.read_after_rebinding(self._text)
+
+    @cached_property
+    def _conditional_deletions(self) -> set[tuple[int, int]]:
+        """The places of ``del name`` that may not run: pyflakes does not look at them."""
+        if "del " not in self._text.text:
+            return set()
+        pending: list[ast.AST] = [
+            node for node in self._text.nodes if isinstance(node, (ast.If, ast.While))
+        ]
+        seen: set[ast.AST] = set()
+        found: set[tuple[int, int]] = set()
+        while pending:
+            part = pending.pop()
+            if part in seen:
+                continue
+            seen.add(part)
+            pending.extend(ast.iter_child_nodes(part))
+            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del):
+                found.add((part.lineno, self._text.column(part.lineno, part.col_offset)))
+        return found
+
+
+def _at(
+    text: PythonText, finding: Finding, nodes: Mapping[int, ast.stmt | ast.ExceptHandler]
+) -> Finding:
+    """Move a finding to the start of the node that its line belongs to, if there is one."""
+    node = nodes.get(finding.line)
+    return finding if node is None else _moved(text, finding, node)
+
+
+def _handler_lines(text: PythonText) -> dict[int, ast.ExceptHandler]:
+    """Return each ``except ... as name`` by the lines between its first and its body."""
+    found: dict[int, ast.ExceptHandler] = {}
+    for node in text.nodes:
+        if isinstance(node, ast.ExceptHandler) and node.name:
+            for line in range(node.lineno + 1, node.body[0].lineno):
+                found.setdefault(line, node)
+    return found
+
+
+def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
+    """Return the import statement that covers a line; the first of several."""
+    found: dict[int, ast.stmt] = {}
+    for node in text.nodes:
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+                found.setdefault(line, node)
+    return found
+
+
+def _export_lines(text: PythonText) -> dict[int, ast.stmt]:
+    """Return the last statement that sets ``__all__``, by the lines of all that do."""
+    exports = [node for node in (text.tree.body if text.tree else ()) if _sets_exports(node)]
+    return {
+        line: exports[-1]
+        for node in exports
+        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1)
+    }
+
+
+def _sets_exports(node: ast.stmt) -> bool:
+    if isinstance(node, ast.Assign):
+        targets = node.targets
+    elif isinstance(node, (ast.AugAssign, ast.AnnAssign)):
+        targets = [node.target]
+    else:
+        return False
+    return any(isinstance(one, ast.Name) and one.id == "__all__" for one in targets)
+
+
+def _moved(text: PythonText, finding: Finding, node: ast.stmt | ast.ExceptHandler) -> Finding:
+    column = text.column(node.lineno, node.col_offset)
+    return finding._replace(line=node.lineno, column=column, end_line=0, end_column=0)

@@ -1,0 +1,1 @@
+"""The verdict of ament_pep257: pydocstyle on Jazzy."""

@@ -1,0 +1,104 @@
+"""D401: is the first word of a docstring a command?
+
+The words are pydocstyle's own lists. They are read as files: importing pydocstyle takes longer
+than checking a package.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Protocol
+
+
+@lru_cache(maxsize=4096)
+def correct(word: str) -> str | None:
+    """Return what the word should be, ``None`` when it is fine, empty when no form is known."""
+    lowered = word.lower()
+    if lowered in _blacklist():
+        return ""
+    if lowered in _known():  # as most words are: without the stems of all words of the list
+        return None
+    forms = _imperatives().get(_stem(lowered))
+    if not forms or lowered in forms:
+        return None
+    return max(sorted(forms), key=lambda form: _common(lowered, form)).capitalize()
+
+
+def _common(one: str, two: str) -> int:
+    """Return how many letters two words have in common at their start."""
+    pairs = zip(one, two, strict=False)
+    return next((at for at, (a, b) in enumerate(pairs) if a != b), min(len(one), len(two)))
+
+
+@lru_cache(maxsize=1)
+def _blacklist() -> frozenset[str]:
+    return frozenset(_words("imperatives_blacklist.txt"))
+
+
+@lru_cache(maxsize=1)
+def _known() -> frozenset[str]:
+    return frozenset(_words("imperatives.txt"))
+
+
+@lru_cache(maxsize=1)
+def _imperatives() -> dict[str, set[str]]:
+    """Return the words of the list by their stems, from the user's cache after the first time."""
+    import marshal
+
+    from scaffold.files import cache
+    from scaffold.files.disk import stamp
+
+    kept = cache.directory("words")
+    place = os.path.join(kept, "imperatives") if kept else ""
+    head = b"scaffold-words-1\n" + stamp(os.path.join(_data(), "imperatives.txt")).encode()
+    data = cache.read_sealed(place, head) if kept else None
+    if data is not None:
+        known: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
+        return known
+    found: dict[str, set[str]] = {}
+    for word in _known():
+        found.setdefault(_stem(word), set()).add(word)
+    if kept:
+        cache.write_sealed(place, head, marshal.dumps(found))
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _stem(word: str) -> str:
+    return _stemmer().stemWord(word)
+
+
+class _Stemmer(Protocol):
+    def stemWord(self, word: str) -> str:  # noqa: N802  snowballstemmer's name
+        """Return the stem of a word."""
+
+
+@lru_cache(maxsize=1)
+def _stemmer() -> _Stemmer:
+    from importlib import import_module
+
+    stemmer: _Stemmer = import_module("snowballstemmer").stemmer("english")
+    return stemmer
+
+
+def _words(name: str) -> Iterator[str]:
+    with open(os.path.join(_data(), name), encoding="utf-8") as file:
+        for line in file:
+            word = line.partition("#")[0].strip()
+            if word:
+                yield word
+
+
+def _data() -> str:
+    for entry in sys.path:
+        directory = os.path.join(entry or os.curdir, "pydocstyle", "data")
+        if os.path.isdir(directory):
+            return directory
+    from importlib.util import find_spec
+
+    spec = find_spec("pydocstyle")
+    origin = spec.origin if spec else None
+    return os.path.join(os.path.dirname(origin or ""), "data")

@@ -1,0 +1,94 @@
+"""Runs pydocstyle itself beside our port of its rules, for ``check --reference``.
+
+Slow by design: pydocstyle is imported and every file is read again. What differs is a defect of
+ros2-scaffold, never of the checked package.
+"""
+
+from __future__ import annotations
+
+import ast
+import logging
+import os
+import tempfile
+import warnings
+from collections.abc import Iterator, Sequence
+from importlib import import_module
+
+from scaffold.ament.files import select
+from scaffold.ament.finding import PEP257
+from scaffold.ament.pep257 import form as docstrings
+from scaffold.ament.python_text.text import PythonText, decode
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+
+IGNORED = frozenset(
+    ["D100", "D101", "D102", "D103", "D104", "D105", "D106", "D107", "D203", "D212", "D404"]
+)
+"""What the convention ``ament`` of ament_pep257 leaves out."""
+
+
+class Difference(NamedTuple):
+    """A code that only one side reports at a line."""
+
+    path: str
+    line: int
+    code: str
+    only_reference: bool
+    """Whether pydocstyle alone reports it; else we alone do."""
+
+    @property
+    def message(self) -> str:
+        """What it says, in one line."""
+        who = "pydocstyle" if self.only_reference else "ros2-scaffold"
+        return f"only {who} reports {self.code}"
+
+
+def differences(packages: Sequence[Package]) -> Iterator[tuple[Package, Difference]]:
+    """Yield where pydocstyle and our docstring rules disagree, in reading order."""
+    for package in packages:
+        for path, linters in select(package.tree.files).items():
+            if linters & PEP257:
+                for difference in _of_file(path, package.tree.read(path)):
+                    yield package, difference
+
+
+def _of_file(path: str, data: bytes) -> list[Difference]:
+    decoded = decode(data)
+    text = PythonText(path.rpartition("/")[2], decoded.text)
+    if not decoded.is_clean or text.tree is None:
+        return []
+    said = _reference(path.rpartition("/")[2], data)
+    if said is None:
+        return []
+    ours = {(one.line, one.code) for one in docstrings.check(text) if one.linters & PEP257}
+    return [
+        Difference(path, line, code, only_reference=(line, code) in said)
+        for line, code in sorted(ours ^ said)
+    ]
+
+
+def _literal(text: str, _: object) -> object:
+    return ast.literal_eval(text)
+
+
+def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
+    """Return line and code of what pydocstyle says; ``None`` when it fails on the file."""
+    pydocstyle = import_module("pydocstyle")
+    registry = import_module("pydocstyle.violations").ErrorRegistry
+    # It evaluates what `__all__` is set to, and an f-string there may call anything.
+    vars(import_module("pydocstyle.parser"))["eval"] = _literal
+    codes = set(registry.get_error_codes()) - IGNORED
+    logging.getLogger("pydocstyle").setLevel(logging.CRITICAL)
+    with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as scratch:
+        file = os.path.join(scratch, name)
+        with open(file, "wb") as out:
+            out.write(data)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                said = list(pydocstyle.check([file], select=codes))
+            except Exception:  # noqa: BLE001  whatever pydocstyle stumbles over
+                return None
+    if not all(isinstance(one, pydocstyle.Error) for one in said):
+        return None
+    return {(one.line, one.code) for one in said}

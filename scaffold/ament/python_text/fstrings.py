@@ -1,0 +1,165 @@
+"""Cuts f-strings open for Pythons older than 3.12, whose tokenizer takes them as one string.
+
+The tokens are those of Python 3.12, on which the linters run on Jazzy: blanks, operators and
+line breaks inside the braces count there.
+"""
+
+from __future__ import annotations
+
+import io
+import tokenize
+from bisect import bisect_left
+from collections.abc import Generator, Iterator
+from tokenize import TokenInfo
+
+from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START, Position
+
+Cut = Generator[TokenInfo, None, int]
+"""Tokens, and then the offset behind them."""
+
+_CLOSING = {"(": ")", "[": "]", "{": "}"}
+_NOISE = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
+
+
+def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
+    """Return the tokens with every f-string cut into its parts."""
+    result: list[TokenInfo] = []
+    for token in tokens:
+        if _is_f_string(token):
+            result.extend(_Opened(token).tokens())
+        else:
+            result.append(token)
+    return result
+
+
+def _is_f_string(token: TokenInfo) -> bool:
+    """Tell whether a token is an f-string that the tokenizer did not cut."""
+    return token.type == tokenize.STRING and "f" in _prefix(token.string).lower()
+
+
+def _prefix(literal: str) -> str:
+    return literal[: min(at for at in map(literal.find, "'\"") if at >= 0)]
+
+
+class _Opened:
+    """One f-string, read from left to right."""
+
+    def __init__(self, token: TokenInfo) -> None:
+        self._text = text = token.string
+        prefix = _prefix(text)
+        width = 3 if text[len(prefix) :][:3] in ('"""', "'''") else 1
+        self._start = token.start
+        self._line = token.line
+        self._first = len(prefix) + width
+        self._last = len(text) - width
+        self._breaks = [at for at, one in enumerate(text) if one == "\n"] if "\n" in text else []
+
+    def tokens(self) -> Iterator[TokenInfo]:
+        """Yield the tokens of the string."""
+        yield self._token(FSTRING_START, 0, self._first)
+        at = yield from self._literal(self._first, self._last, in_spec=False)
+        yield self._token(FSTRING_END, at, len(self._text))
+
+    def _place(self, at: int) -> Position:
+        row, column = self._start
+        breaks = bisect_left(self._breaks, at)
+        if breaks:
+            return row + breaks, at - self._breaks[breaks - 1] - 1
+        return row, column + at
+
+    def _token(self, kind: int, start: int, end: int, text: str | None = None) -> TokenInfo:
+        shown = self._text[start:end] if text is None else text
+        return TokenInfo(kind, shown, self._place(start), self._place(end), self._line)
+
+    def _literal(self, at: int, end: int, *, in_spec: bool) -> Cut:
+        """Yield text and fields up to ``end``, or to the brace that closes a format; its offset."""
+        text = self._text
+        start = at
+        while at < end:
+            one = text[at]
+            if one in "{}" and text[at + 1 : at + 2] == one and not in_spec:
+                # A doubled brace ends a stretch of text with one brace.
+                yield self._token(FSTRING_MIDDLE, start, at + 1)
+                at = start = at + 2
+            elif one == "{":
+                if at > start:
+                    yield self._token(FSTRING_MIDDLE, start, at)
+                at = start = yield from self._field(at, end)
+                if in_spec and text[at : at + 1] == "}":
+                    yield self._token(FSTRING_MIDDLE, at, at)
+            elif one == "}" and in_spec:
+                break
+            else:
+                at += 1
+        if at > start:
+            yield self._token(FSTRING_MIDDLE, start, at)
+        return at
+
+    def _field(self, at: int, end: int) -> Cut:
+        """Yield a replacement field; its end is returned."""
+        yield self._token(tokenize.OP, at, at + 1)
+        stop = self._end_of_expression(at + 1, end)
+        yield from self._expression(at + 1, stop)
+        at = stop
+        if self._text[at : at + 1] == "!":
+            yield self._token(tokenize.OP, at, at + 1)
+            yield self._token(tokenize.NAME, at + 1, at + 2)
+            at += 2
+            while at < end and self._text[at].isspace():
+                at += 1
+        if self._text[at : at + 1] == ":":
+            yield self._token(tokenize.OP, at, at + 1)
+            at = yield from self._literal(at + 1, end, in_spec=True)
+        if self._text[at : at + 1] == "}":
+            yield self._token(tokenize.OP, at, at + 1)
+            at += 1
+        return at
+
+    def _end_of_expression(self, at: int, end: int) -> int:
+        """Return where an expression ends: at ``!r``, at ``:`` or at the closing brace."""
+        text = self._text
+        open_brackets: list[str] = []
+        quote = ""
+        while at < end:
+            one = text[at]
+            if quote:
+                if text.startswith(quote, at):
+                    at += len(quote) - 1
+                    quote = ""
+            elif one in "'\"":
+                quote = text[at : at + 3] if text[at : at + 3] == one * 3 else one
+                at += len(quote) - 1
+            elif one in _CLOSING:
+                open_brackets.append(_CLOSING[one])
+            elif open_brackets:
+                if one == open_brackets[-1]:
+                    open_brackets.pop()
+            elif one in "}:" or (one == "!" and text[at + 1 : at + 2] != "="):
+                return at
+            at += 1
+        return at
+
+    def _expression(self, start: int, end: int) -> Iterator[TokenInfo]:
+        """Yield the tokens of an expression; brackets around it keep line breaks out of it."""
+        feed = io.StringIO(f"({self._text[start:end]})").readline
+        row, column = self._place(start)
+        try:
+            inner = [one for one in tokenize.generate_tokens(feed) if one.type not in _NOISE]
+        except (tokenize.TokenError, SyntaxError):
+            return
+        moved = [
+            TokenInfo(
+                one.type,
+                one.string,
+                _moved(one.start, row, column),
+                _moved(one.end, row, column),
+                self._line,
+            )
+            for one in inner[1:-1]
+        ]
+        yield from open_up(moved)
+
+
+def _moved(place: Position, row: int, column: int) -> Position:
+    """Move a place within ``(expression)`` to where the expression stands."""
+    return row + place[0] - 1, place[1] + (column - 1 if place[0] == 1 else 0)

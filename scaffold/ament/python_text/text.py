@@ -1,0 +1,178 @@
+"""One Python file as the linters see it: lines, tokens, logical lines and syntax tree."""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+import warnings
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+
+from scaffold.ament.python_text.logical import LogicalLine, split
+from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
+from scaffold.errors import EXHAUSTED
+from scaffold.record import NamedTuple
+
+BOM = "\ufeff"
+_EXACT = frozenset({"utf-8", "utf-8-sig", "iso-8859-1"})
+"""Encodings that give back the bytes that they read."""
+MAX_DEPTH = 300
+"""Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
+
+
+class Decoded(NamedTuple):
+    """The text of a file, universal newlines, without byte order mark."""
+
+    text: str
+    is_clean: bool
+    """Whether the bytes are text of the declared encoding; else they were read as Latin-1."""
+
+
+def decode(data: bytes) -> Decoded:
+    """Decode a file as Python would, and as Latin-1 where Python would refuse."""
+    if data.isascii() and b"coding" not in data[:400]:
+        return Decoded(_universal_newlines(data.decode("ascii")), is_clean=True)
+    try:
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
+        text = data.decode(encoding)
+        # A codec that is no alphabet, such as idna, does not give the bytes back.
+        is_exact = encoding in _EXACT or text.encode(encoding) == data
+    except (SyntaxError, UnicodeError, LookupError):
+        is_exact = False
+    if is_exact:
+        return Decoded(_universal_newlines(text).lstrip(BOM), is_clean=True)
+    return Decoded(_universal_newlines(data.decode("latin-1")), is_clean=False)
+
+
+def _universal_newlines(text: str) -> str:
+    r"""Return the text with every line ending as ``\n``."""
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+def _children(nodes: Sequence[ast.AST], start: int, end: int) -> Iterator[ast.AST]:
+    for at in range(start, end):
+        for value in nodes[at].__dict__.values():
+            if isinstance(value, list):
+                yield from (child for child in value if isinstance(child, ast.AST))
+            elif isinstance(value, ast.AST) and value._fields:
+                yield value
+
+
+class PythonText:
+    """The views that the checks share; each is made when first asked for."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name = name
+        """The name of the file without its directory."""
+        self.text = text
+        *ended, rest = text.split("\n")
+        self.lines = [line + "\n" for line in ended]
+        r"""With their ``\n``; the last one may be without."""
+        if rest:
+            self.lines.append(rest)
+
+    @cached_property
+    def tree(self) -> ast.Module | None:
+        """The syntax tree; ``None`` when the running Python cannot parse the file.
+
+        Also when it is deeper than visitors can follow; see ``is_too_deep``.
+        """
+        return None if self.is_too_deep else self._parsed[0]
+
+    @cached_property
+    def is_too_deep(self) -> bool:
+        """Whether the file is nested deeper than anybody writes."""
+        return self._parsed[1]
+
+    @cached_property
+    def nodes(self) -> list[ast.AST]:
+        """All nodes of the syntax tree but contexts and operators, parents first."""
+        return self._nodes if self.tree else []
+
+    @cached_property
+    def _parsed(self) -> tuple[ast.Module | None, bool]:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                tree = ast.parse(self.text)
+            except (SyntaxError, ValueError):
+                return None, False
+            except EXHAUSTED:
+                return None, True
+        self._nodes: list[ast.AST] = [tree]
+        start = 0
+        for _ in range(MAX_DEPTH):
+            end = len(self._nodes)
+            if start == end:
+                return tree, False
+            self._nodes.extend([*_children(self._nodes, start, end)])
+            start = end
+        return tree, True
+
+    @cached_property
+    def tokens(self) -> list[Token]:
+        """The tokens as Python 3.12 cuts them; empty when the file cannot be cut."""
+        return read(self.lines)
+
+    @cached_property
+    def multiline_rows(self) -> set[int]:
+        """The rows that end within a string."""
+        rows: set[int] = set()
+        start = 0
+        for token in self.tokens:
+            if token.type == FSTRING_START:
+                start = token.start[0]
+            elif token.type == FSTRING_END:
+                rows.update(range(start, token.end[0]))
+            elif token.type == STRING and token.start[0] != token.end[0]:
+                rows.update(range(token.start[0], token.end[0]))
+        return rows
+
+    @cached_property
+    def logical_lines(self) -> list[LogicalLine]:
+        """Statements and comment lines, in order."""
+        return split(self.tokens, self.lines)
+
+    @cached_property
+    def indent_char(self) -> str:
+        """The character that the first indented line starts with; empty without one."""
+        found = re.search(r"^[ \t]", self.text, re.MULTILINE)
+        return found[0] if found else ""
+
+    def logical_line_at(self, line: int) -> LogicalLine | None:
+        """Return the logical line that covers a line of the file."""
+        at = bisect_right(self._starts, line) - 1
+        if at < 0 or self.logical_lines[at].end_row < line:
+            return None
+        return self.logical_lines[at]
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """The offsets of the lines."""
+        starts = [0]
+        for line in self.lines:
+            starts.append(starts[-1] + len(line))
+        return starts
+
+    def line_of(self, offset: int) -> int:
+        """Return the line, from 1, of an offset."""
+        return bisect_right(self.line_starts, offset)
+
+    @cached_property
+    def token_rows(self) -> list[int]:
+        """The first rows of the tokens."""
+        return [token.start[0] for token in self.tokens]
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [logical.row for logical in self.logical_lines]
+
+    def column(self, line: int, byte_column: int) -> int:
+        """Turn a column of ``ast`` (bytes, from 0) into one in characters, from 1."""
+        row = self.lines[line - 1] if line <= len(self.lines) else ""
+        if row.isascii():
+            return byte_column + 1
+        return len(row.encode()[:byte_column].decode(errors="replace")) + 1

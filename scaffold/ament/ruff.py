@@ -1,0 +1,259 @@
+"""Runs ruff in the background and reads what it says.
+
+Two passes over the same files: rules that are stable, and pycodestyle's whitespace rules, which
+ruff still calls a preview; ``preview`` would change the verdict of the stable ones. Nothing of the
+user's configuration is read.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold import programs
+from scaffold.ament.finding import Replacement
+from scaffold.errors import EnvironmentMissingError
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from typing import Any
+
+STABLE = "E401,E7,E9,W2,W605,F,C4,Q"
+PREVIEW = "E1,E2,E3,E502,W391"
+PREVIEW_OFF = "E101,E204,E241,E242"
+
+_COMMON = (
+    "check",
+    "--isolated",
+    "--no-cache",
+    "--quiet",
+    "--exit-zero",
+    "--ignore-noqa",
+    "--output-format=json",
+    "--target-version=py312",
+    "--no-respect-gitignore",
+    "--line-length=99",
+)
+
+PASSES = (
+    (
+        *_COMMON,
+        "--no-preview",
+        f"--select={STABLE}",
+        "--ignore=C420,Q004",
+        "--config=lint.dummy-variable-rgx='^_$'",
+        "--config=lint.flake8-quotes.inline-quotes='single'",
+    ),
+    (*_COMMON, "--preview", f"--select={PREVIEW}", f"--ignore={PREVIEW_OFF}"),
+)
+
+MAX_ARGUMENTS = 100_000
+"""Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
+
+
+MOST_OF_A_LINE = 200
+"""Findings of one code on one line; only one of them is shown."""
+
+
+class Said(NamedTuple):
+    """One finding of ruff; the code is empty for a syntax error."""
+
+    code: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    message: str
+    fix: tuple[Replacement, ...]
+    fix_title: str
+    fix_is_unsafe: bool = False
+
+
+class Run:
+    """Both passes over some files, started when the object is made."""
+
+    def __init__(self, files: Sequence[str]) -> None:
+        self._chunks = _chunked(files)
+        self._running = self._start(self._chunks[0]) if self._chunks else []
+
+    def results(self) -> Mapping[str, list[Said]]:
+        """Wait, and return what was said by file.
+
+        Raises:
+            EnvironmentMissingError: ruff does not run.
+        """
+        found: dict[str, list[Said]] = {}
+        try:
+            for at, chunk in enumerate(self._chunks):
+                if at:
+                    self._running = self._start(chunk)
+                for arguments in PASSES:
+                    output = _collect(*self._running.pop(0))
+                    answer = _apart(arguments, chunk) if output is None else _parse(output)
+                    for path, said in answer:
+                        found.setdefault(path, []).append(said)
+        finally:
+            self.close()
+        return found
+
+    def close(self) -> None:
+        """End what still runs and nobody waits for."""
+        while self._running:
+            process, pipe = self._running.pop()
+            os.close(pipe)
+            os.waitpid(process, 0)
+
+    @staticmethod
+    def _start(chunk: Sequence[str]) -> list[tuple[int, int]]:
+        return [_spawn([*arguments, "--", *chunk]) for arguments in PASSES]
+
+
+def _apart(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, Said]]:
+    """Ask about files among which one ends ruff, by halves, so that the others are judged."""
+    if len(files) == 1:
+        yield files[0], Said("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
+        return
+    middle = len(files) // 2
+    for half in (files[:middle], files[middle:]):
+        output = _collect(*_spawn([*arguments, "--", *half]))
+        yield from _apart(arguments, half) if output is None else _parse(output)
+
+
+def _chunked(files: Sequence[str]) -> list[Sequence[str]]:
+    chunks: list[Sequence[str]] = []
+    start = size = 0
+    for at, path in enumerate(files):
+        size += len(path) + 9
+        if size > MAX_ARGUMENTS and at > start:
+            chunks.append(files[start:at])
+            start, size = at, len(path)
+    if start < len(files):
+        chunks.append(files[start:])
+    return chunks
+
+
+def _spawn(arguments: Sequence[str]) -> tuple[int, int]:
+    """Start ruff; return its process id and the pipe that it writes to."""
+    program = executable()
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("RUFF_")}
+    reading, writing = os.pipe()
+    os.set_inheritable(writing, False)  # noqa: FBT003  the function takes no keyword
+    actions = [
+        (os.POSIX_SPAWN_DUP2, writing, 1),
+        (os.POSIX_SPAWN_OPEN, 2, os.devnull, os.O_WRONLY, 0o666),
+        (os.POSIX_SPAWN_OPEN, 0, os.devnull, os.O_RDONLY, 0o666),
+    ]
+    try:
+        process = os.posix_spawn(program, [program, *arguments], environment, file_actions=actions)
+    except OSError as error:
+        os.close(reading)
+        raise EnvironmentMissingError(f"ruff cannot be started: {error}") from error
+    finally:
+        os.close(writing)
+    return process, reading
+
+
+def _collect(process: int, pipe: int) -> bytes | None:
+    """Wait for ruff and return what it wrote; ``None`` if its stack overflowed.
+
+    Raises:
+        EnvironmentMissingError: it failed otherwise.
+    """
+    parts: list[bytes] = []
+    while part := os.read(pipe, 1 << 20):
+        parts.append(part)
+    os.close(pipe)
+    _, status = os.waitpid(process, 0)
+    output = b"".join(parts)
+    code = os.waitstatus_to_exitcode(status)
+    if code in (-signal.SIGABRT, -signal.SIGSEGV):
+        return None
+    if code not in (0, 1) or not output.lstrip().startswith(b"["):
+        raise EnvironmentMissingError(
+            f"{executable()} failed (exit status {code}); is it ruff 0.17?"
+        )
+    return output
+
+
+def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
+    if output.strip() == b"[]":
+        # Most files are clean, and json takes as long to import as ruff to run.
+        return
+    import json
+
+    counts: dict[tuple[str, str, int], int] = {}
+    for entry in json.loads(output):
+        start, end = entry["location"], entry["end_location"]
+        key = (entry["filename"], entry["code"], start["row"])
+        counts[key] = count = counts.get(key, 0) + 1
+        if count > MOST_OF_A_LINE:
+            continue
+        fix = entry["fix"]
+        edits: tuple[Replacement, ...] = ()
+        if fix and fix["applicability"] in ("safe", "unsafe"):
+            edits = tuple(_replacement(edit) for edit in fix["edits"])
+        yield (
+            entry["filename"],
+            Said(
+                _code(entry["code"]),
+                start["row"],
+                start["column"],
+                end["row"],
+                end["column"],
+                entry["message"],
+                edits,
+                fix["message"] or "" if fix else "",
+                bool(fix) and fix["applicability"] == "unsafe",
+            ),
+        )
+
+
+def _code(code: str | None) -> str:
+    """Return the code; empty for a syntax error, which ruff gives a name instead."""
+    return code if code and code[0].isupper() else ""
+
+
+def _replacement(edit: Mapping[str, Any]) -> Replacement:
+    start, end = edit["location"], edit["end_location"]
+    return start["row"], start["column"], end["row"], end["column"], edit["content"]
+
+
+_FOUND: list[str] = []
+
+
+def executable() -> str:
+    """Return the ruff program that belongs to the running Python, else the one on the PATH.
+
+    Raises:
+        EnvironmentMissingError: there is none.
+    """
+    if not _FOUND:
+        _FOUND.append(_find())
+    return _FOUND[0]
+
+
+def _find() -> str:
+    beside = os.path.join(os.path.dirname(sys.executable), "ruff")
+    own = os.path.join(sys.prefix, "bin", "ruff")
+    for candidate in (beside, own):
+        if os.path.isabs(candidate) and os.access(candidate, os.X_OK):
+            return candidate
+    from importlib import import_module
+
+    try:
+        return str(import_module("ruff").find_ruff_bin())
+    except (ImportError, AttributeError, FileNotFoundError):
+        pass
+    on_path = programs.find("ruff")
+    if on_path is not None:
+        return on_path
+    raise EnvironmentMissingError("ruff is not installed; pip install 'ruff>=0.17.5,<0.18'")
+
+
+def identity() -> str:
+    """Return what changes when another ruff is installed."""
+    status = os.stat(executable())
+    return f"{executable()}:{status.st_size}:{status.st_mtime_ns}"

@@ -1,0 +1,273 @@
+"""The verdict on one file: our own rules, and what ruff said, put together."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
+
+from scaffold.ament.codes import CODES
+from scaffold.ament.finding import FLAKE8, PEP257, UNPARSABLE, Finding, Replacement
+from scaffold.ament.flake8 import builtins as shadowing
+from scaffold.ament.flake8 import comprehensions, noqa, quotes
+from scaffold.ament.flake8.import_order import check as import_order
+from scaffold.ament.flake8.pycodestyle import (
+    blank_lines,
+    continuation,
+    indentation,
+    keyword_spacing,
+    operators,
+    physical,
+    statements,
+)
+from scaffold.ament.flake8.pyflakes import flakes, literals, redefinitions
+from scaffold.ament.pep257 import form as docstrings
+from scaffold.ament.python_text.logical import LogicalLine
+from scaffold.ament.python_text.text import PythonText, decode
+from scaffold.ament.ruff import MOST_OF_A_LINE, Said
+from scaffold.errors import exhausted
+
+MOST_EDITS = 200
+"""Of one fix; a line with more is mended in several rounds, if at all."""
+
+_TAKEN = "E211 E261 E262 E265 E266 E401 W605"
+TAKEN = frozenset(_TAKEN.split())
+"""Codes on which ruff's verdict is pycodestyle's."""
+
+_OWN = (
+    physical,
+    blank_lines,
+    indentation,
+    continuation,
+    statements,
+    quotes,
+    redefinitions,
+    import_order,
+    shadowing,
+    comprehensions,
+    literals,
+    docstrings,
+)
+
+
+def check(
+    name: str, data: bytes, ask_ruff: Callable[[], Sequence[Said]], linters: int
+) -> list[Finding]:
+    """Return the findings of one file.
+
+    Args:
+        name: The name of the file, without its directory.
+        data: Its bytes.
+        ask_ruff: Waits for ruff and returns what it says about the file; asked after the own
+            rules, which run at the same time as ruff.
+        linters: Which of the two linters look at the file.
+    """
+    decoded = decode(data)
+    text = PythonText(name, decoded.text)
+    own = list(_own(text))
+    said = ask_ruff()
+    broken = _broken(text, said, is_clean=decoded.is_clean)
+    if broken is not None:
+        return [broken._replace(linters=linters)]
+    findings = [*_from_ruff(text, said), *own]
+    findings = _with_fixes(findings, said)
+    kept = [
+        finding._replace(linters=finding.linters & linters)
+        for finding in findings
+        if finding.linters & linters
+    ]
+    judged = [*map(_Alignment(text).kept, _once(noqa.apply(text, kept)))]
+    if text.is_too_deep:
+        judged.insert(0, Finding(UNPARSABLE, 1, 1, exhausted(RecursionError()), linters=linters))
+    return judged
+
+
+def _own(text: PythonText) -> Iterator[Finding]:
+    # Without a tree a newer Python may still parse the file: ruff speaks for the other rules.
+    counts: dict[tuple[str, int], int] = {}
+    for module in _OWN if text.tree is not None else (physical,):
+        for finding in module.check(text):
+            key = finding.code, finding.line
+            counts[key] = count = counts.get(key, 0) + 1
+            if count <= MOST_OF_A_LINE:
+                yield finding
+
+
+def _broken(text: PythonText, said: Sequence[Said], *, is_clean: bool) -> Finding | None:
+    """Return the one finding of a file that no Python of the target can read."""
+    both = FLAKE8 | PEP257
+    if not is_clean:
+        return Finding(
+            "E902", 1, 1, "the bytes are not text of the declared encoding", linters=both
+        )
+    own = _syntax_error(text) if text.tree is None else None
+    errors = [(one.line, one.column, flakes.worded(one.message)) for one in said if not one.code]
+    if not errors and isinstance(own, IndentationError):
+        errors = [(1, 1, own.msg)]  # ruff takes tabs for another width
+    if not errors:
+        return None
+    line, column, message = min(errors)
+    if own is not None and own.lineno:
+        # It names the line that flake8 names.
+        line, column = own.lineno, max(own.offset or 1, 1)
+    return Finding("E999", line, column, f"not valid Python 3.12: {message}", linters=both)
+
+
+def _syntax_error(text: PythonText) -> SyntaxError | None:
+    """Return what the running Python says of a file."""
+    import ast
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            ast.parse(text.text)
+        except SyntaxError as error:
+            return error
+        except (ValueError, RecursionError, MemoryError):
+            pass
+    return None
+
+
+def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+    if text.tree is None:
+        yield from (flakes.plain(one) for one in said if one.code in CODES)
+        return
+    yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
+    for module in (operators, keyword_spacing):
+        rows = [one.line for one in said if one.code in module.CODES]
+        rows += [
+            text.line_of(found.start())
+            for found in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
+        ]
+        logical_lines = {row: text.logical_line_at(row) for row in sorted(set(rows))}
+        for logical in dict.fromkeys(one for one in logical_lines.values() if one):
+            yield from module.check(logical)
+    for one in said:
+        if one.code in TAKEN:
+            yield flakes.plain(one)
+
+
+def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Finding]:
+    """Give our findings the fixes that ruff has for the same code at the same line."""
+    plain: dict[tuple[str, int], list[Finding]] = {}
+    for one in said:
+        if one.fix:
+            plain.setdefault((one.code, one.line), []).append(flakes.plain(one))
+    fixes = {key: _joined(same) for key, same in plain.items()}
+    result = []
+    for finding in findings:
+        other = fixes.get((finding.code, finding.line))
+        if other is not None and not finding.fix:
+            result.append(
+                finding._replace(
+                    fix=other.fix, fix_title=other.fix_title, fix_is_unsafe=other.fix_is_unsafe
+                )
+            )
+        else:
+            result.append(finding)
+    return result
+
+
+class _Alignment:
+    """Knows what continuation lines are aligned with."""
+
+    def __init__(self, text: PythonText) -> None:
+        self._text = text
+        self._starts: dict[int, frozenset[int]] = {}
+        self._columns: dict[int, list[int]] = {}
+
+    def kept(self, finding: Finding) -> Finding:
+        """Take away a fix that would move something that lines further down are aligned with."""
+        for row, start, end_row, end, new in finding.fix:
+            if row != end_row or "\n" in new or end - start == len(new):
+                continue
+            logical = self._text.logical_line_at(row)
+            if logical is None or logical.end_row == row:
+                continue
+            starts = self._line_starts(logical)
+            columns = self._columns_of(row)
+            behind = columns[bisect_left(columns, start) :]
+            if len(behind) > MOST_EDITS or not starts.isdisjoint(behind):
+                return finding._replace(fix=(), fix_title="")
+        return finding
+
+    def _line_starts(self, logical: LogicalLine) -> frozenset[int]:
+        """Return the columns, from 0, where the continuation lines of a statement start."""
+        if logical.row not in self._starts:
+            self._starts[logical.row] = frozenset(
+                one.start[1]
+                for before, one in pairwise(logical.tokens)
+                if one.start[0] > before.start[0]
+            )
+        return self._starts[logical.row]
+
+    def _columns_of(self, row: int) -> list[int]:
+        """Return the columns, from 0, of the tokens of a row."""
+        if row not in self._columns:
+            rows = self._text.token_rows
+            tokens = self._text.tokens[bisect_left(rows, row) : bisect_right(rows, row)]
+            self._columns[row] = [one.start[1] for one in tokens]
+        return self._columns[row]
+
+
+def _once(findings: Iterable[Finding]) -> list[Finding]:
+    """Return one finding for each line and code, in reading order."""
+    found: dict[tuple[int, str], list[Finding]] = {}
+    for finding in sorted(findings, key=lambda one: (one.line, one.column, one.code)):
+        found.setdefault((finding.line, finding.code), []).append(finding)
+    return [_joined(same) for same in found.values()]
+
+
+def _joined(findings: Sequence[Finding]) -> Finding:
+    """Return the first of some findings, with the fixes of all where they do not meet."""
+    first, *others = findings
+    if not others:
+        return first
+    linters = first.linters
+    for other in others:
+        linters |= other.linters
+    fixable = [one for one in findings if one.fix]
+    if not fixable:
+        return first._replace(linters=linters)
+    leading = fixable[0]
+    edits = sorted({*leading.fix})
+    has_grown = False
+    before = leading.fix
+    for other in fixable[1:] if not _meet(edits) else ():
+        if len(edits) > MOST_EDITS:
+            break
+        # What mends a whole line is said of each of its findings.
+        if other.fix_is_unsafe == leading.fix_is_unsafe and other.fix != before:
+            has_grown = _added(edits, other.fix) or has_grown
+        before = other.fix
+    return first._replace(
+        linters=linters,
+        fix=tuple(edits) if has_grown else leading.fix,
+        fix_title=leading.fix_title,
+        fix_is_unsafe=leading.fix_is_unsafe,
+    )
+
+
+def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
+    """Add edits to others in the order of the text, all or none: those that meet cannot be."""
+    new = sorted({*more})
+    if _meet(new):
+        return False
+    places: list[tuple[int, Replacement]] = []
+    for edit in new:
+        at = bisect_left(edits, edit)
+        if edits[at : at + 1] == [edit]:
+            continue
+        if _meet([*edits[max(at - 1, 0) : at], edit, *edits[at : at + 1]]):
+            return False
+        places.append((at, edit))
+    for at, edit in reversed(places):
+        edits.insert(at, edit)
+    return True
+
+
+def _meet(edits: Sequence[Replacement]) -> bool:
+    """Tell whether any of some edits begins before the one ahead of it ends."""
+    return any(one[2:4] > other[:2] for one, other in pairwise(edits))

@@ -1,0 +1,344 @@
+"""The verdict of ament_xmllint: XML files that can be read and that fit their schemas."""
+
+from __future__ import annotations
+
+import json
+import marshal
+import os
+import posixpath
+import re
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING
+from xml.parsers import expat
+
+from scaffold.ament import xml_validate
+from scaffold.ament.files import broken_links, lintable
+from scaffold.files.disk import LargeFileError
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ParseError, Source
+
+if TYPE_CHECKING:
+    from lxml import etree
+
+
+MAX_DEPTH = 256
+"""Elements inside of each other that libxml2, and with it xmllint, goes along with."""
+MAX_TEXT = 10_000_000
+"""Bytes in one piece that it takes."""
+
+
+def of_package(package: Package) -> list[str]:
+    """Return the paths that ament_xmllint looks at, links that lead nowhere among them."""
+    return [path for path in (*lintable(package), *broken_links(package)) if _is_xml(path)]
+
+
+def mistake(package: Package, path: str) -> tuple[Location, str] | None:
+    """Return the first place where an XML file is not well-formed, and what is wrong there."""
+    try:
+        data = package.tree.read(path)
+    except OSError as error:
+        return Location.start_of(path), f"cannot be read: {error.strerror or error}"
+    return check(path, data)
+
+
+def check(path: str, data: bytes) -> tuple[Location, str] | None:
+    """Return the first mistake in an XML file.
+
+    Prefixes of namespaces may be undeclared, as xmllint has it; nothing outside of the file is
+    read, so references to entities of another file are let pass.
+    """
+    reader = _Reader()
+    try:
+        reader.parser.Parse(data, True)  # noqa: FBT003  the C function takes no keyword
+    except expat.ExpatError as error:
+        return _explain(path, data, error)
+    except (_Limit, ValueError, LookupError) as error:
+        at = Location.start_of(path, max(reader.parser.CurrentLineNumber, 1))
+        return at, str(error)
+    return None
+
+
+class _Limit(Exception):  # noqa: N818  ends the reading; no one else sees it
+    """The file is beyond what xmllint reads."""
+
+
+class _Reader:
+    """Reads a file for its mistakes only."""
+
+    def __init__(self) -> None:
+        self.parser = parser = expat.ParserCreate()
+        self.depth = 0
+        self.length = 0
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._text
+        parser.XmlDeclHandler = self._declare
+
+    def _start(self, _tag: str, _attributes: dict[str, str]) -> None:
+        self.length = 0
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise _Limit(f"more than {MAX_DEPTH} elements inside of each other: no reader goes on")
+
+    def _end(self, _tag: str) -> None:
+        self.length = 0
+        self.depth -= 1
+
+    def _text(self, text: str) -> None:
+        self.length += len(text)
+        if self.length > MAX_TEXT:
+            raise _Limit(f"more than {MAX_TEXT} characters in one piece: no reader goes on")
+
+    def _declare(self, version: str, _encoding: str | None, _standalone: int) -> None:
+        major, _, minor = version.partition(".")
+        if major != "1" or not (minor.isascii() and minor.isdigit()):
+            raise _Limit(f"XML has no version {version}: write 1.0")
+
+
+def _explain(path: str, data: bytes, error: expat.ExpatError) -> tuple[Location, str]:
+    """Put the mistake in our own words where the text can be decoded, else in expat's."""
+    from scaffold.formats import xml as xml_tree
+
+    try:
+        text = data.decode("utf-8")
+        xml_tree.parse(Source(path, text))
+    except ParseError as found:
+        if "DOCTYPE" not in found.message:
+            said = found.message.replace("package.xml", path).replace(" such as <package>", "")
+            return found.location, said
+    except UnicodeDecodeError:
+        pass
+    at = Location(path, error.lineno, error.offset + 1, error.lineno, error.offset + 2)
+    return at, expat.errors.messages[error.code]
+
+
+def _is_xml(path: str) -> bool:
+    name = path.rpartition("/")[2]
+    return name.endswith(".xml") and name != ".xml"
+
+
+XML_SCHEMA = "http://www.w3.org/2001/XMLSchema"
+RELAX_NG = xml_validate.RELAX_NG
+HINT = "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation"
+MOST_BYTES = 200_000
+"""Of a schema; that of package.xml has 30 kB."""
+MOST_SECONDS = 4
+"""Of waiting for all schemas of a package."""
+_READS_OTHERS = frozenset(
+    {f"{{{XML_SCHEMA}}}{name}" for name in ("include", "import", "redefine", "override")}
+    | {f"{{{RELAX_NG}}}{name}" for name in ("include", "externalRef")}
+)
+
+
+class Verdict(NamedTuple):
+    """What is known of an XML file and one schema that it names."""
+
+    location: Location
+    message: str
+    is_checked: bool
+    """False if the schema was left alone, and the message says why."""
+
+
+class _Use(NamedTuple):
+    """An XML file and a schema that it names."""
+
+    path: str
+    data: bytes
+    kind: str
+    href: str
+
+
+def verdicts(package: Package) -> Sequence[Verdict]:
+    """Return what there is to say of the schemas that XML files other than package.xml name.
+
+    Of a file that does not fit, the first place where it does not.
+    """
+    return package.remember("xml_schemas", lambda: _verdicts(package))
+
+
+def _verdicts(package: Package) -> list[Verdict]:
+    uses = [use for path in of_package(package) for use in _uses(package, path)]
+    told: dict[_Use, Verdict | None] = {}
+    jobs: dict[_Use, xml_validate.Job] = {}
+    for use in uses:
+        verdict = _judge(package, use)
+        if isinstance(verdict, bytes):
+            jobs[use] = (use.kind, verdict, use.data)
+        else:
+            told[use] = verdict
+    validated = dict(_validated(jobs))
+    if any(verdict and not verdict.is_checked for verdict in validated.values()):
+        package.is_repeatable = False  # another time there may be time
+    told.update(validated)
+    found: list[Verdict] = []
+    complained: set[str] = set()
+    for use in uses:
+        verdict = told[use]
+        if verdict is None or (verdict.is_checked and use.path in complained):
+            continue
+        if verdict.is_checked:
+            complained.add(use.path)
+        found.append(verdict)
+    return found
+
+
+def _uses(package: Package, path: str) -> Iterator[_Use]:
+    """Yield the schemas that a well-formed file names."""
+    try:
+        data = package.tree.read(path) if path != "package.xml" else b""
+    except OSError:
+        return
+    if b"xml-model" not in data and b"noNamespaceSchemaLocation" not in data:
+        return  # nearly all files: nothing to import for
+    root = _parse(data)
+    for kind, href in _named(root) if root is not None else ():
+        yield _Use(path, data, kind, href)
+
+
+def _parse(data: bytes) -> etree._Element | None:
+    from lxml import etree
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        return etree.fromstring(data, parser)
+    except (etree.XMLSyntaxError, ValueError):
+        return None
+
+
+def _named(root: etree._Element) -> list[tuple[str, str]]:
+    """Return the kinds and places of the schemas that a document names."""
+    found: list[tuple[str, str]] = []
+    for node in root.itersiblings(preceding=True):
+        if getattr(node, "target", "") == "xml-model":
+            words = dict(re.findall(r"""\b(\w+)\s*=\s*["']([^"']*)["']""", node.text or ""))
+            if "href" in words and words.get("schematypens") in {XML_SCHEMA, RELAX_NG}:
+                found.append((words["schematypens"], words["href"]))
+    hint = root.get(HINT)
+    return [*found, (XML_SCHEMA, str(hint))] if hint is not None else found
+
+
+def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
+    """Return what can be said without libxml2, or the schema that it has to look at."""
+    manifest = re.search(r"package_format([123])\.xsd\Z", use.href)
+    if manifest:
+        wrong = violations(use.data, int(manifest[1]))
+        return (
+            _wrong(use, wrong[0][0], f"is no package.xml: {_shown(wrong[0][1])}") if wrong else None
+        )
+    if "://" in use.href:
+        return _left(use, "it is on the network")
+    target = posixpath.normpath(posixpath.join(posixpath.dirname(use.path), use.href))
+    try:
+        schema = _read(package, target)
+    except LargeFileError as error:
+        return _left(use, f"its {error.size // 1000} kB are more than {MOST_BYTES // 1000} kB")
+    except (OSError, ValueError):
+        return _wrong(use, 1, f"names the schema {use.href}, but there is no file {target}")
+    root = _parse(schema)
+    if root is not None and _reads_others(root):
+        return _left(use, "it names other files")
+    return schema
+
+
+def _reads_others(root: etree._Element) -> bool:
+    """Tell whether a schema makes its reader open other files."""
+    document = root.getroottree().docinfo
+    has_type = document.internalDTD is not None
+    return has_type or any(element.tag in _READS_OTHERS for element in root.iter())
+
+
+def _read(package: Package, path: str) -> bytes:
+    if not path.startswith(".."):
+        return package.tree.read(path, MOST_BYTES)
+    if package.root is None:
+        raise FileNotFoundError(path)
+    # beside the package, in the same repository
+    return package.outside.read(os.path.join(package.root, path), MOST_BYTES)
+
+
+def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Verdict | None]]:
+    """Yield what libxml2 says of documents, as far as it comes in time."""
+    lines = _run(list(jobs.values())) if jobs else []
+    for at, use in enumerate(jobs):
+        if at >= len(lines):
+            yield use, _left(use, "it takes too long, or too much memory")
+            continue
+        complaint = json.loads(lines[at])
+        if complaint is None:
+            yield use, None
+            continue
+        line, message, is_unusable = complaint
+        said = f"names the schema {use.href}, which cannot be used" if is_unusable else ""
+        yield use, _wrong(use, line, f"{said or f'does not fit {use.href}'}: {_shown(message)}")
+
+
+def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
+    """Return the lines that the program for it writes until it ends or is ended."""
+    import subprocess
+
+    from lxml import etree
+
+    library = os.path.dirname(os.path.dirname(os.path.abspath(etree.__file__)))
+    with subprocess.Popen(
+        [sys.executable, "-I", xml_validate.__file__, library],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as process:
+        try:
+            output, _ = process.communicate(marshal.dumps(jobs), timeout=MOST_SECONDS)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            output, _ = process.communicate()
+    return [line for line in output.splitlines(keepends=True) if line.endswith(b"\n")]
+
+
+def _wrong(use: _Use, line: int, message: str) -> Verdict:
+    return Verdict(Location.start_of(use.path, max(line, 1)), message, is_checked=True)
+
+
+def _left(use: _Use, why: str) -> Verdict:
+    message = f"names the schema '{use.href}', which is not looked at: {why}"
+    return Verdict(Location.start_of(use.path), message, is_checked=False)
+
+
+def _shown(message: str) -> str:
+    return message.partition("\n")[0].rstrip(". ")
+
+
+_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data")
+
+
+def violations(data: bytes, number: int) -> list[tuple[int, str]]:
+    """Return the lines of a manifest that the schema of a format refuses, in libxml2's words.
+
+    Args:
+        data: The file.
+        number: The format, 1 to 3.
+
+    Raises:
+        ValueError: the file is not well-formed, or the format does not exist.
+    """
+    from lxml import etree
+
+    schema = _schema(number)
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        document = etree.fromstring(data, parser).getroottree()
+    except etree.XMLSyntaxError as error:
+        raise ValueError(str(error)) from error
+    if schema.validate(document):
+        return []
+    return [(entry.line, entry.message) for entry in schema.error_log] or [(1, "is refused")]
+
+
+@lru_cache(maxsize=3)
+def _schema(number: int) -> etree.RelaxNG:
+    from lxml import etree
+
+    if number not in {1, 2, 3}:
+        raise ValueError(f"package.xml has no format {number}")
+    return etree.RelaxNG(file=os.path.join(_DATA, f"manifest_format{number}.rng"))

@@ -1,0 +1,1 @@
+"""What earlier runs of `check` leave in the user's cache."""

@@ -1,0 +1,90 @@
+"""Answers as text: to be edited, as somebody types them, and as the flags of a command."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from scaffold.generate import parts
+from scaffold.generate.questions import questions
+from scaffold.generate.templates.template import Question, Template
+
+_TOGETHER = {"fields": ";", "dependencies": " "}
+"""What separates several values in one line, by the type of the answer."""
+
+
+def shown(question: Question, known: object) -> str:
+    """Return the default as text to edit; one that is made of other answers is not shown."""
+    if isinstance(known, bool):
+        return "yes" if known else "no"
+    if isinstance(known, list | tuple):
+        return f"{_TOGETHER.get(question.type, ' ')} ".join(map(str, known)).replace("  ", " ")
+    return "" if known is None or "{" in str(known) else str(known)
+
+
+def is_default(question: Question, value: object) -> bool:
+    """Tell whether an answer says no more than no answer."""
+    usual = split(question, shown(question, question.default))
+    return value in ("", [], question.default, usual)
+
+
+def split(question: Question, answer: str) -> Any:  # noqa: ANN401  a text or several
+    """Return the value, or the values, that were typed on one line."""
+    separator = _TOGETHER.get(question.type)
+    if separator is None:
+        return answer
+    words = [word.strip() for word in answer.split(separator) if word.strip()]
+    return words[0] if len(words) == 1 else words
+
+
+def command(
+    answers: Mapping[str, Any], base: Mapping[str, Question], templates: Mapping[str, Template]
+) -> list[str]:
+    """Return the command with what differs from the defaults."""
+    words = ["ros2-scaffold", "new", str(answers["package"])]
+    for name, value in answers.items():
+        if name == parts.ADD:
+            for entry in value:
+                part = entry if isinstance(entry, str) else _written(entry, templates)
+                words += ["--add", part]
+        elif name != "package" and not (name in base and is_default(base[name], value)):
+            words += _flag(name, value)
+    return words
+
+
+def _flag(name: str, value: object) -> list[str]:
+    flag = questions.flag(name)
+    if isinstance(value, list):
+        return [flag, *map(str, value)]
+    # With a dash in front it would be taken for a flag.
+    return [f"{flag}={value}"] if str(value).startswith("-") else [flag, str(value)]
+
+
+def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
+    """Return a part as ``--add`` takes it."""
+    kind = str(entry[parts.KIND])
+    asked = templates[kind].name_question
+    words = [f"{kind}:{entry[asked]}"]
+    for name, value in entry.items():
+        if name not in {parts.KIND, asked}:
+            words += [f"{name}={one}" for one in (value if isinstance(value, list) else [value])]
+    return " ".join(_quoted_inside(word) for word in words)
+
+
+def _quoted_inside(word: str) -> str:
+    """Return a word for `shlex.split`, in quotes that need no others around it if possible."""
+    if not re.search(r"[\s'\"\\]", word):
+        return word
+    return quoted(word) if re.search(r'["\\]', word) else f'"{word}"'
+
+
+def quoted(word: str) -> str:
+    """Return a word as bash, zsh and fish read it.
+
+    In single quotes all is as it is written, but for the backslash in fish and the quote itself.
+    """
+    if re.fullmatch(r"[\w@+=:,./-]+", word, re.ASCII) and word[0] != "=":
+        return word
+    pieces = re.findall(r"[\\']|[^\\']+", word)
+    return "".join(f"\\{one}" if one in "\\'" else f"'{one}'" for one in pieces) or "''"

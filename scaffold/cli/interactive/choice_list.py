@@ -1,0 +1,192 @@
+"""A list on a terminal that one or several names are chosen from."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from prompt_toolkit.application import Application, get_app_session
+from prompt_toolkit.formatted_text import FormattedText
+from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
+from prompt_toolkit.keys import Keys
+from prompt_toolkit.layout import FormattedTextControl, HSplit, Layout, Window
+
+from scaffold.cli.interactive.screen import STYLE, columns, ended
+
+NAME_WIDTH = 20
+"""Columns for the names of choices, so that their summaries stand below each other."""
+_MOST_FOOT = 3
+"""Lines for the summary of a choice that is cut off in the list."""
+
+
+class Choice(NamedTuple):
+    """Something to choose."""
+
+    name: str
+    summary: str = ""
+    is_last: bool = False
+    """Whether it is found by nothing but its own name, such as "nothing more"."""
+
+
+class ChoiceList:
+    """A list of choices: arrow keys move in it, what is typed leaves those that match."""
+
+    def __init__(
+        self, question: str, choices: Sequence[Choice], default: str | None, *, takes_several: bool
+    ) -> None:
+        self._question = question
+        self._choices = choices
+        self._takes_several = takes_several
+        self._typed = ""
+        self._at = next((i for i, one in enumerate(choices) if one.name == default), 0)
+        self._chosen: set[str] = set()
+
+    def run(self) -> list[str]:
+        """Return the names that were chosen, in the order of the list."""
+        head = Window(FormattedTextControl(self._head), wrap_lines=True, dont_extend_height=True)
+        rows = FormattedTextControl(self._rows, focusable=True, show_cursor=False)
+        foot = FormattedTextControl(self._foot)
+        layout = Layout(
+            HSplit(
+                [
+                    head,
+                    Window(rows, dont_extend_height=True, height=self._height),
+                    Window(foot, dont_extend_height=True),
+                ]
+            )
+        )
+        application: Application[list[str]] = Application(
+            layout, key_bindings=self._keys(), style=STYLE, erase_when_done=True
+        )
+        return application.run()
+
+    def _height(self) -> int:
+        """Return how many rows there is room for."""
+        lines = get_app_session().output.get_size().rows
+        around = len(self._lines_of_head()) + len(self._foot_lines()) + 1
+        return max(2, min(len(self._found()) or 1, lines - around))
+
+    def _found(self) -> list[Choice]:
+        """Return the choices that match: the named one first, then names, then summaries."""
+        word = self._typed.strip().lower()
+        if not word:
+            return list(self._choices)
+        grades: tuple[list[Choice], ...] = ([], [], [], [])
+        for choice in self._choices:
+            name = choice.name.lower()
+            if name.startswith(word):
+                grades[0 if name == word else 1].append(choice)
+            elif not choice.is_last and word in name:
+                grades[2].append(choice)
+            elif not choice.is_last and word in choice.summary.lower():
+                grades[3].append(choice)
+        return [choice for grade in grades for choice in grade]
+
+    def _lines_of_head(self) -> list[str]:
+        how = "space chooses, enter ends" if self._takes_several else "enter chooses"
+        how = f"arrow keys move, {how}, typing searches"
+        text = f"? {ended(self._question)} ({how}) {self._typed}"
+        return textwrap.wrap(text, max(columns() - 1, 2))
+
+    def _head(self) -> FormattedText:
+        return FormattedText([("class:question", "\n".join(self._lines_of_head()))])
+
+    def _row(self, choice: Choice) -> str:
+        box = ("[x] " if choice.name in self._chosen else "[ ] ") if self._takes_several else ""
+        return f"{box}{choice.name:{NAME_WIDTH}} {choice.summary}".rstrip()
+
+    def _rows(self) -> FormattedText:
+        found = self._found()
+        if not found:
+            return FormattedText([("", f"  nothing has {self._typed.strip()!r} in it")])
+        tokens: list[tuple[str, str]] = []
+        for number, choice in enumerate(found):
+            is_pointed = number == self._at
+            text = _cut(self._row(choice), columns() - 3)
+            if is_pointed:
+                tokens.append(("[SetCursorPosition]", ""))
+            chosen = "class:chosen" if choice.name in self._chosen else ""
+            tokens.append(("class:pointed", f"> {text}") if is_pointed else (chosen, f"  {text}"))
+            tokens.append(("", "\n"))
+        return FormattedText(tokens[:-1])
+
+    def _foot_lines(self) -> list[str]:
+        """Return the whole summary of the choice that is pointed at, where the row is cut."""
+        if all(len(self._row(choice)) <= columns() - 3 for choice in self._choices):
+            return []
+        found = self._found()
+        text = found[self._at].summary if found else ""
+        return textwrap.wrap(text, max(columns() - 1, 2), max_lines=_MOST_FOOT, placeholder="...")
+
+    def _foot(self) -> FormattedText:
+        return FormattedText([("", "\n".join(self._foot_lines()))])
+
+    def _keys(self) -> KeyBindings:
+        keys = KeyBindings()
+        self._bind_moves(keys)
+        self._bind_search(keys)
+        self._bind_ends(keys)
+        return keys
+
+    def _bind_moves(self, keys: KeyBindings) -> None:
+        def move(steps: int) -> Callable[[KeyPressEvent], None]:
+            def by(_: KeyPressEvent) -> None:
+                self._at = (self._at + steps) % max(len(self._found()), 1)
+
+            return by
+
+        for key, steps in (("down", 1), ("c-n", 1), ("up", -1), ("c-p", -1)):
+            keys.add(key)(move(steps))
+
+    def _bind_search(self, keys: KeyBindings) -> None:
+        @keys.add("backspace")
+        def back(_: KeyPressEvent) -> None:
+            self._search(self._typed[:-1])
+
+        @keys.add("c-u")
+        @keys.add("escape", eager=True)
+        def clear(_: KeyPressEvent) -> None:
+            self._search("")
+
+        @keys.add(Keys.BracketedPaste)
+        def paste(event: KeyPressEvent) -> None:
+            self._search(self._typed + " ".join(event.data.split()))
+
+        @keys.add(Keys.Any)
+        def typed(event: KeyPressEvent) -> None:
+            if event.data == " " and self._takes_several:
+                self._toggle()
+            elif event.data.isprintable():
+                self._search(self._typed + event.data)
+
+    def _bind_ends(self, keys: KeyBindings) -> None:
+        @keys.add("enter")
+        def end(event: KeyPressEvent) -> None:
+            found = self._found()
+            if self._takes_several:
+                names = [one.name for one in self._choices if one.name in self._chosen]
+                event.app.exit(result=names)
+            elif found:
+                event.app.exit(result=[found[self._at].name])
+
+        @keys.add("c-c")
+        @keys.add("<sigint>")
+        def interrupt(event: KeyPressEvent) -> None:
+            event.app.exit(exception=KeyboardInterrupt())
+
+        @keys.add("c-d")
+        def close(event: KeyPressEvent) -> None:
+            event.app.exit(exception=EOFError())
+
+    def _search(self, text: str) -> None:
+        self._typed, self._at = text, 0
+
+    def _toggle(self) -> None:
+        found = self._found()
+        if found:
+            self._chosen ^= {found[self._at].name}
+
+
+def _cut(text: str, width: int) -> str:
+    return text if len(text) <= width else text[: max(width - 3, 1)].rstrip() + "..."

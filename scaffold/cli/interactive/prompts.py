@@ -1,0 +1,147 @@
+"""Questions on a terminal: a line of text, one of some choices, several of them.
+
+Everything is shown in ASCII and broken between words, for terminals of any width. Where the
+terminal cannot move its cursor (``TERM=dumb``) the choices are listed and answered by name.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Sequence
+
+from prompt_toolkit import PromptSession, print_formatted_text
+from prompt_toolkit.completion import WordCompleter
+from prompt_toolkit.formatted_text import FormattedText
+from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
+from prompt_toolkit.keys import Keys
+
+from scaffold.cli import terminal
+from scaffold.cli.interactive.choice_list import NAME_WIDTH, Choice, ChoiceList
+from scaffold.cli.interactive.screen import STYLE, columns, ended, is_dumb, say
+from scaffold.printable import printable
+
+_LEAST_INPUT = 24
+"""Columns that a line of text gets beside its question; else it starts a line of its own."""
+
+
+def line(
+    question: str,
+    default: str = "",
+    judge: Callable[[str], str | None] = lambda _: None,
+    *,
+    hint: str = "",
+    completions: Sequence[str] = (),
+) -> str:
+    """Ask for a line until it is acceptable.
+
+    Args:
+        question: What is wanted.
+        default: What is there to be edited or taken.
+        judge: Says what is wrong with an answer.
+        hint: What happens without an answer.
+        completions: Words that are offered while somebody types.
+
+    Raises:
+        KeyboardInterrupt: the user wants no more questions.
+        EOFError: nobody is there to answer.
+    """
+    start = default
+    while True:
+        answer = _read(question + (f" ({hint})" if hint else ""), start, completions)
+        wrong = judge(answer)
+        if wrong is None:
+            return answer
+        say(wrong)
+        start = default if is_dumb() else answer
+
+
+def one(question: str, choices: Sequence[Choice], default: str | None = None) -> str:
+    """Ask for the name of one choice; see `line`."""
+    if is_dumb():
+        return _by_name(question, choices, default)
+    found = ChoiceList(question, choices, default, takes_several=False).run()
+    _echo(question, found)
+    return found[0]
+
+
+def several(question: str, choices: Sequence[Choice]) -> list[str]:
+    """Ask for the names of any number of choices; see `line`."""
+    if is_dumb():
+        return _by_names(question, choices)
+    found = ChoiceList(question, choices, None, takes_several=True).run()
+    _echo(question, found)
+    return found
+
+
+def _read(question: str, default: str, completions: Sequence[str]) -> str:
+    """Read a line that starts as the default; around it blanks do not count."""
+    lines = textwrap.wrap(f"? {ended(question)}", max(columns() - 1, 2))
+    if len(lines) > 1 or len(lines[0]) + _LEAST_INPUT > columns():
+        lines.append(">")
+    if is_dumb():
+        shown = f" [{printable(default)}]" if default else ""
+        return _read_plainly("\n".join(lines) + f"{shown} ") or default
+    session: PromptSession[str] = PromptSession(
+        FormattedText([("class:question", "\n".join(lines)), ("", " ")]),
+        style=STYLE,
+        key_bindings=_on_one_line(),
+        completer=WordCompleter(list(completions), ignore_case=True, WORD=True, match_middle=True)
+        if completions
+        else None,
+        complete_while_typing=True,
+    )
+    return session.prompt(default=default).strip()
+
+
+def _read_plainly(text: str) -> str:
+    try:
+        return input(text).strip()
+    except (EOFError, KeyboardInterrupt):
+        terminal.show("")  # what is said next has a line of its own
+        raise
+
+
+def _on_one_line() -> KeyBindings:
+    """Return bindings that put pasted lines behind each other: an answer is one line.
+
+    Escape does nothing; it would take the next letter with it.
+    """
+    bindings = KeyBindings()
+    bindings.add("escape", eager=True)(lambda _: None)
+
+    @bindings.add(Keys.BracketedPaste)
+    def paste(event: KeyPressEvent) -> None:
+        event.current_buffer.insert_text(" ".join(event.data.splitlines()))
+
+    return bindings
+
+
+def _echo(question: str, answers: Sequence[str]) -> None:
+    text = printable(f"? {ended(question)} {', '.join(answers) or 'nothing'}")
+    for part in textwrap.wrap(text, max(columns() - 1, 2), subsequent_indent="  "):
+        print_formatted_text(part)
+
+
+def _by_name(question: str, choices: Sequence[Choice], default: str | None) -> str:
+    _list(choices)
+    names = [choice.name for choice in choices]
+    start = default if default in names else ""
+    return line(question, start or "", lambda word: _not_among([word], names))
+
+
+def _by_names(question: str, choices: Sequence[Choice]) -> list[str]:
+    _list(choices)
+    names = [choice.name for choice in choices]
+    hint = "names with blanks between them, or nothing"
+    answer = line(question, "", lambda words: _not_among(words.split(), names), hint=hint)
+    return [name for name in names if name in answer.split()]
+
+
+def _list(choices: Sequence[Choice]) -> None:
+    for choice in choices:
+        say(f"{choice.name:{NAME_WIDTH}} {choice.summary}")
+
+
+def _not_among(words: Sequence[str], names: Sequence[str]) -> str | None:
+    wrong = [word for word in words if word not in names]
+    return f"{wrong[0]!r} is no name in the list above" if wrong else None

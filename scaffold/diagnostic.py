@@ -1,0 +1,50 @@
+"""What a rule says about a place, and how it would mend it."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from scaffold.edits import Fix
+from scaffold.record import NamedTuple
+from scaffold.source import Location
+
+
+class Severity(Enum):
+    """How much a diagnostic matters."""
+
+    ERROR = "error"
+    """It breaks at build, run, test or release."""
+    WARNING = "warning"
+    """The style guide says otherwise."""
+    INFO = "info"
+    """Advice."""
+
+
+class Diagnostic(NamedTuple):
+    """A finding at a place."""
+
+    code: str
+    name: str
+    severity: Severity
+    location: Location
+    message: str
+    fix: Fix | None = None
+
+    @property
+    def sort_key(self) -> tuple[str, int, int, str, str]:
+        """Reading order: file, line, column, then code and message."""
+        at = self.location
+        return at.path, at.line, at.column, self.code, self.message
+
+
+MOST_FINDINGS = 5000
+"""Of one code in one package; a flood of them must not hold the check up."""
+
+
+def crash_message(what: str, error: Exception) -> str:
+    """Return the message about a defect: what failed, how, and where in our code."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    where = f" (line {trace.tb_lineno} of {trace.tb_frame.f_code.co_name})" if trace else ""
+    return f"{what} failed: {type(error).__name__}: {error}{where}"

@@ -1,0 +1,59 @@
+"""Changes to files, and the fixes that they make up."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from scaffold.record import NamedTuple
+
+
+class Safety(Enum):
+    """Whether a fix may change what the package does."""
+
+    SAFE = "safe"
+    """The package does the same afterwards, or what its author plainly meant."""
+    UNSAFE = "unsafe"
+    """The author should look at it; applied with ``--unsafe-fixes`` only."""
+
+
+class Edit(NamedTuple):
+    """Replace the characters from offset ``start`` to before ``end`` of a file."""
+
+    path: str
+    start: int
+    end: int
+    text: str
+
+
+class CreateFile(NamedTuple):
+    """Write a file that does not exist."""
+
+    path: str
+    text: str
+
+
+class MakeExecutable(NamedTuple):
+    """Set the executable bits of a file."""
+
+    path: str
+
+
+class Remove(NamedTuple):
+    """Remove a file."""
+
+    path: str
+
+
+Change = Edit | CreateFile | MakeExecutable | Remove
+
+
+class Fix(NamedTuple):
+    """Changes that make a diagnostic go away, applied together or not at all."""
+
+    title: str
+    changes: tuple[Change, ...]
+    safety: Safety = Safety.SAFE
+
+    def __hash__(self) -> int:
+        """Look at the start only: thousands of diagnostics may share one fix of a whole file."""
+        return hash((self.title, self.changes[:1]))

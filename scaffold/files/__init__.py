@@ -1,0 +1,1 @@
+"""What is on disk: files, trees of them, and the user's cache."""

@@ -1,0 +1,124 @@
+"""The user's cache: files that may be dropped at any time, and that nothing damaged is read from.
+
+A file is sealed: it starts with a head, which says who wrote it and of what, and with a digest of
+its data. One that has another head or that is damaged is as good as none. This module is imported
+by every start and imports next to nothing.
+"""
+
+from __future__ import annotations
+
+import os
+
+from scaffold import home
+from scaffold.files.disk import digest
+
+SWITCH = "SCAFFOLD_NO_CACHE"
+"""The variable that switches the cache off."""
+MOST_BYTES = 200_000_000
+"""Of all files of a kind."""
+_ABANDONED_AFTER = 3600
+"""Seconds after which nobody is still writing a temporary file."""
+
+_SEAL = len(digest(b""))
+
+
+def directory(kind: str) -> str | None:
+    """Return where the user's cache keeps things of a kind, ``None`` if there is none.
+
+    It is switched off, there is no home, or it is in the repository that the tool works in: code is
+    kept in it, and a stranger could have committed some.
+    """
+    if os.environ.get(SWITCH):
+        return None
+    kept = home.cache()
+    # The default place is the user's own, even for those who have a repository in their home.
+    if kept is None or ("XDG_CACHE_HOME" in os.environ and _is_in_repository(kept)):
+        return None
+    return os.path.join(kept, kind)
+
+
+def read_sealed(path: str, head: bytes) -> bytes | None:
+    """Return what was written under a head, ``None`` if it is not there, other or damaged.
+
+    What another user wrote is as good as none.
+    """
+    try:
+        with open(path, "rb", buffering=0) as file:
+            status = os.fstat(file.fileno())
+            is_read = status.st_uid == os.geteuid() and status.st_size <= MOST_BYTES
+            stored = file.read(MOST_BYTES) if is_read else b""
+    except OSError:
+        return None
+    start = len(head) + _SEAL
+    data = stored[start:]
+    return data if stored[:start] == head + digest(data).encode() else None
+
+
+def _is_in_repository(path: str) -> bool:
+    """Tell whether a path is in the repository around the current directory."""
+    try:
+        directory = os.getcwd()
+    except OSError:  # it was removed
+        return False
+    while not os.path.lexists(os.path.join(directory, ".git")):
+        parent = os.path.dirname(directory)
+        if parent == directory:
+            return False
+        directory = parent
+    return os.path.realpath(path).startswith(os.path.join(directory, ""))
+
+
+def write_sealed(path: str, head: bytes, data: bytes) -> bool:
+    """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
+    from scaffold import temporary
+
+    directory = os.path.dirname(path)
+    aside = os.path.join(directory, temporary.name())
+    try:
+        os.makedirs(directory, exist_ok=True)
+        with open(temporary.create(aside), "wb") as file:
+            try:
+                file.write(head + digest(data).encode() + data)
+                file.flush()
+                os.replace(aside, path)
+            except BaseException:
+                os.unlink(aside)
+                raise
+    except OSError:
+        return False
+    return True
+
+
+def trim(kept: str, most: int) -> None:
+    """Drop the files that were not renewed for longest when they are too many or too large.
+
+    A quarter goes at once, so that the next runs need not trim again.
+
+    Args:
+        kept: The directory.
+        most: How many files it may hold.
+    """
+    from time import time
+
+    from scaffold import temporary
+
+    files: list[tuple[float, int, str]] = []
+    oldest = time() - _ABANDONED_AFTER
+    try:
+        with os.scandir(kept) as entries:
+            for entry in entries:
+                status = entry.stat(follow_symlinks=False)
+                if temporary.is_temporary(entry.name):
+                    if status.st_mtime < oldest:
+                        os.unlink(entry.path)  # its writer was killed
+                    continue
+                files.append((status.st_mtime, status.st_size, entry.path))
+        if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
+            return
+        count = total = 0
+        for _, size, path in sorted(files, reverse=True):
+            count, total = count + 1, total + size
+            if count > 1 and (count > most // 4 * 3 or total > MOST_BYTES // 4 * 3):
+                os.unlink(path)
+    except OSError:
+        return  # another process tidies up

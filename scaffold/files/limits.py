@@ -1,0 +1,78 @@
+"""How large a file may be to be read: far above what people write."""
+
+from __future__ import annotations
+
+from scaffold.files.tree import (
+    CMAKE_LISTS,
+    MANIFEST,
+    SETUP_CFG,
+    SETUP_PY,
+)
+
+MOST_BYTES = 500_000
+"""Of a file with code; among 800 public packages the largest has 270 kB."""
+MOST_BYTES_OF_DATA = 1_000_000
+"""Of YAML and documents; the largest YAML file of those packages has 270 kB."""
+MOST_BYTES_OF_CMAKE = 250_000
+"""Of CMakeLists.txt; the largest of those packages has 60 kB."""
+MOST_BYTES_OF_DECLARATIONS = 100_000
+"""Of package.xml, setup.py and setup.cfg, which have a few kB."""
+MOST_BYTES_OF_LINE = 20_000
+"""Of a line of code; in the Python files of those packages the longest has 2 kB."""
+MOST_WORDS = 100_000
+"""Of a file with code, signs and lines counted as well: the largest of them has 70 000."""
+MOST_WORDS_OF_CMAKE = 30_000
+"""Of CMakeLists.txt; the largest has 10 000."""
+MOST_WORDS_OF_DECLARATIONS = 20_000
+"""Of package.xml, setup.py and setup.cfg, which have up to 1 000."""
+_CODE = (".py", ".cfg", "CMakeLists.txt")
+_DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
+
+
+def why_unread(path: str, data: bytes) -> str:
+    """Return why a file is not read, empty if it is: the bounds are far above what people write.
+
+    Some checks take a time that grows with the square of a line, so lines have a bound, too; and
+    a file of two bytes for each word takes ten times as long as text of the same size.
+    """
+    if len(data) > most_bytes(path):
+        return too_large(len(data), path)
+    if len(data) <= MOST_BYTES_OF_LINE or not (path == MANIFEST or path.endswith(_CODE)):
+        return ""
+    longest = max(map(len, data.splitlines()))
+    if longest > MOST_BYTES_OF_LINE:
+        most = MOST_BYTES_OF_LINE // 1000
+        return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
+    most = _most_words(path)
+    words = len(data) if len(data) <= most else _words(data)
+    if words > most:
+        return f"{words} words and signs of {most} that are read: it is not checked"
+    return ""
+
+
+def too_large(size: int, path: str) -> str:
+    """Return why a file of a size is not read."""
+    return f"{size // 1000} kB of {most_bytes(path) // 1000} kB that are read: it is not checked"
+
+
+def _words(data: bytes) -> int:
+    """Count what code is made of, as time and memory go by that and not by bytes."""
+    import re
+
+    return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))
+
+
+def most_bytes(path: str) -> int:
+    """Return the size up to which a file is read: by kind, far above what people write."""
+    if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
+        return MOST_BYTES_OF_DECLARATIONS
+    if path.endswith(CMAKE_LISTS):
+        return MOST_BYTES_OF_CMAKE
+    return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MOST_BYTES
+
+
+def _most_words(path: str) -> int:
+    """Return the same in words and signs."""
+    if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
+        return MOST_WORDS_OF_DECLARATIONS
+    return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MOST_WORDS

@@ -1,0 +1,1 @@
+"""Text formats, read with the exact place of every part."""

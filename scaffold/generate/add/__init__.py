@@ -1,0 +1,1 @@
+"""Adds parts and extras to a package that exists."""

@@ -1,0 +1,306 @@
+"""Adds a part or an extra to an existing package, and edits the files that must know of it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+from scaffold.ament.copyright import REPOSITORY_FILES
+from scaffold.check.overlay import Overlay
+from scaffold.errors import ConflictError, InputError
+from scaffold.generate import repository
+from scaffold.generate.add import regenerate, rendered_part
+from scaffold.generate.add import remarks as neighbours
+from scaffold.generate.add.rendered_part import LAUNCH, Piece, Target, Wanted
+from scaffold.generate.edit.addition import ByHand
+from scaffold.generate.edit.edit import edit
+from scaffold.generate.templates.template import Role
+from scaffold.generate.update.provenance import Provenance
+from scaffold.model.package import Package
+from scaffold.model.programs.executables import programs_of
+from scaffold.source import MissingFileError, ParseError, ViewError
+
+if TYPE_CHECKING:
+    from scaffold.diagnostic import Diagnostic
+
+_OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
+"""Dates, and the years of copyright notices: a second run on another day changes nothing."""
+HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
+"""What the checker finds in files without a header; where the licence is not known that is so."""
+
+
+class Added(NamedTuple):
+    """A package with something new, in memory."""
+
+    files: Mapping[str, bytes]
+    """What is written in the package: new files and those that are edited."""
+    above: Mapping[str, bytes]
+    """What is written at the top of the git repository that the package is in."""
+    new: Sequence[str]
+    """The files of what is added; all others are edited."""
+    executable: frozenset[str]
+    notes: Mapping[str, str]
+    """What a new file is for."""
+    by_hand: tuple[ByHand, ...]
+    start: str | None
+    """The command that starts what is new."""
+    package: Package
+    """The package as it will be."""
+    unedited: Package
+    """The package with the new files alone: what is found there, no edit has brought about."""
+    remarks: tuple[str, ...]
+    """What the user should know, a line each."""
+    has_header: bool
+    """Whether the new files have a licence header."""
+
+    def is_expected(self, diagnostic: Diagnostic) -> bool:
+        """Tell whether a finding follows from what the user is told, or is left to do."""
+        if any(one.path == diagnostic.location.path for one in self.by_hand):
+            return True
+        in_part = diagnostic.location.path in self.new
+        return in_part and not self.has_header and diagnostic.name in HEADER_RULES
+
+    def without_own(
+        self, said: Sequence[Diagnostic], unedited: Sequence[Diagnostic]
+    ) -> list[Diagnostic]:
+        """Return what is said because of the edits or of the new files.
+
+        The rest is said of lines that were there, and without any edit as well: some files are
+        looked at only when there is a program or a launch directory. A message that is about a
+        new file shows an edit that does not do enough; behind a semicolon it only advises.
+
+        Args:
+            said: Of the package as it will be.
+            unedited: What is said of `unedited`.
+        """
+        known = Counter(map(_said, unedited))
+        found: list[Diagnostic] = []
+        for one in said:
+            about = one.message.partition("; ")[0]
+            is_ours = one.location.path in self.new or any(path in about for path in self.new)
+            if not is_ours and known[_said(one)]:
+                known[_said(one)] -= 1
+            else:
+                found.append(one)
+        return found
+
+
+def add(target: Target, wanted: Wanted) -> Added:
+    """Add something to a package in memory.
+
+    Args:
+        target: The package as it is.
+        wanted: A part or an extra.
+
+    Raises:
+        InputError: the package cannot be parsed or does not fit, or an answer is not acceptable.
+        ConflictError: it has a program of that name already.
+    """
+    package = target.package
+    with _refusing(package):
+        _refuse_ros_1(package)
+        old = regenerate.provenance_of(package)
+        wanted = wanted._replace(given={**regenerate.remembered(old), **wanted.given})
+        made = rendered_part.make(target, old, wanted)
+        _refuse_taken(package, made)
+        new = _new_files(target, old, made)
+        others, by_hand = _others(target, old, wanted, made)
+    left = repository.left_to_owners(
+        target.place, package.name, made.rendered.files, lambda path: _content(target, path)
+    )
+    by_hand += tuple(filter(None, left.values()))
+    new = {path: data for path, data in new.items() if path not in left}
+    above, new = repository.above(new), repository.inside(new)
+    # The files of the part have the date of today, those of the package keep theirs.
+    files = {**repository.inside(others), **new}
+    after = _with(package, files, made.rendered.executable)
+    return Added(
+        files,
+        above,
+        tuple(new),
+        made.rendered.executable,
+        made.rendered.notes,
+        by_hand,
+        _start(package, made),
+        after,
+        _with(package, new, made.rendered.executable),
+        (
+            *_remarks(after, made),
+            *repository.unread(target.place, made.rendered.unread, package.directory),
+        ),
+        has_header=bool(made.composed.context["header"]),
+    )
+
+
+def _with(package: Package, files: Mapping[str, bytes], executable: frozenset[str]) -> Package:
+    """Return the package with some files new or changed, in memory."""
+    overlay = Overlay(package.tree)
+    overlay.changed.update(files)
+    overlay.executable.update(executable)
+    return Package(overlay, directory=package.directory, workspace=package.known_workspace)
+
+
+def _refuse_ros_1(package: Package) -> None:
+    tools = package.manifest.depends("buildtool_depend")
+    is_ours = any(name.startswith("ament_") for name in tools)
+    if "catkin" in tools and not (is_ours or package.manifest.build_type):
+        raise InputError(
+            f"{package.directory}: a package of ROS 1, built by catkin; "
+            "what add writes is for ROS 2; nothing was changed"
+        )
+
+
+@contextmanager
+def _refusing(package: Package) -> Iterator[None]:
+    """Tell the user of a package that cannot be read, and that it stays as it is."""
+    try:
+        yield
+    except ParseError as error:
+        raise InputError(f"{told(package, error)}; nothing was changed") from error
+    except MissingFileError as error:
+        raise InputError(f"{package.directory}/{error} is missing") from error
+    except ViewError as error:
+        raise InputError(f"{package.directory}: {error}; nothing was changed") from error
+
+
+def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str, bytes]:
+    """Return the files of the piece; an extra that is there already is its owner's."""
+    is_there = (
+        made.template.role is Role.EXTRA and old is not None and regenerate.is_noted(old, made)
+    )
+    found: dict[str, bytes] = {}
+    for path, text in made.rendered.files.items():
+        there = _content(target, path)
+        data = text.encode()
+        if there is None:
+            found[path] = data
+        elif is_there or path in REPOSITORY_FILES or _timeless(there) == _timeless(data):
+            found[path] = there
+        else:
+            found[path] = data
+    return found
+
+
+def _content(target: Target, path: str) -> bytes | None:
+    """Return a file of the package, or at the top of its repository; ``None`` if there is none."""
+    if path.startswith(repository.MARK):
+        return repository.read(target.place, path.removeprefix(repository.MARK))
+    package = target.package
+    try:
+        if package.has(path):
+            return package.tree.read(path)
+    except OSError:
+        return None
+    # A tree leaves hidden directories out.
+    return repository.read(repository.place_of_files(package.root), path)
+
+
+def _others(
+    target: Target, old: Provenance | None, wanted: Wanted, made: Piece
+) -> tuple[dict[str, bytes], tuple[ByHand, ...]]:
+    """Return the other files that change: made anew where that is right, else edited."""
+    whole = regenerate.as_new(target, old, made) if old else None
+    if whole is not None:
+        return {path: text.encode() for path, text in whole.items()}, ()
+    edited = edit(target.package, made.addition)
+    files = dict(edited.files)
+    if old is not None:
+        files |= regenerate.noted(old, rendered_part.make(target, old, wanted, old.date))
+    return files, edited.by_hand
+
+
+def _start(package: Package, made: Piece) -> str | None:
+    """Return the command that starts what is new."""
+    if made.built is not None:
+        return f"ros2 run {package.name} {made.built}"
+    launch = next((path for path in made.rendered.files if path.startswith(LAUNCH)), None)
+    return f"ros2 launch {package.name} {launch.rpartition('/')[2]}" if launch else None
+
+
+def told(package: Package, error: ParseError) -> str:
+    """Return where a package cannot be parsed, and why."""
+    at = error.location
+    where = f"{package.directory}/{at.path}" if package.directory else at.path
+    return f"{where}:{at.line}:{at.column}: {error.message}"
+
+
+def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Return what the checker says of a package only now.
+
+    Lines may have moved, and a message may name what is new; and a line that is added to a file
+    follows the style of that file, so what is found of style there already is not new.
+    """
+    from scaffold.ament.codes import CODES
+    from scaffold.diagnostic import Severity
+
+    known = Counter(map(_said, before))
+    styles = {
+        (one.code, one.location.path)
+        for one in before
+        if one.code in CODES or one.severity is not Severity.ERROR
+    }
+    left: list[Diagnostic] = []
+    for diagnostic in after:
+        if known[_said(diagnostic)]:
+            known[_said(diagnostic)] -= 1
+        elif (diagnostic.code, diagnostic.location.path) not in styles:
+            left.append(diagnostic)
+    reworded = Counter((code, path) for code, path, _ in known.elements())
+    found: list[Diagnostic] = []
+    for diagnostic in left:
+        place = diagnostic.code, diagnostic.location.path
+        if reworded[place]:
+            reworded[place] -= 1
+        else:
+            found.append(diagnostic)
+    return found
+
+
+def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
+    return diagnostic.code, diagnostic.location.path, re.sub(r"\d+", "", diagnostic.message)
+
+
+def _remarks(package: Package, made: Piece) -> Iterator[str]:
+    context = made.composed.context
+    if not context["header"] and any(path.endswith(_WITH_HEADER) for path in made.rendered.files):
+        yield f"the new files have no licence header: {_why_no_header(package, made)}"
+    if made.others:
+        launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
+        yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
+    if made.addition.program is not None:
+        yield from neighbours.remarks(package, made.addition.program.path)
+
+
+def _why_no_header(package: Package, made: Piece) -> str:
+    if not made.composed.context["has_license"]:
+        declared = ", ".join(element.text for element in package.manifest.all("license"))
+        return f"the licence of {package.name} is {declared or 'none'!r}; --license gives them one"
+    return (
+        f"neither the maintainer nor the sources of {package.name} name a copyright holder; "
+        "--copyright-holder gives them one"
+    )
+
+
+_WITH_HEADER = (".py", ".cpp")
+"""Files that have the header of a licence."""
+
+
+def _refuse_taken(package: Package, made: Piece) -> None:
+    """Raise if ``ros2 run`` knows another program by the name of a new one."""
+    program = made.addition.program
+    if program is None:
+        return
+    sources = programs_of(package).sources
+    if program.name in sources and sources[program.name] != program.path:
+        where = f", {sources[program.name]}" if sources[program.name] else ""
+        raise ConflictError(
+            f"{package.name} has a program {program.name!r} already{where}: choose another name"
+        )
+
+
+def _timeless(data: bytes) -> str:
+    """Return a text without what another day would change."""
+    return re.sub(_OF_A_DAY, "", data.decode(errors="replace").replace("\r\n", "\n"))

@@ -1,0 +1,91 @@
+"""The nodes of an existing package, as the files of an extra see them."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from scaffold.generate.add.cpp_nodes import executables
+from scaffold.model.package import Package
+from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.model.programs.executables import nodes_of, programs_of
+from scaffold.model.python.values import Unknown
+
+CONFIG = "config"
+"""Where launch files of ours look for parameter files."""
+
+
+class FoundNodes(NamedTuple):
+    """What a package starts."""
+
+    nodes: Sequence[Mapping[str, Any]]
+    """Each with at least ``name``, ``executable``, ``parameter_file`` and ``has_parameters``."""
+    others: Sequence[str]
+    """Programs that may be nodes or not."""
+
+
+def find(
+    package: Package,
+    recorded: Sequence[Mapping[str, Any]],
+    compiled: Sequence[Mapping[str, Any]] = (),
+) -> FoundNodes:
+    """Return the nodes of a package.
+
+    Args:
+        package: The package as it is.
+        recorded: The nodes that it was made with; those that are gone are left out.
+        compiled: The C++ programs that it was made with; they are no nodes.
+    """
+    programs = programs_of(package)
+    kept = [
+        node for node in recorded if node["executable"] in programs.sources or not programs.complete
+    ]
+    known = {node["executable"] for node in recorded} | {one["name"] for one in compiled}
+    found: list[Mapping[str, Any]] = list(kept)
+    others: list[str] = []
+    in_cpp = executables(package)
+    for program, source in programs.sources.items():
+        is_library = package.build_type == "ament_cmake" and not source and program not in in_cpp
+        if program in known or is_library:
+            continue
+        names = {owner.node_name for owner in nodes_of(package, program)}
+        if names or in_cpp.get(program):
+            found.append(_node(package, program, names))
+        else:
+            others.append(program)
+    return FoundNodes(list(_renamed(found)), others)
+
+
+def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str, Any]:
+    """Return what a launch file needs to know of a program that makes nodes."""
+    name = next(iter(names)) if len(names) == 1 else None
+    file = _parameters(package, name) if isinstance(name, str) else ""
+    return {
+        "name": name if isinstance(name, str) else "",
+        "executable": program,
+        "parameter_file": file,
+        "has_parameters": bool(file),
+    }
+
+
+def _parameters(package: Package, name: str) -> str:
+    """Return the one parameter file that is for a node of this name; empty if there is none."""
+    fitting: list[str] = []
+    for path in parameter_paths(package):
+        read = parameter_file(package, path) if path.rpartition("/")[0] == CONFIG else None
+        if read is not None and any(section.node.strip("/") == name for section in read.sections):
+            fitting.append(path)
+    return fitting[0] if len(fitting) == 1 else ""
+
+
+def _renamed(nodes: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+    """Yield nodes; those of one name are called like their programs when they run together."""
+    count = Counter(node["name"] for node in nodes if node["name"])
+    for node in nodes:
+        if count[node["name"]] > 1:
+            name = re.sub(r"\W", "_", node["executable"].removesuffix(".py"))
+            yield {**node, "launch_name": name, "parameter_file": "", "has_parameters": False}
+        else:
+            yield node

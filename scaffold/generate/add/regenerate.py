@@ -1,0 +1,139 @@
+"""Adds to a package of ours: where nobody has changed it, it becomes what `new` makes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from scaffold.generate import parts
+from scaffold.generate.add.rendered_part import EXTRAS, Piece, Target
+from scaffold.generate.draft import Draft, draft
+from scaffold.generate.edit.edit import edit
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.repository import inside
+from scaffold.generate.templates.template import BASE, Role
+from scaffold.generate.update import provenance, update
+from scaffold.generate.update.provenance import NAME, Provenance
+from scaffold.model.package import Package
+
+OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
+"""The questions of the base that a part asks, too; a package has answered most of them."""
+
+
+def provenance_of(package: Package) -> Provenance | None:
+    """Return how a package was made, if it is one of ours.
+
+    Raises:
+        InputError: the record is damaged.
+    """
+    if not package.has(NAME):
+        return None
+    return provenance.parse(package.source(NAME).text, f"{package.directory}/{NAME}")
+
+
+def remembered(old: Provenance | None) -> dict[str, Given]:
+    """Return the answers that a package was made with, as far as parts ask for them."""
+    answers = old.answers if old is not None else {}
+    return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
+
+
+def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | None:
+    """Return the files that would differ if the package had been made with a piece.
+
+    ``None`` where one of them has been changed since, where the templates have, or where the piece
+    is there already: then the files have to be edited.
+
+    Args:
+        target: The package as it is.
+        old: How it was made.
+        piece: What is added.
+
+    Raises:
+        InputError: the piece does not fit what is there.
+    """
+    answers = _with_piece(old, piece)
+    if answers == old.answers:
+        return None
+    given = update.recorded(old, target.templates, target.package.directory, [])
+    before = _drafted(target, given, old)
+    new = {name: value for name, value in answers.items() if old.answers.get(name) != value}
+    given |= {name: Given(value, NAME) for name, value in new.items()}
+    following = _following(target, given, old)
+    for name in following:
+        del given[name]
+    after = _drafted(target, given, old)
+    answers |= {name: after.answers[name] for name in following}
+    files, wanted = before.rendered.files, after.rendered.files
+    changed = {path: text for path, text in wanted.items() if files.get(path) != text}
+    in_step = files == old.rendered and files.keys() <= wanted.keys()
+    package = target.package
+    if not in_step or not all(_is_as(package, path, files.get(path)) for path in changed):
+        return None
+    return {**changed, NAME: old.with_files(answers, wanted).text()}
+
+
+def is_noted(old: Provenance, piece: Piece) -> bool:
+    """Tell whether a package was made with a piece, or has got it since."""
+    return _with_piece(old, piece) == old.answers
+
+
+def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
+    """Return the record of a package whose files are edited, with the piece in it.
+
+    Args:
+        old: How the package was made.
+        piece: What is added, as of the day that the package was made.
+    """
+    answers = _with_piece(old, piece)
+    if answers == old.answers:
+        return {}
+    base = Package.of({**inside(old.rendered), NAME: ""})
+    files = {**piece.rendered.files, **old.rendered}
+    files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
+    return {NAME: old.with_files(answers, files).text().encode()}
+
+
+def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
+    """Return the recorded answers and those for a piece, unless it is there already."""
+    if piece.template.role is Role.EXTRA:
+        written = old.answers.get(EXTRAS, [])
+        extras = written if isinstance(written, list) else [written]
+        if piece.template.name in extras:
+            return dict(old.answers)
+        asked = {one.name for one in piece.template.questions}
+        own = {name: value for name, value in piece.composed.answers.items() if name in asked}
+        return {**old.answers, **own, EXTRAS: [*extras, piece.template.name]}
+    part = piece.composed.answers[parts.ADD][0]
+    name = piece.template.name_question
+    known = old.answers.get(parts.ADD, [])
+    if any((one[parts.KIND], one.get(name)) == (part[parts.KIND], part[name]) for one in known):
+        return dict(old.answers)
+    return {**old.answers, parts.ADD: [*known, part]}
+
+
+def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
+    return draft(target.roots, target.templates, given, target.user, old.date, target.place)
+
+
+def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> list[str]:
+    """Return the questions whose answer names the parts, and was the default: it follows them."""
+    questions = [
+        one
+        for one in target.templates[BASE].questions
+        if one.name in given and re.search(r"\bcontents\b", str(one.default))
+    ]
+    names = {question.name for question in questions}
+    if not names:
+        return []
+    asked = {name: one for name, one in given.items() if name not in names}
+    asked[parts.ADD] = Given(old.answers.get(parts.ADD, []), NAME)
+    answers = _drafted(target, asked, old).answers
+    return [name for name in names if answers[name] == old.answers[name]]
+
+
+def _is_as(package: Package, path: str, text: str | None) -> bool:
+    """Tell whether a file is as it was made; ``None``: it was not."""
+    if text is None or not package.has(path):
+        return text is None and not package.has(path)
+    return package.tree.read(path) == text.encode()

@@ -1,0 +1,91 @@
+"""What the user should know of a new node and the others of its package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.generate.connections import Clash, Use, clashes
+from scaffold.generate.questions.names import resolve
+from scaffold.model.package import Package
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Client,
+    Endpoint,
+    Publisher,
+    Service,
+    Subscription,
+)
+from scaffold.model.rclpy.file import rclpy_files
+
+_KINDS = (
+    ("topic", (Publisher, Subscription)),
+    ("service", (Service, Client)),
+    ("action", (ActionServer, ActionClient)),
+)
+
+
+def remarks(package: Package, path: str) -> Iterator[str]:
+    """Yield what may keep a node from working with others of its package, a line each.
+
+    Args:
+        package: The package with the node.
+        path: The file of the node.
+    """
+    yield from _namesakes(package, path)
+    yield from _misconnected(package, path)
+
+
+def _namesakes(package: Package, path: str) -> Iterator[str]:
+    files = list(rclpy_files(package))
+    names = {node.node_name for one in files if one.module.path == path for node in one.nodes}
+    for one in files:
+        for node in one.nodes if one.module.path != path else ():
+            if isinstance(node.node_name, str) and node.node_name in names:
+                at = node.node_name_location
+                yield (
+                    f"{at.path}:{at.line} makes a node with the name {node.node_name!r}, too: "
+                    "nodes that run together need names of their own"
+                )
+
+
+def _misconnected(package: Package, path: str) -> Iterator[str]:
+    uses = sorted(_uses(package), key=lambda use: _path(use) != path)  # the new node comes first
+    told: set[tuple[str, str]] = set()
+    for clash in clashes(uses):
+        name = clash.first.kind, clash.first.name
+        is_new = _path(clash.first) == path != _path(clash.other)
+        if is_new and name not in told and not _has_rule(clash):
+            told.add(name)
+            yield str(clash)
+
+
+def _path(use: Use) -> str | None:
+    return use.location and use.location.path
+
+
+def _has_rule(clash: Clash) -> bool:
+    """Tell whether the rule topic-type-differs says it."""
+    is_fixed = clash.first.is_fixed and clash.other.is_fixed
+    return is_fixed and clash.first.kind in {"topic", "service"}
+
+
+def _uses(package: Package) -> Iterator[Use]:
+    """Yield what the nodes of a package use, as far as names and types are known."""
+    for facts in rclpy_files(package):
+        for endpoint in facts.endpoints:
+            use = _use(endpoint)
+            if use is not None:
+                yield use
+
+
+def _use(endpoint: Endpoint) -> Use | None:
+    kind = next((kind for kind, classes in _KINDS if isinstance(endpoint, classes)), None)
+    owner = endpoint.owner
+    node = owner.node_name if owner is not None and owner.namespace is None else None
+    if kind is None or not isinstance(node, str) or not isinstance(endpoint.name, str):
+        return None
+    if endpoint.interface is None:
+        return None
+    name, is_fixed = resolve(endpoint.name, node), endpoint.from_parameter is None
+    return Use(kind, name, endpoint.interface, node, endpoint.location, is_fixed)

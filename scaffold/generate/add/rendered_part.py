@@ -1,0 +1,253 @@
+"""What is added to a package: a node, an interface, a program or an extra, rendered for it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import date
+from typing import Any, NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.generate import parts
+from scaffold.generate.add import existing_answers, existing_nodes
+from scaffold.generate.context import part_scopes
+from scaffold.generate.draft import Composed, compose
+from scaffold.generate.edit.addition import Addition, Compiled, Program
+from scaffold.generate.edit.edit import README
+from scaffold.generate.edit.layout import Layout, layout_of
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.repository import Place, place_of
+from scaffold.generate.templates import licenses
+from scaffold.generate.templates.render import Rendered
+from scaffold.generate.templates.template import BASE, ENDING, PARTS, Role, Template
+from scaffold.generate.update import update
+from scaffold.generate.update.provenance import Provenance
+from scaffold.model.package import Package
+
+_TESTS = "test"
+EXTRAS = "extras"
+"""The question for extras."""
+LAUNCH = "launch/"
+"""The directory of launch files."""
+_OF_README = "_readme.md"
+"""What an extra has to say in the README of its package."""
+
+_Scope = tuple[Template, Mapping[str, Any]]
+"""A template, and the variables of its files."""
+
+
+class Target(NamedTuple):
+    """A package that something is added to, and what that is made with."""
+
+    package: Package
+    roots: Sequence[str]
+    """The ``templates`` directories; a later one wins."""
+    templates: Mapping[str, Template]
+    """The templates in them."""
+    user: User
+    """Knows what neither the package nor the answers say."""
+
+    @property
+    def place(self) -> Place:
+        """Where the package is in its git repository."""
+        return place_of(self.package.root)
+
+
+class Wanted(NamedTuple):
+    """What the user wants in a package."""
+
+    template: Template
+    name: str | None
+    """Of a part; an extra has none."""
+    given: Mapping[str, Given]
+    """The answers; the package answers what it has decided."""
+
+
+class Piece(NamedTuple):
+    """What is added, in memory."""
+
+    template: Template
+    composed: Composed
+    rendered: Rendered
+    """Its own files, at the places where the package has such files."""
+    addition: Addition
+    """What the other files must know of."""
+    others: Sequence[str] = ()
+    """Programs that a launch file does not start: nobody can say whether they are nodes."""
+
+    @property
+    def built(self) -> str | None:
+        """What ``ros2 run`` calls the program that it is, if it is one."""
+        if self.addition.program is not None:
+            return self.addition.program.name
+        return self.addition.compiled.name if self.addition.compiled is not None else None
+
+
+def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | None = None) -> Piece:
+    """Render what is added to a package.
+
+    Args:
+        target: The package.
+        old: How it was made, if it is one of ours.
+        wanted: What is added.
+        day: The date for its files; today by default.
+
+    Raises:
+        InputError: it does not fit the package, or an answer is not acceptable.
+        ViewError: a file of the package is missing or cannot be parsed.
+    """
+    layout = layout_of(target.package)
+    if wanted.template.role is Role.EXTRA:
+        return _extra(target, old, wanted, day)
+    part = {parts.KIND: wanted.template.name, "name": wanted.name}
+    composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
+    composed.context["is_added"] = True
+    rendered = _rendered(target, composed, _only(composed, PARTS), layout)
+    return Piece(wanted.template, composed, rendered, _of_part(target, composed, layout, rendered))
+
+
+def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | None) -> Piece:
+    """Render an extra for the nodes that the package has, ours and those of others."""
+    package, template = target.package, wanted.template
+    known = update.recorded(old, target.templates, package.directory, []) if old else {}
+    chosen = {
+        parts.ADD: known.get(parts.ADD, Given([], "KIND")),
+        EXTRAS: Given([template.name], "KIND"),
+    }
+    composed = _compose(target, {**known, **wanted.given, **chosen}, day)
+    context = composed.context
+    found = existing_nodes.find(package, context["nodes"], context["programs"])
+    context["nodes"] = found.nodes
+    rendered = _rendered(target, composed, [(template, context)])
+    if not rendered.files:
+        raise InputError(
+            f"{template.name} has nothing to write for {package.directory or package.name}: it "
+            "installs no node that is known"
+        )
+    addition = _described(composed, template, context, package.name, rendered)
+    readme = f"{template.name}/{_OF_README}{ENDING}"
+    if composed.renderer.has(readme):
+        macro = f"{{% import '{readme}' as readme with context %}}{{{{ readme.run() }}}}"
+        text = composed.renderer.text(macro, context).strip("\n")
+        addition = addition._replace(readme=f"## Run\n\n{text}\n" if text else "")
+    is_launch = any(path.startswith(LAUNCH) for path in rendered.files)
+    return Piece(template, composed, rendered, addition, found.others if is_launch else ())
+
+
+def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:
+    """Settle all questions; what the package has decided needs no answer."""
+    package = target.package
+    decided = existing_answers.answers(package, licenses.names(target.roots))
+    known = {**decided, **given}
+    answers = {**decided, **given, "build_type": Given(package.build_type, "package.xml")}
+    fixed = {"package": package.name, "build_type": package.build_type}
+    messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
+    composed = compose(
+        target.roots,
+        target.templates,
+        answers,
+        target.user,
+        day=day,
+        fixed=fixed,
+        messages=messages,
+        place=target.place,
+    )
+    composed.context["has_license"] = "license" in known
+    if not composed.context["has_license"]:
+        # Better the header of the author's other files, or none, than one with another licence.
+        composed.context["header"] = existing_answers.own_header(package)
+    elif not {"copyright_holder", "maintainer_name"} & {*known}:
+        composed.context["header"] = ""  # whoever runs this need not be the holder
+    return composed
+
+
+def _only(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
+    """Return the templates of some roles with the variables of their files."""
+    scopes = part_scopes(composed.layers, composed.context)
+    return [(layer, scope) for layer, scope in scopes if layer.role in roles]
+
+
+def _rendered(
+    target: Target, composed: Composed, scopes: Sequence[_Scope], layout: Layout | None = None
+) -> Rendered:
+    """Render files alone; those of a part go where the package has such files."""
+    rendered = composed.renderer.package(scopes)
+    name = target.package.name
+    places = ((name, layout.programs), (_TESTS, layout.tests)) if layout else ()
+
+    def place(path: str) -> str:
+        for old, new in places:
+            if path.startswith(f"{old}/"):
+                return f"{new}/{path.removeprefix(f'{old}/')}"
+        return path
+
+    files = {place(path): _without_gap(text) for path, text in rendered.files.items()}
+    if layout and any(path.startswith(f"{layout.programs}/") for path in files):
+        files |= dict.fromkeys(layout.new_files, "")
+    return Rendered(
+        files,
+        frozenset(map(place, rendered.executable)),
+        {place(path): note for path, note in rendered.notes.items()},
+        rendered.unread,
+    )
+
+
+def _without_gap(text: str) -> str:
+    """Take out the blank lines that an empty header leaves at the start of a file."""
+    return re.sub(r"\A(#!.*\n)?\n+", r"\1", text) if re.match(r"(#!.*\n)?\n", text) else text
+
+
+def _described(
+    composed: Composed,
+    layer: Template,
+    scope: Mapping[str, Any],
+    package: str,
+    rendered: Rendered,
+) -> Addition:
+    """Return what the manifest of a template says of its dependencies and directories."""
+    renderer = composed.renderer
+    depends = {
+        kind: [name for text in texts for name in renderer.text(text, scope).split()]
+        for kind, texts in layer.depends.items()
+    }
+    installs = {renderer.text(text, scope) for text in layer.installs}
+    directories = sorted(installs - {""})
+    return Addition(
+        package,
+        depends=depends,
+        groups=[renderer.text(text, scope) for text in layer.groups],
+        directories=directories,
+        shared=[
+            path
+            for path in rendered.files
+            if any(path.startswith(f"{directory}/") for directory in directories)
+        ],
+    )
+
+
+def _of_part(target: Target, composed: Composed, layout: Layout, rendered: Rendered) -> Addition:
+    """Return what the other files must know of a node, an interface or a program."""
+    context, renderer = composed.context, composed.renderer
+    ((layer, scope),) = _only(composed, PARTS)
+    package = target.package.name
+    tests = [path for path in rendered.files if path.startswith(f"{layout.tests}/test_")]
+    changelog = renderer.file(f"{BASE}/CHANGELOG.rst{ENDING}", context)
+    addition = _described(composed, layer, scope, package, rendered)._replace(
+        test=tests[0] if tests else None,
+        readme=renderer.file(f"{BASE}/{README}{ENDING}", context),
+        changes=[line for line in changelog.splitlines() if line.startswith("* ")],
+    )
+    if layer.role is Role.NODE:
+        node = scope["node"]
+        path = next(iter(sorted(rendered.executable)))
+        module = f"{layout.module}.{node['module']}" if layout.module else node["module"]
+        return addition._replace(program=Program(path, node["executable"], module))
+    if layer.role is Role.INTERFACE:
+        depends = addition.depends.get("depend", ())
+        return addition._replace(
+            interfaces=[scope["interface"]["file"]],
+            interface_depends=[name for name in depends if name != package],
+        )
+    source = next(path for path in rendered.files if path.startswith("src/"))
+    return addition._replace(compiled=Compiled(str(scope["program"]["name"]), source))

@@ -1,0 +1,1 @@
+"""The questions of templates, and the answers to them."""

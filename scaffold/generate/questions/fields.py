@@ -1,0 +1,141 @@
+"""The fields of a new interface, as a user writes them: lines such as ``float64 distance``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.model.interfaces.reserved_names import reserved
+from scaffold.model.interfaces.syntax import parse
+from scaffold.model.interfaces.types import FieldType
+from scaffold.source import Source
+
+_OWN = "own_package"
+"""Stands for the package of the new interface, whose name does not matter here."""
+_MOST = 2**32 - 1
+"""Elements of an array or characters of a text that generated code can count everywhere."""
+_TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+"""Characters that turn the direction of text, of which compilers warn."""
+
+
+class Fields(NamedTuple):
+    """Some lines of a definition."""
+
+    lines: tuple[str, ...]
+    packages: tuple[str, ...]
+    """The packages of the types that are no primitive ones, in alphabetical order."""
+    own_types: tuple[str, ...]
+    """The types that the package itself must define."""
+
+
+def fields(given: object, where: str = ".") -> Fields:
+    """Return the fields and constants in some lines.
+
+    Args:
+        given: A line, or several: a type, a name, perhaps a default or ``=`` and a constant,
+            perhaps ``#`` and a comment.
+        where: A directory of the workspace with the messages that they use.
+
+    Raises:
+        InputError: ROS would refuse a line, or does not know a type.
+    """
+    lines = tuple(
+        line for text in _texts(given) for line in map(str.strip, text.splitlines()) if line
+    )
+    refuse_turning("".join(lines))
+    _refuse_garbled(lines)
+    definition = parse(Source("fields", "\n".join(lines)), _OWN, "msg", "Fields")
+    for problem in definition.problems:
+        line = lines[problem.location.line - 1]
+        several = re.search(r"\w\s*[,;]\s*[\w/]+ +\w", line.partition("#")[0])
+        hint = "; write each field as a text of its own" if several else ""
+        raise InputError(f"{line!r}: {problem.message}{hint}")
+    for section in definition.sections:
+        for field in section.fields:
+            if reserved(field.name):
+                line = lines[field.location.line - 1]
+                raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
+            _refuse_large(field.type, lines[field.location.line - 1])
+    types = [one.type.element for section in definition.sections for one in section.fields]
+    used = {one.full_name for one in types if not one.is_primitive}
+    own = {name for name in used if name.startswith(f"{_OWN}/")}
+    _refuse_unknown(used - own, where)
+    return Fields(
+        lines=lines,
+        packages=tuple(sorted({name.partition("/")[0] for name in used - own})),
+        own_types=tuple(sorted(name.rpartition("/")[2] for name in own)),
+    )
+
+
+def refuse_turning(text: str) -> None:
+    """Raise if a text can make code look like other code.
+
+    Raises:
+        InputError: with the character.
+    """
+    found = next((one for one in text if one in _TURNING), None)
+    if found is not None:
+        raise InputError(f"holds the character U+{ord(found):04X}, which turns text around")
+
+
+def _refuse_garbled(lines: Iterable[str]) -> None:
+    """Raise if the generated code would hold something else than the line, or no code at all."""
+    for line in lines:
+        code = line.partition("#")[0]
+        value = re.sub(r"^\s*\S+\s+\w+[\s=]*", "", code).strip()
+        if "\\" in line:
+            raise InputError(f"{line!r}: rosidl takes a backslash for the start of an escape")
+        if value[:1] in {'"', "'"} and (len(value) == 1 or value[-1] != value[0]):
+            raise InputError(f"{line!r}: the text is not closed; a '#' in it starts a comment")
+        if trigraph := re.search(r"\?\?[=/'()!<>-]", line):
+            raise InputError(f"{line!r}: {trigraph[0]!r} is another character in C")
+
+
+def _refuse_large(type_: FieldType, line: str) -> None:
+    for number in (type_.array_size, type_.text_bound):
+        if number is not None and number > _MOST:
+            raise InputError(f"{line!r}: {number} is too large; the limit is {_MOST}")
+
+
+def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
+    """Raise if the package does not define a type that it uses.
+
+    Args:
+        found: Fields of one of its interfaces.
+        messages: The names of its messages.
+
+    Raises:
+        InputError: with the messages of other packages that may be meant.
+    """
+    from scaffold.generate import payload
+
+    known = set(messages)
+    for name in found.own_types:
+        if name not in known:
+            others = [one for one in payload.definitions().matches(name) if "/msg/" in one]
+            hint = f"; did you mean {' or '.join(others[:3])}?" if others else ""
+            raise InputError(f"the package has no message {name!r} to use as a type{hint}")
+
+
+def _texts(given: object) -> list[str]:
+    texts: list[str] = []
+    for text in given if isinstance(given, list | tuple) else [given]:
+        if not isinstance(text, str):
+            raise InputError(f"{text!r} is not a field such as 'float64 distance'")
+        texts.append(text)
+    return texts
+
+
+def _refuse_unknown(used: Iterable[str], where: str) -> None:
+    """Raise if a package is known but has no such message; others may come from anywhere."""
+    from scaffold.generate import payload
+
+    if not used:
+        return
+    definitions = payload.definitions(where)
+    for full_name in sorted(used):
+        names = definitions.names(full_name.partition("/")[0], "msg")
+        if names is not None and full_name.rpartition("/")[2] not in names:
+            definitions.resolve(full_name)

@@ -1,0 +1,237 @@
+"""The names a user may give: packages, nodes, topics; and the names made of them."""
+
+from __future__ import annotations
+
+import builtins
+import errno
+import os
+import re
+import signal
+import sys
+from collections.abc import Sequence
+from keyword import iskeyword
+
+from scaffold.errors import InputError
+
+MAX_LENGTH = 48
+"""Characters of a package or a node: a CMake line with two of them has its limit at 140."""
+MAX_TOPIC = 64
+"""Characters of a topic in full: it stands on one line with its type."""
+
+_NAME = r"[a-z][a-z0-9]*(_[a-z0-9]+)*"
+_CMAKE_TARGETS = frozenset(
+    {"all", "clean", "depend", "edit_cache", "help", "install", "list_install_components"}
+    | {"package", "package_source", "preinstall", "rebuild_cache", "test", "uninstall"}
+)
+_DIRECTORIES = frozenset(
+    {"action", "build", "config", "doc", "docs", "include", "launch", "log", "msg", "resource"}
+    | {"scripts", "share", "src", "srv", "tests", "urdf", "worlds"}
+)
+_PYTHON_PACKAGES = frozenset(
+    {"argcomplete", "attr", "attrs", "bloom", "catkin_pkg", "colcon_core", "coverage"}
+    | {"cryptography", "distro", "distutils", "docutils", "em", "flake8", "hypothesis"}
+    | {"iniconfig", "lark", "lxml", "markupsafe", "matplotlib", "mccabe", "mypy", "netifaces"}
+    | {"numpy", "pip", "pkg_resources", "pluggy", "pycodestyle", "pycparser", "pydocstyle"}
+    | {"pyflakes", "pygments", "pyparsing", "pytest", "requests", "rosdep2", "rosdistro"}
+    | {"rospkg", "scipy", "setuptools", "six", "snowballstemmer", "urllib3", "vcstool"}
+    | {"wheel", "yaml"}
+)
+"""What colcon, the linters and the tools of ROS import, besides the modules that rosdep knows."""
+_TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
+_IMPORTED_CLASSES = frozenset(
+    {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
+    | {"FloatingPointRange", "Future", "GoalResponse", "GoalStatus", "IntegerRange"}
+    | {"LifecycleNode", "MultiThreadedExecutor", "Node", "ParameterDescriptor"}
+    | {"SetParametersResult", "SignalHandlerOptions", "TransitionCallbackReturn"}
+)
+"""What the modules of nodes import by name."""
+_C_MACROS = frozenset({"BUFSIZ", "EOF", "INFINITY", "NAN", "NULL"})
+"""Of the headers that generated code includes, besides the names of errors and signals."""
+_RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
+
+
+def package_name(text: str) -> str:
+    """Return the name of a new package.
+
+    Raises:
+        InputError: REP-144, Python or CMake forbids it, or a package has it already.
+    """
+    _check_form(text, "package name", at_least=2)
+    reason = _why_taken(text)
+    if reason:
+        raise InputError(f"the package name {text!r} {reason}; choose another one")
+    return text
+
+
+def _why_taken(name: str) -> str:
+    from scaffold.model.catalog import ROS_PACKAGES
+
+    prefix = _installed(name)
+    reasons = (
+        (iskeyword(name), "is a keyword of Python"),
+        (name in _CMAKE_TARGETS, "is the name of a CMake target"),
+        (name in _DIRECTORIES, "is the name of a directory in workspaces and packages"),
+        (name in sys.stdlib_module_names, "is a module of the Python standard library"),
+        (name in ROS_PACKAGES or name == "ros", "is an existing ROS package"),
+        (_is_python_package(name), "is an existing Python package"),
+        (prefix is not None, f"is a package installed in {prefix}"),
+    )
+    return next((reason for applies, reason in reasons if applies), "")
+
+
+def _is_python_package(name: str) -> bool:
+    from scaffold.model.catalog import keys_of_module
+
+    return name in _PYTHON_PACKAGES or bool(keys_of_module(name))
+
+
+def _installed(name: str) -> str | None:
+    """Return the prefix of the sourced ROS environment that has a package."""
+    for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        marker = os.path.join(prefix, "share", "ament_index", "resource_index", "packages", name)
+        if prefix and os.path.exists(marker):
+            return prefix
+    return None
+
+
+def node_name(text: str) -> str:
+    """Return the name of a new node: also of its module and its executable.
+
+    Raises:
+        InputError: ROS or Python forbids it, or the module would hide another one.
+    """
+    _check_form(text, "node name")
+    if iskeyword(text):
+        raise InputError(f"the node name {text!r} is a keyword of Python; choose another one")
+    if text in sys.stdlib_module_names or _is_python_package(text):
+        raise InputError(f"the node name {text!r} would hide the Python module {text}")
+    if text in _TEST_MODULES or text.startswith("test_") or text.endswith("_test"):
+        raise InputError(f"the node name {text!r} is the name of a test file for pytest")
+    return text
+
+
+def _check_form(text: str, what: str, *, at_least: int = 1) -> None:
+    if re.fullmatch(_NAME, text) and at_least <= len(text) <= MAX_LENGTH:
+        return
+    if not at_least <= len(text) <= MAX_LENGTH:
+        raise InputError(
+            f"the {what} {_shortened(text)!r} has {len(text)} character{'s' * (len(text) != 1)}; "
+            f"it must have {at_least} to {MAX_LENGTH}"
+        )
+    better = _repaired(text)
+    hint = f", such as {better}" if re.fullmatch(_NAME, better) and len(better) > 1 else ""
+    raise InputError(
+        f"the {what} {text!r} must be lower-case words of letters and digits joined by single "
+        f"underscores, starting with a letter{hint}"
+    )
+
+
+def _repaired(text: str) -> str:
+    """Return the name that somebody probably meant."""
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", text)
+    return re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_").lstrip("0123456789_")
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= MAX_LENGTH else text[: MAX_LENGTH - 3] + "..."
+
+
+def interface_name(text: str) -> str:
+    """Return the name of a new message, service or action.
+
+    Raises:
+        InputError: the parsers of ROS refuse it.
+    """
+    if re.fullmatch(r"[A-Z][A-Za-z0-9]*", text) and len(text) <= MAX_LENGTH:
+        if iskeyword(text):
+            raise InputError(f"the interface name {text!r} is a keyword of Python")
+        if text in _C_MACROS or hasattr(errno, text) or hasattr(signal.Signals, text):
+            raise InputError(f"the interface name {text!r} is a macro of C; choose another one")
+        return text
+    better = "".join(word[:1].upper() + word[1:] for word in re.findall("[A-Za-z0-9]+", text))
+    hint = f", such as {better}" if re.fullmatch(r"[A-Z][A-Za-z0-9]{0,47}", better) else ""
+    raise InputError(
+        f"the interface name {_shortened(text)!r} must be words of letters and digits, each with a "
+        f"capital and nothing between them, {MAX_LENGTH} characters at most{hint}"
+    )
+
+
+def header_name(interface: str) -> str:
+    """Return what the files are called that are generated of an interface."""
+    words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", interface)
+    return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", words).lower()
+
+
+def program_name(text: str) -> str:
+    """Return the name of a new C++ program: its source, its target and its executable.
+
+    Raises:
+        InputError: it is none, or CMake has a target of that name.
+    """
+    _check_form(text, "program name")
+    if text in _CMAKE_TARGETS:
+        raise InputError(f"the program name {text!r} is the name of a CMake target")
+    return text
+
+
+def topic(text: str, what: str = "topic") -> str:
+    """Return the name of a topic, service or action.
+
+    It is relative, absolute (``/x``) or private (``~/x``).
+
+    Raises:
+        InputError: ROS forbids it.
+    """
+    plain = text.removeprefix("~/") if text.startswith("~") else text.removeprefix("/")
+    if len(text) > MAX_TOPIC:
+        raise InputError(
+            f"the {what} {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
+        )
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", plain):
+        raise InputError(
+            f"the {what} {text!r} must be words of letters, digits and underscores joined by '/', "
+            "none starting with a digit, such as battery/voltage"
+        )
+    if "__" in text:
+        raise InputError(f"the {what} {text!r} has two underscores in a row, which ROS reserves")
+    if resolve(text, "node") in _RESERVED_TOPICS:
+        raise InputError(f"the {what} {text!r} is one that ROS itself uses")
+    return text
+
+
+def resolve(name: str, node: str) -> str:
+    """Return the absolute name of a topic in a node that runs without a namespace."""
+    if name.startswith("~/"):
+        return f"/{node}/{name[2:]}"
+    return name if name.startswith("/") else f"/{name}"
+
+
+def class_name(node: str, taken: Sequence[str] = ()) -> str:
+    """Return the name of a node's class, different from the classes it uses."""
+    name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
+    # `None` and `True` are keywords, `ValueError` a class that the module may mean.
+    is_taken = name in _IMPORTED_CLASSES or name in taken or hasattr(builtins, name)
+    return f"{name}Node" if is_taken else name
+
+
+def dependency(text: str) -> str:
+    """Return the name of a package or a rosdep key.
+
+    Raises:
+        InputError: it cannot be one.
+    """
+    if re.fullmatch(r"[A-Za-z][A-Za-z0-9_.+-]*", text) and len(text) <= MAX_LENGTH:
+        _refuse_index_name(text)
+        return text
+    raise InputError(
+        f"the dependency {_shortened(text)!r} is not the name of a package or a rosdep key"
+    )
+
+
+def _refuse_index_name(text: str) -> None:
+    """Raise if a name is that of Python's package index, and rosdep has another one."""
+    from scaffold.model.catalog import keys_of_module, module_of_key
+
+    module = module_of_key(text)
+    if module is not None:
+        raise InputError(f"rosdep has no rule for {text!r}; its key is {keys_of_module(module)[0]}")

@@ -1,0 +1,212 @@
+"""Quality of service as a user names it, and as rclpy writes it.
+
+A user gives a depth, the name of a profile, or settings with commas between them, such as
+``best_effort,depth=5``. A setting is ``key=value``, a value that only one key has, a depth, or a
+profile whose other settings hold.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+
+from scaffold.errors import InputError
+from scaffold.model.rclpy.qos import PROFILES
+from scaffold.record import NamedTuple
+
+MAX_DEPTH = 10_000
+MAX_SECONDS = 1_000_000.0
+CONSTANT = "QOS"
+"""The name in the module of a quality of service that is made of settings."""
+_MAX_COLUMNS = 99
+
+
+class Qos(NamedTuple):
+    """The quality of service of a publisher or a subscription."""
+
+    expression: str
+    """What ``create_publisher`` and ``create_subscription`` get."""
+    imports: tuple[str, ...]
+    says: str
+    """What it means, for people."""
+    constants: tuple[str, ...] = ()
+    """Lines of the module that the expression needs."""
+    hint: str = "here how many messages wait at most until they are dealt with"
+    """What the expression is, for learners."""
+
+    @property
+    def assignment(self) -> str:
+        """Lines of a module that give the name ``QOS`` to it."""
+        return "\n".join(self.constants) or f"{CONSTANT} = {self.expression}"
+
+
+_SAYS: Mapping[str, str] = {
+    "action_status_default": "reliable, late subscribers get the last message",
+    "parameter_events": "reliable, depth 1000",
+    "parameters": "reliable, depth 1000",
+    "sensor_data": "best effort, depth 5",
+    "services_default": "reliable, depth 10",
+    "system_default": "what the middleware has as its default",
+}
+"""The profiles of ``rclpy.qos`` that suit a topic."""
+
+_OWN: Mapping[str, Mapping[str, str]] = {
+    "latched": {"depth": "1", "reliability": "reliable", "durability": "transient_local"}
+}
+"""Profiles that rclpy has no name for."""
+
+NAMES = ("default", *_SAYS, *_OWN)
+
+_POLICIES: Mapping[str, tuple[str, ...]] = {
+    "history": ("keep_last", "keep_all"),
+    "reliability": ("reliable", "best_effort"),
+    "durability": ("volatile", "transient_local"),
+    "liveliness": ("automatic", "manual_by_topic"),
+}
+_DURATIONS = ("lifespan", "deadline", "liveliness_lease_duration")
+"""In seconds."""
+_KEYS = (
+    *("history", "depth", "reliability", "durability"),
+    *("lifespan", "deadline", "liveliness", "liveliness_lease_duration"),
+)
+"""The settings in the order of rclpy."""
+_KEY_OF: Mapping[str, str] = {value: key for key, values in _POLICIES.items() for value in values}
+
+
+def qos(text: str) -> Qos:
+    """Return a quality of service for a depth, the name of a profile, or settings.
+
+    Raises:
+        InputError: it is neither; the message names the nearest words.
+    """
+    name, *others = words = [word.strip() for word in text.split(",")]
+    if not others and name in _SAYS:
+        constant = f"qos_profile_{name}"
+        return Qos(
+            constant,
+            (f"from rclpy.qos import {constant}",),
+            f"{name}: {_SAYS[name]}",
+            hint="here a profile that rclpy has a name for",
+        )
+    base = _of_profile(name) if name in NAMES else {}
+    settings = {**base, **_settings(others if base else words, text)}
+    if settings.get("history") == "keep_all":
+        settings.pop("depth", None)
+    else:
+        settings.setdefault("depth", str(PROFILES["default"][0]))
+    if list(settings) == ["depth"]:
+        return Qos(settings["depth"], (), f"reliable, depth {settings['depth']}")
+    return _profile(settings, name if name in _OWN and not others else "")
+
+
+def _of_profile(name: str) -> Mapping[str, str]:
+    """Return the settings in which a profile differs from the default, and its depth."""
+    if name in _OWN:
+        return _OWN[name]
+    (depth, *values), (_, *defaults) = PROFILES[name], PROFILES["default"]
+    policies = zip(_POLICIES, values, defaults, strict=False)
+    differing = {key: value.lower() for key, value, default in policies if value != default}
+    return {"depth": str(depth), **differing}
+
+
+def _settings(words: Sequence[str], text: str) -> dict[str, str]:
+    """Return the settings that the words of a user are.
+
+    Raises:
+        InputError: one is none, or contradicts another one.
+    """
+    found: dict[str, str] = {}
+    for word in words:
+        key, equals, value = (part.strip() for part in word.partition("="))
+        if not equals:
+            key, value = _KEY_OF.get(word, "depth" if _is_depth(word) else ""), word
+        if key not in _KEYS:
+            raise InputError(_unknown(text, word))
+        if key in found:
+            raise InputError(
+                f"the quality of service {text!r} gives the {key} twice: {found[key]} and {value}"
+            )
+        found[key] = _checked(key, value, text)
+    return found
+
+
+def _checked(key: str, value: str, text: str) -> str:
+    """Return the value of a setting.
+
+    Raises:
+        InputError: the setting cannot have it.
+    """
+    if key in _POLICIES:
+        if value not in _POLICIES[key]:
+            wanted = " or ".join(_POLICIES[key])
+            raise InputError(f"the quality of service {text!r}: {key} is {wanted}, not {value!r}")
+        return value
+    if key in _DURATIONS:
+        if not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", value, re.ASCII) or not (
+            0.0 < float(value) <= MAX_SECONDS
+        ):
+            raise InputError(
+                f"the quality of service {text!r}: {key} is a number of seconds, not {value!r}"
+            )
+        return value
+    if not _is_depth(value):
+        raise InputError(
+            f"the quality of service {text!r}: the depth is 1 to {MAX_DEPTH}, not {value!r}"
+        )
+    return str(int(value))
+
+
+def _is_depth(word: str) -> bool:
+    return re.fullmatch(r"[0-9]{1,9}", word) is not None and 0 < int(word) <= MAX_DEPTH
+
+
+def _unknown(text: str, word: str) -> str:
+    known = [*NAMES, *_KEY_OF, *_KEYS]
+    wanted = word.partition("=")[0].strip().lower().replace("-", "_")
+    near = get_close_matches(wanted, known, n=2, cutoff=0.7)
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    if "," in text or "=" in text:
+        return (
+            f"the quality of service {text!r} has the unknown setting {word!r}; the settings are "
+            f"{', '.join(_KEYS)}{hint}"
+        )
+    return (
+        f"the quality of service {text!r} is neither a depth from 1 to {MAX_DEPTH} nor one of "
+        f"{', '.join(NAMES)} nor settings such as best_effort,depth=5{hint}"
+    )
+
+
+def _profile(settings: Mapping[str, str], name: str) -> Qos:
+    """Return the call that makes a profile of settings."""
+    classes, imports = {"QoSProfile"}, set()
+    arguments: list[str] = []
+    for key in [key for key in _KEYS if key in settings]:
+        value = settings[key]
+        if key in _POLICIES:
+            policy = f"{key.capitalize()}Policy"
+            classes.add(policy)
+            value = f"{policy}.{value.upper()}"
+        elif key in _DURATIONS:
+            imports.add("from rclpy.duration import Duration")
+            value = f"Duration(seconds={float(value)})"
+        arguments.append(f"{key}={value}")
+    imports.add(f"from rclpy.qos import {', '.join(sorted(classes))}")
+    whole = f"{CONSTANT} = QoSProfile({', '.join(arguments)})"
+    lines = [f"{CONSTANT} = QoSProfile(", *(f"    {one}," for one in arguments), ")"]
+    return Qos(
+        CONSTANT,
+        tuple(sorted(imports)),
+        (f"{name}: " if name else "") + _in_words(settings),
+        (whole,) if len(whole) <= _MAX_COLUMNS else tuple(lines),
+        hint="here a profile, made above",
+    )
+
+
+def _in_words(settings: Mapping[str, str]) -> str:
+    words = [settings.get("reliability", "reliable")]
+    words += [settings[key] for key in ("history", "durability") if key in settings]
+    words += [f"depth {settings['depth']}"] if "depth" in settings else []
+    words += [f"{key} {float(settings[key]):g} s" for key in _DURATIONS if key in settings]
+    words += [f"liveliness {settings['liveliness']}"] if "liveliness" in settings else []
+    return ", ".join(words).replace("_", " ")

@@ -1,0 +1,302 @@
+"""From flags, an answers file and the user's configuration to answers.
+
+The flags are the questions of all templates. Of the sources of an answer the first that has one
+wins: flag, answers file, configuration, the default of the template, the user (git, login).
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from scaffold.errors import InputError
+from scaffold.generate import yaml_file
+from scaffold.generate.questions.answer_types import TYPES
+from scaffold.generate.questions.qos import NAMES
+from scaffold.generate.templates.template import Question, Template
+from scaffold.record import NamedTuple
+
+SEVERAL = "several"
+"""The type of a question that takes several of its choices."""
+INTERFACES: Mapping[str, str] = {"message": "msg", "service": "srv", "action": "action"}
+"""The kinds of interfaces by the types of answers that name one."""
+
+
+class Given(NamedTuple):
+    """What the user wrote for one question, and where."""
+
+    value: Any
+    origin: str
+    """For messages: ``--rate``, or a file and a key."""
+
+
+def unique(templates: Iterable[Template]) -> list[Question]:
+    """Return the questions of templates, each name once, in their order."""
+    found: dict[str, Question] = {}
+    for template in templates:
+        for question in template.questions:
+            found.setdefault(question.name, question)
+    return list(found.values())
+
+
+def shared(templates: Iterable[Template]) -> list[Question]:
+    """Return the questions with what all their templates say: the help of a flag.
+
+    A default in which the templates differ is left out.
+    """
+    found: dict[str, Question] = {}
+    for template in templates:
+        for question in template.questions:
+            first = found.setdefault(question.name, question)
+            helps = dict.fromkeys([*first.help.split("; "), question.help])
+            default = first.default if first.default == question.default else None
+            found[question.name] = first._replace(help="; ".join(helps), default=default)
+    return list(found.values())
+
+
+def add_flags(
+    parser: argparse.ArgumentParser,
+    questions: Iterable[Question],
+    kinds: Mapping[str, Sequence[Question]] | None = None,
+) -> None:
+    """Define a flag, or a positional argument, for each question.
+
+    The words are judged later, with one line for an error instead of argparse's usage text.
+
+    Args:
+        parser: Of the verb.
+        questions: Each becomes a flag.
+        kinds: The kinds of parts and their questions, for tab completion.
+    """
+    for question in questions:
+        options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
+        if question.type in {"dependencies", "fields", SEVERAL}:
+            options |= {"nargs": "+", "action": "extend"}
+        elif question.type == "parts":
+            options |= {"action": "append"}
+        if question.is_positional:
+            parser.add_argument(question.name, nargs="?", **options)
+            continue
+        action = parser.add_argument(flag(question.name), **options)
+        is_part = question.type == "parts"
+        offer = _part_completer(kinds or {}) if is_part else completer(question)
+        action.completer = offer  # type: ignore[attr-defined]  # argcomplete
+
+
+def flag(name: str) -> str:
+    """Return how a question is written on the command line."""
+    return "--" + name.replace("_", "-")
+
+
+def _help(question: Question) -> str:
+    """Return the help, with the choices where the flag itself does not show them."""
+    details: list[str] = []
+    if question.choices and question.metavar:
+        details.append(", ".join(question.choices))
+    if question.default not in (None, []) and "{" not in str(question.default):
+        default = question.default
+        shown = ", ".join(map(str, default)) if isinstance(default, list) else default
+        details.append(f"default: {shown}")
+    text = f"{question.help} ({'; '.join(details)})" if details else question.help
+    return text.replace("%", "%%")
+
+
+def _metavar(question: Question) -> str:
+    if question.choices and not question.metavar:
+        return "{" + ",".join(question.choices) + "}"
+    return question.metavar or question.name.rpartition("_")[2].upper()
+
+
+def completer(question: Question) -> Callable[..., Sequence[str]] | None:
+    """Return what offers answers when the user presses tab; ``None``: names of files."""
+    if question.choices:
+        return lambda **_: question.choices
+    if question.type in INTERFACES:
+        return lambda prefix, **_: _interfaces(INTERFACES[question.type], prefix)
+    if question.type == "qos":
+        return lambda **_: NAMES
+    return None if question.type in {"text", "person", "address"} else lambda **_: ()
+
+
+def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Sequence[str]]:
+    """Return what offers kinds for ``--add``, and behind a name the questions and answers."""
+
+    def offer(prefix: str, **_: object) -> list[str]:
+        before, blank, word = prefix.rpartition(" ")
+        asked = kinds.get(before.partition(":")[0], ())
+        name, equals, answer = word.partition("=")
+        if not blank:
+            return [f"{kind}:" for kind in kinds]
+        if not equals:
+            return [f"{before} {one.name}=" for one in asked if not one.name.endswith("_name")]
+        offers = [completer(one) for one in asked if one.name == name]
+        values = [value for one in offers if one is not None for value in one(prefix=answer)]
+        return [f"{before} {name}={value}" for value in values]
+
+    return offer
+
+
+def _interfaces(kind: str, prefix: str) -> list[str]:
+    """Return the types of a kind in full, or by their names alone after a capital."""
+    from scaffold.generate import payload
+
+    names = [name for name in payload.definitions().all_names() if f"/{kind}/" in name]
+    if prefix[:1].isupper():
+        return sorted({name.rpartition("/")[2] for name in names})
+    return names
+
+
+def from_flags(options: argparse.Namespace, questions: Iterable[Question]) -> dict[str, Given]:
+    """Return the answers on the command line."""
+    return {
+        question.name: Given(
+            getattr(options, question.name),
+            question.name.upper() if question.is_positional else flag(question.name),
+        )
+        for question in questions
+        if getattr(options, question.name, None) is not None
+    }
+
+
+def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
+    """Return the answers in a YAML file.
+
+    Raises:
+        InputError: it cannot be read, is not a mapping, or answers what nobody asks.
+    """
+    entries = yaml_file.read(path)
+    if not isinstance(entries, dict):
+        raise InputError(f"{path}: must map questions to answers, such as 'rate: 2.0'")
+    return from_table({key: Given(value, path) for key, value in entries.items()}, questions)
+
+
+def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> dict[str, Given]:
+    """Return entries of a file by the names of questions, written with ``_`` or ``-``.
+
+    Raises:
+        InputError: a key is no question.
+    """
+    known = {question.name for question in questions}
+    found: dict[str, Given] = {}
+    for key, given in entries.items():
+        name = key.replace("-", "_")
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(sorted(known))}"
+            raise InputError(f"{given.origin}: {key!r} is no question of the templates; {hint}")
+        if given.value is not None:
+            found[name] = Given(given.value, f"{given.origin}: {key}")
+    return found
+
+
+class Answers(NamedTuple):
+    """The answers to some questions by name."""
+
+    values: dict[str, Any]
+    written: dict[str, Any]
+    """The same as a user would write them into an answers file."""
+
+
+def resolve(
+    questions: Sequence[Question],
+    given: Mapping[str, Given],
+    *,
+    known: Mapping[str, Any],
+    render: Callable[[str, Mapping[str, Any]], str],
+    fallback: Callable[[str], Given | None],
+    where: str = ".",
+) -> Answers:
+    """Return an answer for every question.
+
+    Defaults without Jinja come first, so that the others may use them.
+
+    Args:
+        questions: Of the chosen templates.
+        given: What the user said, the winning source of each.
+        known: What defaults may use besides the answers.
+        render: Renders a Jinja text over answers.
+        fallback: Finds an answer for a question without a default, by its name.
+        where: The directory that the package is in.
+
+    Raises:
+        InputError: an answer is missing or not acceptable; the message says whose it is.
+    """
+    answers = Answers({}, {})
+
+    def add(question: Question, found: Given) -> None:
+        value = answers.values[question.name] = parse(question, found, where)
+        is_list = question.type == SEVERAL and question.choices
+        answers.written[question.name] = [*value] if is_list else found.value
+
+    later = [one for one in questions if one.name not in given and _is_jinja(one.default)]
+    for question in questions:
+        if question not in later:
+            add(question, given.get(question.name) or _default(question, fallback))
+    for question in later:
+        text = render(question.default, {**known, **answers.values})
+        add(question, Given(text, "default"))
+    return answers
+
+
+def _is_jinja(default: object) -> bool:
+    return isinstance(default, str) and "{" in default
+
+
+def _default(question: Question, fallback: Callable[[str], Given | None]) -> Given:
+    if question.default is not None:
+        return Given(question.default, "default")
+    found = fallback(question.name)
+    if found is None:
+        raise InputError(f"{flag(question.name)} is needed: {question.help}")
+    return found
+
+
+def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: ANN401  as its type says
+    """Return the value of an answer, for a package in a directory.
+
+    Raises:
+        InputError: it is not acceptable.
+    """
+    if question.choices and question.type == SEVERAL:
+        chosen = (choose(word, question.choices, given.origin) for word in _words(given.value))
+        return tuple(dict.fromkeys(chosen))
+    if question.choices:
+        return choose(given.value, question.choices, given.origin)
+    try:
+        return TYPES[question.type](given.value, where)
+    except InputError as error:
+        raise InputError(f"{given.origin}: {error}") from error
+
+
+def _words(given: object) -> Iterator[object]:
+    """Yield the words of an answer: a list, a text with commas between them, or both."""
+    for word in given if isinstance(given, list | tuple) else [given]:
+        yield from map(str.strip, word.split(",")) if isinstance(word, str) else (word,)
+
+
+def choose(given: object, choices: Sequence[str], origin: str) -> str:
+    """Return the choice that was given.
+
+    Raises:
+        InputError: it is none; the nearest ones are named.
+    """
+    word = str(given)
+    if word not in choices:
+        raise InputError(f"{origin}: {_no_choice(word, choices)}")
+    return word
+
+
+def _no_choice(word: str, choices: Sequence[str]) -> str:
+    """Name the choices, and those that the word probably means."""
+    by_lower = {choice.lower(): choice for choice in choices}
+    near = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
+    if not near and len(word) >= _TELLING:
+        near = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
+    hint = f"; did you mean {' or '.join(by_lower[one] for one in near)}?" if near else ""
+    return f"{word!r} is not one of {', '.join(choices)}{hint}"
+
+
+_TELLING = 3
+"""Letters at the start of a word that tell what is meant: ``GPLv3``, ``BSD``."""

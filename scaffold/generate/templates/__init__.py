@@ -1,0 +1,1 @@
+"""Templates: what they declare, and how they are rendered."""

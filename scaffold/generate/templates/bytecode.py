@@ -1,0 +1,43 @@
+"""Compiled templates in the user's cache: compiling takes Jinja longer than all else in ``new``."""
+
+from __future__ import annotations
+
+import os
+
+from jinja2 import BytecodeCache
+from jinja2.bccache import Bucket
+
+from scaffold.files import cache
+
+_HEAD = b"scaffold-template-2\n"
+_MOST = 500
+"""Templates that are kept in one form."""
+
+
+class Compiled(BytecodeCache):
+    """Keeps the code of templates; Jinja itself sees whether it belongs to their text.
+
+    A cache that cannot be read or written is as good as none.
+
+    Args:
+        form: Templates of one text and different code need different forms.
+    """
+
+    def __init__(self, form: str) -> None:
+        self._kept = cache.directory(f"templates_{form}")
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Fill a bucket, if its code is there."""
+        data = (
+            cache.read_sealed(os.path.join(self._kept, bucket.key), _HEAD) if self._kept else None
+        )
+        if data is not None:
+            bucket.bytecode_from_string(data)
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep the code of a bucket."""
+        if self._kept is None:
+            return
+        place = os.path.join(self._kept, bucket.key)
+        if cache.write_sealed(place, _HEAD, bucket.bytecode_to_string()):
+            cache.trim(self._kept, _MOST)

@@ -1,0 +1,214 @@
+"""Jinja for one package: finds, compiles and renders files of templates and short texts."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import Any, Protocol
+
+from jinja2 import BaseLoader, StrictUndefined, TemplateError, TemplateNotFound
+from jinja2 import Environment as Jinja
+
+from scaffold.errors import ContentError
+from scaffold.files.disk import digest, read_file
+from scaffold.generate.templates import filters
+from scaffold.generate.templates.bytecode import Compiled
+from scaffold.generate.templates.sandbox import Sandbox, refuse_outside
+from scaffold.generate.templates.template import ENDING, MOST_BYTES
+
+_COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
+"""A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
+
+
+TOO_MUCH_MEMORY = "takes too much memory to render"
+
+
+class Engine(Protocol):
+    """What renders, in this process or in another one."""
+
+    def has(self, name: str) -> bool:
+        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+
+    def text(self, source: str, context: Mapping[str, Any]) -> str:
+        """Render a short text; raises ContentError."""
+
+    def file(self, name: str, context: Mapping[str, Any]) -> str:
+        """Render a file by its name; raises ContentError."""
+
+
+class LocalEngine:
+    """Renders in this process.
+
+    Args:
+        roots: The ``templates`` directories; a later one wins.
+        directories: The directories of the templates in them, by name.
+        is_tutorial: Whether the lines for learners are kept.
+    """
+
+    def __init__(
+        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+    ) -> None:
+        self._is_tutorial = is_tutorial
+        self._loader = _Loader(roots, directories, is_tutorial=is_tutorial)
+
+    @cached_property
+    def _plain(self) -> Jinja:
+        jinja = Sandbox(
+            loader=self._loader,
+            undefined=StrictUndefined,
+            keep_trailing_newline=True,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            autoescape=False,
+            bytecode_cache=Compiled("tutorial" if self._is_tutorial else "brief"),
+        )
+        jinja.filters |= {
+            "literal": filters.literal,
+            "markdown": filters.markdown,
+            "regex": re.escape,
+            "shell": shlex.quote,
+            "slashes": filters.slashes,
+            "xml": filters.xml,
+        }
+        jinja.globals["imports"] = self._imports
+        jinja.globals["has"] = self.has
+        return jinja
+
+    @cached_property
+    def _xml(self) -> Jinja:
+        """The same for XML files: whatever a template prints there is escaped."""
+        kept = Compiled("tutorial_xml" if self._is_tutorial else "brief_xml")
+        return self._plain.overlay(finalize=filters.xml, bytecode_cache=kept)
+
+    def has(self, name: str) -> bool:
+        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        try:
+            self._plain.get_template(name)
+        except TemplateNotFound:
+            return False
+        return True
+
+    def text(self, source: str, context: Mapping[str, Any]) -> str:
+        """Render a short text.
+
+        Raises:
+            ContentError: it cannot be rendered.
+        """
+        if "{" not in source:
+            return source
+        with _Told(source):
+            return self._plain.get_template(self._loader.named(source)).render(context)
+
+    def file(self, name: str, context: Mapping[str, Any]) -> str:
+        """Render a file by its name, such as ``package/README.md.jinja``.
+
+        Raises:
+            ContentError: it cannot be rendered.
+        """
+        jinja = self._xml if name.removesuffix(ENDING).endswith(".xml") else self._plain
+        with _Told(name):
+            return jinja.get_template(name).render(context)
+
+    def _imports(self, lines: Iterable[str]) -> str:
+        if not self._is_tutorial:
+            lines = [line.partition("  #")[0] for line in lines]
+        return filters.import_block(lines)
+
+
+class _Loader(BaseLoader):
+    """Finds ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners.
+
+    A short text is a template, too, so that it is kept compiled, as the files are.
+    """
+
+    def __init__(
+        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+    ) -> None:
+        self._roots = roots
+        self._templates = directories
+        self._is_tutorial = is_tutorial
+        self._texts: dict[str, str] = {}
+
+    def named(self, text: str) -> str:
+        """Return the name of the template that a short text is."""
+        name = f"text {digest(text.encode('utf-8', 'surrogatepass'))}"
+        self._texts[name] = text
+        return name
+
+    def get_source(
+        self, environment: Jinja, template: str
+    ) -> tuple[str, str, Callable[[], bool] | None]:
+        """Return the text of a template file."""
+        del environment
+        if template in self._texts:
+            return self._texts[template], template, None
+        first, _, rest = template.partition("/")
+        if ".." in template.split("/") or os.path.isabs(template):
+            raise TemplateNotFound(template)
+        for directory in self._directories(first):
+            path = os.path.join(directory, *rest.split("/"))
+            if os.path.exists(path) and not os.path.isfile(path):
+                raise ContentError(f"{path}: is no file")
+            try:
+                data = read_file(path, MOST_BYTES)
+                refuse_outside(path, [*self._roots, directory])
+                return self._with_comments(_decode(data)), path, None
+            except (FileNotFoundError, NotADirectoryError):
+                continue
+            except (OSError, UnicodeDecodeError) as error:
+                raise ContentError(f"{path}: {error}") from error
+        raise TemplateNotFound(template)
+
+    def _directories(self, first: str) -> list[str]:
+        if first in self._templates:
+            return [self._templates[first]]
+        return [os.path.join(root, first) for root in reversed(self._roots)]
+
+    def _with_comments(self, text: str) -> str:
+        if self._is_tutorial:
+            return _COMMENT.sub(_learner_line, text)
+        return re.sub(r"(?m)^[ \t]*(?:(?:#|//):(?: .*)?|<!--: .*)\n", "", text)
+
+
+def _learner_line(match: re.Match[str]) -> str:
+    indent, mark, words, xml_words = match.groups()
+    if xml_words is not None:
+        return f"{indent}<!-- {xml_words}"
+    return f"{indent}{mark} {words}" if words else ""
+
+
+class _Told:
+    """Turns what Jinja raises into one line for the author of the template."""
+
+    def __init__(self, where: str) -> None:
+        self._where = where
+
+    def __enter__(self) -> None:
+        """Do nothing."""
+
+    def __exit__(self, kind: type[BaseException] | None, error: object, trace: object) -> None:
+        if kind is None or not isinstance(error, Exception) or isinstance(error, ContentError):
+            return
+        line = getattr(error, "lineno", None) if isinstance(error, TemplateError) else None
+        at = f":{line}" if line else _line_of(error)
+        message = f"template {self._where!r}{at}: {type(error).__name__}: {error}"
+        if isinstance(error, MemoryError):
+            message = f"template {self._where!r}{at}: {TOO_MUCH_MEMORY}"
+        raise ContentError(" ".join(message.split())) from error
+
+
+def _line_of(error: Exception) -> str:
+    """Return where in a template's file something went wrong, if Jinja knows."""
+    import traceback
+
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if frame.filename.endswith(ENDING):
+            return f", {frame.filename}:{frame.lineno}"
+    return ""
+
+
+def _decode(data: bytes) -> str:
+    return data.decode().replace("\r\n", "\n").replace("\r", "\n")

@@ -1,0 +1,166 @@
+"""Templates that are not built in, rendered in a process of their own.
+
+Jinja's sandbox keeps a template from what it must not touch; it does not keep it from asking for
+gigabytes or from never coming to an end. The process has bounds on memory and time, and when it
+dies nothing has been written.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import select
+import signal
+import subprocess
+import sys
+import time
+import weakref
+from collections.abc import Mapping, Sequence
+from typing import IO, Any
+
+from scaffold.errors import ContentError
+
+MAX_MEMORY = 512 * 2**20
+"""Bytes of the process."""
+MAX_CPU = 5
+"""Seconds of processor time for one file."""
+MAX_WALL = 60.0
+"""Seconds for one file when the process waits for something, such as a disk or a pipe."""
+MAX_CHARACTERS = 5_000_000
+"""Of a rendered file."""
+
+_START = (
+    "import json, sys; sys.path[:] = json.loads(sys.argv.pop()); "
+    "from scaffold.generate.templates.foreign_worker import serve; serve()"
+)
+_SIZE = 8
+"""Bytes of the number in front of a message that says how long it is."""
+_MOST_SHOWN = 80
+"""Characters of a short text that a message shows."""
+
+
+class ForeignEngine:
+    """Renders in another process; see `scaffold.generate.templates.engine.LocalEngine`."""
+
+    def __init__(
+        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+    ) -> None:
+        self._directories = directories
+        self._setup = [os.path.abspath(root) for root in roots], directories, is_tutorial
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def has(self, name: str) -> bool:
+        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        return bool(self._ask("has", name))
+
+    def text(self, source: str, context: Mapping[str, Any]) -> str:
+        """Render a short text; raises ContentError."""
+        return str(self._ask("text", source, context))
+
+    def file(self, name: str, context: Mapping[str, Any]) -> str:
+        """Render a file by its name; raises ContentError."""
+        return str(self._ask("file", name, context))
+
+    def _ask(self, *request: object) -> object:
+        """Let the process do something, and return what it says.
+
+        Raises:
+            ContentError: the template is at fault, or the process has died of it.
+        """
+        process = self._process or self._started()
+        answer = _exchange(process, request)
+        if answer is None:
+            self._process = None
+            raise ContentError(f"{self._place(str(request[1]))}: {_cause_of_death(process)}")
+        entry = json.loads(answer)
+        if "error" in entry:
+            raise ContentError(entry["error"])
+        return entry["value"]
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        """Start the process, which ends with this engine."""
+        paths = [os.path.abspath(path) for path in sys.path if path]
+        process = subprocess.Popen(
+            [sys.executable, "-I", "-c", _START, json.dumps(paths)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+        )
+        weakref.finalize(self, _end, process)
+        self._process = process
+        if _exchange(process, (*self._setup, (MAX_MEMORY, MAX_CPU, MAX_CHARACTERS))) is None:
+            raise ContentError(f"no process for templates: {_cause_of_death(process)}")
+        return process
+
+    def _place(self, name: str) -> str:
+        """Return the file of a template, or of the manifest that a short text is from."""
+        first, _, rest = name.partition("/")
+        if first in self._directories and rest:
+            return os.path.join(self._directories[first], rest)
+        short = name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}..."
+        inner = name.removeprefix("{% if ").removesuffix(" %}true{% endif %}")
+        for directory in self._directories.values():
+            manifest = os.path.join(directory, "template.yaml")
+            with open(manifest, encoding="utf-8", errors="replace") as file:
+                if inner in file.read():
+                    return f"{manifest}: {short!r}"
+        return f"template {short!r}"
+
+
+def send(message: bytes, out: IO[bytes]) -> None:
+    """Write a message to a pipe."""
+    out.write(len(message).to_bytes(_SIZE, "big") + message)
+    out.flush()
+
+
+def receive(source: IO[bytes]) -> bytes | None:
+    """Return the next message of a pipe, ``None`` at its end."""
+    size = source.read(_SIZE)
+    return source.read(int.from_bytes(size, "big")) if len(size) == _SIZE else None
+
+
+def _exchange(process: subprocess.Popen[bytes], request: object) -> bytes | None:
+    """Send a request and return the answer; ``None``: the process is dead, now at the latest."""
+    if process.stdin is None or process.stdout is None:
+        return None
+    try:
+        send(pickle.dumps(request), process.stdin)
+    except BrokenPipeError:
+        return None
+    end = time.monotonic() + MAX_WALL
+    data = b""
+    while len(data) < _SIZE or len(data) < _SIZE + int.from_bytes(data[:_SIZE], "big"):
+        left = end - time.monotonic()
+        if left <= 0 or not select.select([process.stdout], [], [], left)[0]:
+            process.kill()
+            return None
+        part = os.read(process.stdout.fileno(), 1 << 20)
+        if not part:
+            return None
+        data += part
+    return data[_SIZE:]
+
+
+def _cause_of_death(process: subprocess.Popen[bytes]) -> str:
+    code = process.wait()
+    if code == -signal.SIGXCPU:
+        return f"takes more than {MAX_CPU} s of processor time to render"
+    if code == -signal.SIGKILL:
+        return f"takes more than {MAX_WALL:g} s, or more memory than there is, to render"
+    return f"ends the process that renders it ({_name_of(code)})"
+
+
+def _name_of(code: int) -> str:
+    return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.kill()
+    process.wait()
+    for pipe in (process.stdin, process.stdout):
+        if pipe is not None:
+            try:
+                pipe.close()
+            except BrokenPipeError:
+                continue  # of a request that it died of

@@ -1,0 +1,317 @@
+"""Templates: directories with a ``template.yaml`` and ``*.jinja`` files.
+
+A package is made of layers: the one for every package, one for its build type, those of its parts
+(nodes, interfaces, programs) and of its extras. The name of a directory is the name of the
+template; a later content directory replaces a template of the same name.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from enum import Enum
+from typing import Any
+
+from scaffold.errors import ContentError
+from scaffold.files import cache
+from scaffold.files.disk import digest, stamp
+from scaffold.generate import yaml_file
+from scaffold.generate.templates import licenses
+from scaffold.record import NamedTuple
+
+MANIFEST = "template.yaml"
+ENDING = ".jinja"
+MOST_BYTES = 1_000_000
+"""Of a file of a template, and of one with answers; ours have a few kB."""
+BASE = "package"
+"""The template that every package is made of."""
+DEPEND_KINDS = ("buildtool", "build", "build_export", "depend", "exec", "test")
+"""The kinds of dependencies that a template may declare; ``depend`` is the tag of that name."""
+
+
+class Role(Enum):
+    """What a template is for."""
+
+    PACKAGE = "package"
+    """Files that every package has."""
+    BUILD_TYPE = "build_type"
+    """Files of a build system; its name is the build type in package.xml."""
+    NODE = "node"
+    """A Python node and its test; rendered once for each node."""
+    INTERFACE = "interface"
+    """A definition of a message, a service or an action; rendered once for each."""
+    PROGRAM = "program"
+    """A C++ program; rendered once for each."""
+    EXTRA = "extra"
+    """Something that a package may have besides: a launch file, a CI workflow."""
+
+
+PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
+"""What a package has several of; the value of the role is the variable in its files."""
+
+
+class Question(NamedTuple):
+    """Something that a template wants to know."""
+
+    name: str
+    type: str
+    """One of `scaffold.generate.questions.answer_types.TYPES`."""
+    help: str
+    default: Any
+    """A value, or a Jinja text over the other answers; ``None`` when there is none."""
+    choices: tuple[str, ...]
+    is_positional: bool
+    metavar: str | None
+
+
+class Template(NamedTuple):
+    """A template as its manifest describes it."""
+
+    name: str
+    directory: str
+    role: Role
+    summary: str
+    questions: tuple[Question, ...]
+    executable_name: str
+    """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
+    parameter_file: str
+    """Of a node that brings one: its parameter file, a Jinja text over ``node``."""
+    definition: str
+    """Of an interface: the directory and the ending of its file, ``msg``, ``srv`` or ``action``."""
+    build_types: Sequence[str]
+    """The build types that it is for; all when empty."""
+    depends: Mapping[str, Sequence[str]]
+    """Dependencies by kind: Jinja texts of names with blanks between them."""
+    groups: Sequence[str]
+    """What the package is a member of, for package.xml."""
+    installs: Sequence[str]
+    """Directories that are installed to ``share/<package>``."""
+    include: Mapping[str, str]
+    """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
+    executable: Sequence[str]
+    """Path patterns of files with executable bits."""
+    repository: Sequence[str]
+    """Path patterns of files that are read at the top of a git repository, and nowhere else."""
+    notes: Mapping[str, str]
+    """What a file is for, by path pattern."""
+    examples: Mapping[str, Mapping[str, Any]]
+    """Answers by title: tests, and documentation."""
+
+    @property
+    def name_question(self) -> str:
+        """The question for the name of a part: ``node_name``, ``interface_name`` ..."""
+        return f"{self.role.value}_name"
+
+
+_KEYS: Mapping[str, type[Any]] = {
+    "summary": str,
+    "role": str,
+    "questions": dict,
+    "executable_name": str,
+    "parameter_file": str,
+    "definition": str,
+    "build_types": list,
+    "depends": dict,
+    "groups": list,
+    "installs": list,
+    "include": dict,
+    "executable": list,
+    "repository": list,
+    "notes": dict,
+    "examples": dict,
+}
+_INNER: Mapping[str, Any] = {
+    "build_types": str,
+    "depends": list,
+    "groups": str,
+    "installs": str,
+    "include": (str, bool),
+    "executable": str,
+    "notes": str,
+    "examples": dict,
+}
+"""The types of what is in a value."""
+_WORDS: Mapping[object, str] = {str: "text", dict: "mapping", list: "list", (str, bool): "text"}
+_DEFINITIONS = frozenset({"msg", "srv", "action"})
+_QUESTION_KEYS = frozenset({"type", "help", "default", "choices", "positional", "metavar"})
+
+
+def load(roots: Sequence[str]) -> dict[str, Template]:
+    """Return the templates of the content directories by name.
+
+    Raises:
+        ContentError: a manifest cannot be used, or two templates ask different questions under
+            one name.
+    """
+    directories: dict[str, str] = {}
+    for root in roots:
+        for name in sorted(os.listdir(root)):
+            if os.path.isfile(os.path.join(root, name, MANIFEST)):
+                directories[name] = os.path.join(root, name)
+    manifests = _manifests([directories[name] for name in sorted(directories)])
+    found = {
+        name: _load_one(name, directories[name], manifest)
+        for name, manifest in zip(sorted(directories), manifests, strict=True)
+    }
+    if found[BASE].role is not Role.PACKAGE if BASE in found else True:
+        raise ContentError(f"no template {BASE!r} with role: package in {', '.join(roots)}")
+    _refuse_ambiguous_questions(found)
+    known = licenses.names(roots)
+    return {name: _with_choices(template, found, known) for name, template in found.items()}
+
+
+def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
+    """Return the names of the templates of a role."""
+    return tuple(name for name, template in templates.items() if template.role is role)
+
+
+def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
+    """Return the manifests of templates, from the user's cache while no file has changed."""
+    paths = [os.path.join(directory, MANIFEST) for directory in directories]
+    stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
+    head = b"scaffold-manifests-2\n" + digest(os.fsencode(stamps)).encode()
+    kept = cache.directory("manifests")
+    place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
+    data = cache.read_sealed(place, head) if kept else None
+    if data is not None:
+        found: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
+        return found
+    made = [_manifest(path) for path in paths]
+    if kept and cache.write_sealed(place, head, marshal.dumps(made)):
+        cache.trim(kept, _MOST_KEPT)
+    return made
+
+
+_MOST_KEPT = 16
+"""Sets of content directories whose manifests are kept."""
+
+
+def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Template:
+    path = os.path.join(directory, MANIFEST)
+    try:
+        role = Role(manifest["role"])
+    except ValueError:
+        roles = ", ".join(one.value for one in Role)
+        raise ContentError(f"{path}: role must be one of {roles}") from None
+    for kind, depends in manifest.get("depends", {}).items():
+        if kind not in DEPEND_KINDS or not all(isinstance(text, str) for text in depends):
+            kinds = ", ".join(DEPEND_KINDS)
+            raise ContentError(f"{path}: depends must map {kinds} to lists of names")
+    asked = manifest.get("questions", {}).items()
+    found = Template(
+        name=name,
+        directory=directory,
+        role=role,
+        summary=manifest["summary"],
+        questions=tuple(_question(path, key, value) for key, value in asked),
+        executable_name=manifest.get("executable_name", "{{ node.name }}"),
+        parameter_file=manifest.get("parameter_file", ""),
+        definition=manifest.get("definition", ""),
+        build_types=manifest.get("build_types", []),
+        depends=manifest.get("depends", {}),
+        groups=manifest.get("groups", []),
+        installs=manifest.get("installs", []),
+        include=manifest.get("include", {}),
+        executable=manifest.get("executable", []),
+        repository=manifest.get("repository", []),
+        notes=manifest.get("notes", {}),
+        examples=manifest.get("examples", {}),
+    )
+    if (role is Role.INTERFACE) is not (found.definition in _DEFINITIONS):
+        raise ContentError(
+            f"{path}: interfaces, and no others, have definition: msg, srv or action"
+        )
+    if role in PARTS and found.name_question not in [one.name for one in found.questions]:
+        raise ContentError(f"{path}: the questions must have {found.name_question}")
+    return found
+
+
+def _manifest(path: str) -> dict[str, Any]:
+    """Return a manifest whose keys and the types of whose values are right."""
+    manifest = yaml_file.read(path, ContentError)
+    if not isinstance(manifest, dict):
+        raise ContentError(f"{path}: must be a mapping with the keys {', '.join(_KEYS)}")
+    for key, value in manifest.items():
+        if key not in _KEYS:
+            raise ContentError(f"{path}: unknown key {key!r}; the keys are {', '.join(_KEYS)}")
+        if not isinstance(value, _KEYS[key]):
+            raise ContentError(f"{path}: {key} must be a {_WORDS[_KEYS[key]]}")
+        _refuse_others(path, key, value)
+    for key in ("summary", "role"):
+        if key not in manifest:
+            raise ContentError(f"{path}: the key {key!r} is missing")
+    return manifest
+
+
+def _refuse_others(path: str, key: str, value: object) -> None:
+    """Raise if a list or a mapping holds something of another type than its key says."""
+    inside: Iterable[object] = value if isinstance(value, list) else ()
+    if isinstance(value, dict):
+        inside = value.values()
+    for inner in inside:
+        if not isinstance(inner, _INNER.get(key, object)):
+            whole, part = _WORDS[_KEYS[key]], _WORDS[_INNER[key]]
+            raise ContentError(f"{path}: {key} must be a {whole} of {part}s, and {inner!r} is none")
+
+
+def _question(path: str, name: str, entry: object) -> Question:
+    from scaffold.generate.questions.answer_types import TYPES
+
+    if not name.isidentifier() or not isinstance(entry, dict) or "help" not in entry:
+        raise ContentError(f"{path}: the question {name!r} must be a mapping with the key 'help'")
+    unknown = sorted(set(entry) - _QUESTION_KEYS)
+    if unknown:
+        keys = ", ".join(sorted(_QUESTION_KEYS))
+        raise ContentError(f"{path}: {name} has an unknown key {unknown[0]!r}; the keys are {keys}")
+    for key in ("help", "metavar"):
+        if not isinstance(entry.get(key, ""), str):
+            raise ContentError(f"{path}: {key} of {name} must be a text")
+    kind = entry.get("type", "text")
+    if not isinstance(kind, str) or kind not in TYPES:
+        raise ContentError(f"{path}: {name} has the unknown type {kind!r}; {', '.join(TYPES)}")
+    choices = entry.get("choices", [])
+    if not isinstance(choices, str | list):
+        raise ContentError(f"{path}: {name} must have a list of choices, or a role")
+    return Question(
+        name=name,
+        type=kind,
+        help=entry["help"],
+        default=entry.get("default"),
+        choices=(f"role:{choices}",) if isinstance(choices, str) else tuple(map(str, choices)),
+        is_positional=bool(entry.get("positional", False)),
+        metavar=entry.get("metavar"),
+    )
+
+
+def _with_choices(
+    template: Template, templates: Mapping[str, Template], known_licenses: tuple[str, ...]
+) -> Template:
+    """Replace ``choices: <role>`` by the templates of that role; a licence is one that is known."""
+    questions = []
+    for question in template.questions:
+        choices = question.choices
+        if choices and choices[0].startswith("role:"):
+            try:
+                choices = of_role(templates, Role(choices[0].removeprefix("role:")))
+            except ValueError:
+                path = os.path.join(template.directory, MANIFEST)
+                message = f"{path}: {question.name} must have a list of choices, or a role"
+                raise ContentError(message) from None
+        if question.type == "license":
+            choices = known_licenses
+        questions.append(question._replace(choices=choices))
+    return template._replace(questions=tuple(questions))
+
+
+def _refuse_ambiguous_questions(templates: Mapping[str, Template]) -> None:
+    """Two kinds of nodes may share a flag, but it means one type and looks the same."""
+    seen: dict[str, tuple[Question, str]] = {}
+    for template in templates.values():
+        for question in template.questions:
+            first, where = seen.setdefault(question.name, (question, template.directory))
+            if (first.type, first.is_positional) != (question.type, question.is_positional):
+                raise ContentError(
+                    f"{os.path.join(template.directory, MANIFEST)}: {question.name} has the type "
+                    f"{question.type}, but {first.type} in {os.path.join(where, MANIFEST)}"
+                )

@@ -1,0 +1,1 @@
+"""Keeps a package in step with its templates."""

@@ -1,0 +1,179 @@
+"""Brings what changed in the templates into a package that was made with older ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from scaffold.errors import InputError
+from scaffold.files.tree import Tree
+from scaffold.generate import draft
+from scaffold.generate.draft import Draft
+from scaffold.generate.parts import ADD, KIND
+from scaffold.generate.questions import questions
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.repository import MARK, NOWHERE, Place, is_below, place_of_files
+from scaffold.generate.repository import read as read_file
+from scaffold.generate.templates.template import Template
+from scaffold.generate.update.merge import MARKS, merge
+from scaffold.generate.update.provenance import NAME, Provenance, parse
+
+
+class Updated(NamedTuple):
+    """A package in step with the templates, in memory."""
+
+    files: Mapping[str, bytes]
+    """What is written: files that change, and the record."""
+    executable: frozenset[str]
+    conflicts: Mapping[str, int]
+    """How many places of a file the user has to decide, by path."""
+    remarks: tuple[str, ...]
+    """What the user should know, a line each."""
+
+    @property
+    def changed(self) -> list[str]:
+        """The files that change, besides the record."""
+        return [path for path in self.files if path != NAME]
+
+
+def update(
+    tree: Tree,
+    where: str,
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    user: User,
+    place: Place = NOWHERE,
+) -> Updated:
+    """Merge the difference between the recorded files and those of today into the user's.
+
+    Args:
+        tree: The package.
+        where: Its directory, for messages.
+        roots: The ``templates`` directories; a later one wins.
+        templates: The templates in them.
+        user: Knows what new questions may want.
+        place: The git repository that the package is in.
+
+    Raises:
+        InputError: the package has no record, a damaged one, or answers that the templates of
+            today do not accept.
+        ContentError: a template is broken.
+    """
+    provenance = read(tree, where)
+    remarks: list[str] = []
+    given = recorded(provenance, templates, where, remarks)
+    made = draft.draft(roots, templates, given, user, provenance.date, place)
+    present = _present(tree, where, place, {*provenance.rendered, *made.rendered.files})
+    _refuse_undecided(present, where, made)
+    files, conflicts = _merged(present, provenance, made, remarks)
+    if provenance.rendered != made.rendered.files:
+        files[NAME] = Provenance.of(made).text().encode()
+    executable = frozenset(path for path in made.rendered.executable if path in files)
+    return Updated(files, executable, conflicts, tuple(remarks))
+
+
+def read(tree: Tree, where: str) -> Provenance:
+    """Return the record of a package.
+
+    Raises:
+        InputError: there is none, or it is damaged.
+    """
+    path = f"{where}/{NAME}"
+    if NAME not in tree.files:
+        raise InputError(
+            f"{path} is missing: ros2-scaffold did not make this package, or before it kept records"
+        )
+    try:
+        return parse(tree.read(NAME).decode(), path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def recorded(
+    provenance: Provenance, templates: Mapping[str, Template], where: str, remarks: list[str]
+) -> dict[str, Given]:
+    """Return the recorded answers that the templates of today still ask for."""
+    origin = f"{where}/{NAME}"
+    known = {question.name for question in questions.unique(templates.values())}
+    given: dict[str, Given] = {}
+    for name, value in provenance.answers.items():
+        if name in known:
+            given[name] = Given(value, f"{origin}: {name}")
+        else:
+            remarks.append(f"the templates no longer ask for {name}")
+    parts = [
+        _known_part(part, templates, origin, remarks) for part in provenance.answers.get(ADD, ())
+    ]
+    given[ADD] = Given(parts, f"{origin}: {ADD}")
+    return given
+
+
+def _known_part(
+    part: Mapping[str, object], templates: Mapping[str, Template], origin: str, remarks: list[str]
+) -> dict[str, object]:
+    template = templates.get(str(part.get(KIND)))
+    if template is None:
+        raise InputError(
+            f"{origin}: made with the template {part.get(KIND)!r}, which is not known here; "
+            "--content names the directory with the templates of a team"
+        )
+    known = {KIND, *(question.name for question in template.questions)}
+    remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in known]
+    return {name: value for name, value in part.items() if name in known}
+
+
+def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict[str, bytes]:
+    """Return those of some files that are there, in the package or at the top of the repository."""
+    files = set(tree.files)
+    found: dict[str, bytes] = {}
+    for path in filter(is_below, paths):
+        content: bytes | None
+        if path in files:
+            content = tree.read(path)
+        elif path.startswith(MARK):
+            content = read_file(place, path.removeprefix(MARK))
+        else:  # a tree leaves hidden directories out
+            content = read_file(place_of_files(where), path)
+        if content is not None:
+            found[path] = content
+    return found
+
+
+def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> None:
+    """Raise if an earlier merge left something to decide: another one would garble it."""
+    for path in sorted(present.keys() & set(made.rendered.files)):
+        if all(mark.encode() in present[path] for mark in MARKS):
+            raise InputError(
+                f"{where}/{path}: has a conflict that an earlier update has marked; "
+                "decide it first; nothing was changed"
+            )
+
+
+def _merged(
+    present: Mapping[str, bytes], provenance: Provenance, made: Draft, remarks: list[str]
+) -> tuple[dict[str, bytes], dict[str, int]]:
+    files: dict[str, bytes] = {}
+    conflicts: dict[str, int] = {}
+    for path, text in made.rendered.files.items():
+        before, now = provenance.rendered.get(path), text.encode()
+        if before == text:
+            continue
+        if path not in present:
+            if before is None:
+                files[path] = now
+            else:
+                remarks.append(f"{path} changed in the templates; you have removed it")
+            continue
+        yours = present[path]
+        found = merge(yours, (before or "").encode(), now) if yours != now else None
+        if found is not None and found.content != yours:
+            files[path] = found.content
+            if found.conflicts:
+                conflicts[path] = found.conflicts
+    remarks += [
+        f"{path} is no longer in the templates; remove it if you do not need it"
+        for path in provenance.rendered
+        if path in present and path not in made.rendered.files
+    ]
+    return files, conflicts

@@ -1,0 +1,196 @@
+"""What the commands of ament_cmake in a CMakeLists.txt amount to."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.cmake.lists import CMakeLists, InstallItem
+    from scaffold.model.cmake.parser import Command
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+PACKAGE_COMMANDS = ("ament_package", "ament_auto_package", "autoware_package")
+"""Commands that make ament's files: the index entry, the environment hooks."""
+_MAKERS = (
+    *("configure_file", "file", "add_custom_command", "add_custom_target", "execute_process"),
+    *("externalproject_add", "fetchcontent_declare", "generate_parameter_library"),
+)
+"""Commands that may make files in the source directory."""
+
+
+class Program(NamedTuple):
+    """A file of the package that is installed with ``install(PROGRAMS ...)``."""
+
+    path: str
+    name: str
+    """What it is called when it is installed."""
+    destination: str | None
+    location: Location
+    command: Command
+
+
+def uses_ament(package: Package) -> bool:
+    """Tell whether a CMakeLists.txt is meant to be of an ament_cmake package."""
+    cmake = package.cmake
+    return any(found.name.startswith("ament_cmake") for found in cmake.found_packages) or bool(
+        cmake.find(*PACKAGE_COMMANDS)
+    )
+
+
+def has_unknown_commands(package: Package) -> bool:
+    """Tell whether commands of another package may do anything, such as call ament_package."""
+    cmake = package.cmake
+    own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
+    if cmake.find("include", "add_subdirectory"):
+        return True
+    return any(
+        command.name.endswith("_package") and command.name not in _SAFE and command.name not in own
+        for command in cmake.commands
+    )
+
+
+_SAFE = frozenset({"find_package", "ament_package", "ament_python_install_package"})
+
+
+def _definitions(cmake: CMakeLists) -> list[Command]:
+    return [command for command in cmake.find("macro", "function") if command.arguments]
+
+
+def is_only_imported(package: Package, path: str) -> bool:
+    """Tell whether an installed Python file only defines things: others import it."""
+    try:
+        module = package.module(path)
+    except ViewError:
+        return False
+    if module.has_main_guard or "main" in module.functions:
+        return False  # a main that nothing calls is meant to be started
+    if not module.functions and not module.classes:
+        return False
+    return all(_only_defines(statement) for statement in module.tree.body)
+
+
+def _only_defines(statement: ast.stmt) -> bool:
+    if isinstance(statement, ast.Expr):
+        return isinstance(statement.value, ast.Constant)
+    return isinstance(
+        statement,
+        ast.Import
+        | ast.ImportFrom
+        | ast.FunctionDef
+        | ast.AsyncFunctionDef
+        | ast.ClassDef
+        | ast.Assign
+        | ast.AnnAssign,
+    )
+
+
+def programs(package: Package) -> list[Program]:
+    """Return the files that are installed as programs, where it is known which."""
+    found: list[Program] = []
+    for install in package.cmake.installs:
+        if install.kind != "PROGRAMS":
+            continue
+        for item in install.items:
+            if item.path is None:
+                continue
+            name = install.rename or item.path.rpartition("/")[2]
+            found.append(
+                Program(item.path, name, install.destination, item.location, install.command)
+            )
+    return found
+
+
+def installs_directory(package: Package, directory: str) -> bool | None:
+    """Tell whether a directory, or one around it, is installed; ``None`` if nobody can say."""
+    unknown = False
+    for install in package.cmake.installs:
+        for item in install.items:
+            if item.path is None:
+                unknown = unknown or install.kind in {"DIRECTORY", "FILES"}
+            elif (_covers(item, directory) and install.kind == "DIRECTORY") or (
+                install.kind in {"FILES", "PROGRAMS"} and item.path.startswith(f"{directory}/")
+            ):
+                return True
+    return None if unknown or has_unknown_commands(package) else False
+
+
+def _covers(item: InstallItem, directory: str) -> bool:
+    path = item.path or ""
+    return path in {directory, "."} or directory.startswith(f"{path}/")
+
+
+def is_made_by_build(package: Package, path: str) -> bool:
+    """Tell whether the build itself may make a file in the source directory."""
+    name = path.rpartition("/")[2]
+    makers = package.cmake.find(*_MAKERS)
+    if any(name in argument.value for maker in makers for argument in maker.arguments):
+        return True
+    # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
+    named = package.cmake.find("set") if makers else ()
+    return any(f"/{path}/" in argument.value for one in named for argument in one.arguments)
+
+
+def runs_if_exists(command: Command) -> bool:
+    """Tell whether a command runs only where a file is: ``if(EXISTS ...)``."""
+    at = command
+    while at.parent is not None and at.branch is not None:
+        asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
+        if any("EXISTS" in one.values for one in asked):
+            return True
+        at = at.parent
+    return False
+
+
+def is_used_by_build(package: Package, path: str) -> bool:
+    """Tell whether a file is installed, alone or in a directory of programs, or handed on.
+
+    Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
+    says that it is left out. A package without programs has scripts as data that Python is given.
+    """
+    is_script = not programs(package) and not package.is_executable(path)
+    directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}
+    for install in package.cmake.installs:
+        is_for_programs = (install.destination or "").startswith("lib")
+        for item in install.items:
+            is_around = install.kind == "DIRECTORY" and item.path in directories
+            is_deep = path.count("/") > 1 and item.path == path.partition("/")[0]
+            is_data = is_around and (is_deep or is_script)
+            if item.path == path or (is_around and is_for_programs) or is_data:
+                return True
+    name = path.rpartition("/")[2].removesuffix(".py")
+    if any(f"{name}.py" in package.cmake.text(token) for token in package.cmake.comments):
+        return True
+    if _is_entry_point(package, path):
+        return True
+    others = [command for command in package.cmake.commands if command.name != "install"]
+    return any(name in one.value for command in others for one in command.arguments)
+
+
+def _is_entry_point(package: Package, path: str) -> bool:
+    """Tell whether the setup.cfg of a package of CMake starts a function of a file."""
+    entry = path.removesuffix(".py").replace("/", ".") + ":"
+    files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
+    return any(entry in _text(package, one) for one in files)
+
+
+def runs_with_python(package: Package, path: str) -> bool:
+    """Tell whether a file of CMake gives a script to the Python that CMake has found."""
+    name = path.rpartition("/")[2]
+    return any(
+        name in line and "python" in line.partition(name)[0].lower()
+        for file in package.files
+        if file.endswith((".cmake", ".cmake.in"))
+        for line in _text(package, file).splitlines()
+    )
+
+
+def _text(package: Package, path: str) -> str:
+    try:
+        return package.source(path).text
+    except ViewError:
+        return ""

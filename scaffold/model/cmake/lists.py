@@ -1,0 +1,440 @@
+"""CMakeLists.txt: its commands, what it finds, and what it installs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+
+from scaffold.model.cmake import parser as cmake_parser
+from scaffold.model.cmake.lexer import Token
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.variables import ROOT, Variables
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ParseError, Source
+
+__all__ = [
+    "Argument",
+    "CMakeLists",
+    "Command",
+    "FoundPackage",
+    "Install",
+    "InstallItem",
+    "Token",
+]
+
+FINDS_DEPENDENCIES = frozenset({"ament_auto_find_build_dependencies", "autoware_package"})
+"""Commands that find every build dependency of the manifest, or hide one that does."""
+
+LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_ament_auto_package")
+"""Commands that register the package: ``ament_package`` and what calls it."""
+
+_INSTALL_KINDS = ("PROGRAMS", "FILES", "DIRECTORY", "TARGETS", "SCRIPT", "CODE", "EXPORT")
+_INSTALL_KEYWORDS = frozenset(
+    """
+    DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT NAMELINK_COMPONENT RENAME OPTIONAL
+    EXCLUDE_FROM_ALL NAMELINK_ONLY NAMELINK_SKIP TYPE ARCHIVE LIBRARY RUNTIME OBJECTS FRAMEWORK
+    BUNDLE PRIVATE_HEADER PUBLIC_HEADER RESOURCE FILE_SET CXX_MODULES_BMI INCLUDES EXPORT
+    RUNTIME_DEPENDENCIES RUNTIME_DEPENDENCY_SET FILE_PERMISSIONS DIRECTORY_PERMISSIONS
+    USE_SOURCE_PERMISSIONS MESSAGE_NEVER FILES_MATCHING PATTERN REGEX EXCLUDE NAMESPACE
+    EXPORT_LINK_INTERFACE_LIBRARIES FILE ALL_COMPONENTS
+    """.split()  # noqa: SIM905  forty quoted names would hide them
+)
+_FOR_BUILDING = ("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE")
+_FOR_USERS = ("INCLUDES", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "FILE_SET")
+_ARTIFACTS = frozenset({*_FOR_BUILDING, *_FOR_USERS})
+_MOST_ITEMS = 20_000  # that are installed; lists and loops multiply
+_DEEPEST = 200  # blocks around a command; what is deeper counts as not guarded
+_PREFIX = "${CMAKE_INSTALL_PREFIX}/"
+_NO_BINDINGS: Mapping[str, str] = {}
+
+
+class FoundPackage(NamedTuple):
+    """A package that is looked for with ``find_package``."""
+
+    name: str
+    location: Location
+    """The place of the name."""
+    command: Command
+    required: bool
+    in_testing: bool
+    """Whether that happens only when tests are built."""
+
+
+class InstallItem(NamedTuple):
+    """Something that is installed."""
+
+    argument: Argument
+    value: str | None
+    """As written, with variables replaced; ``None`` when one of them is not known."""
+    path: str | None
+    """Relative to the root of the package; ``None`` for a target or when not known."""
+
+    @property
+    def location(self) -> Location:
+        """The place of the argument."""
+        return self.argument.location
+
+
+class Install(NamedTuple):
+    """A call of ``install``, or of a macro that installs directories; one for each loop turn."""
+
+    kind: str
+    """``PROGRAMS``, ``FILES``, ``DIRECTORY``, ``TARGETS`` …"""
+    items: list[InstallItem]
+    destination: str | None
+    """With variables replaced; ``None`` when there is none or a variable is not known."""
+    destination_argument: Argument | None
+    destinations: dict[str, str | None]
+    """Of TARGETS, by artifact: ``RUNTIME``, ``LIBRARY``, ``ARCHIVE``; ``""`` is for all."""
+    rename: str | None
+    patterns: list[str]
+    """The patterns of a DIRECTORY that select what is installed."""
+    excludes: list[str]
+    command: Command
+
+    @property
+    def location(self) -> Location:
+        """The place of the call."""
+        return self.command.location
+
+
+class CMakeLists:
+    """A CMakeLists.txt. It is read in full even when it has errors."""
+
+    def __init__(self, source: Source, parsed: cmake_parser.Parsed) -> None:
+        self.source = source
+        self.tokens = parsed.tokens
+        """All tokens; joined they are the file."""
+        self.commands = parsed.commands
+        self.errors = parsed.errors
+        """What CMake stops at, with a message each, in the order of the file."""
+
+    @classmethod
+    def parse(cls, source: Source) -> CMakeLists:
+        """Read a file; mistakes are collected in ``errors``."""
+        return cls(source, cmake_parser.parse(source))
+
+    def require(self) -> None:
+        """Insist on a file without mistakes.
+
+        Raises:
+            ParseError: the first mistake.
+        """
+        if self.errors:
+            raise ParseError(*self.errors[0])
+
+    # -- commands
+
+    def find(self, *names: str) -> list[Command]:
+        """Return the calls of some commands, by lower-case names, in the order of the file."""
+        if len(names) == 1:
+            return self._by_name.get(names[0], [])
+        found = [command for name in names for command in self._by_name.get(name, ())]
+        return sorted(found, key=lambda command: command.index)
+
+    @cached_property
+    def _by_name(self) -> Mapping[str, list[Command]]:
+        found: dict[str, list[Command]] = {}
+        for command in self.commands:
+            found.setdefault(command.name, []).append(command)
+        return found
+
+    @property
+    def comments(self) -> list[Token]:
+        """The comments, with the ``#``."""
+        return [token for token in self.tokens if token.kind in {"comment", "bracket_comment"}]
+
+    def text(self, token: Token) -> str:
+        """Return the text of a token."""
+        return self.source.text[token.start : token.end]
+
+    # -- values
+
+    @property
+    def project(self) -> Command | None:
+        """The first call of ``project``."""
+        found = self.find("project")
+        return found[0] if found else None
+
+    @cached_property
+    def project_name(self) -> str | None:
+        """What ``project`` names, with variables replaced."""
+        return self.expand("${PROJECT_NAME}")
+
+    @property
+    def project_name_location(self) -> Location | None:
+        """The place of the name in ``project``."""
+        project = self.project
+        return project.arguments[0].location if project and project.arguments else None
+
+    @cached_property
+    def _variables(self) -> Variables:
+        project = self.project
+        name = project.arguments[0].text if project and project.arguments else None
+        directory = self.source.path.rpartition("/")[0]
+        return Variables(self.commands, directory, name)
+
+    def expand(
+        self,
+        value: str | Argument,
+        at: Command | None = None,
+        bindings: Mapping[str, str] = _NO_BINDINGS,
+    ) -> str | None:
+        """Replace variables and escapes.
+
+        Args:
+            value: An argument, or text as it is written in the file, without quotes.
+            at: The command whose argument it is: variables have the values they have there.
+            bindings: Values of the variables of loops.
+
+        Returns:
+            The value; the root of the package is ``.``. ``None`` when anything is not known.
+        """
+        if isinstance(value, str):
+            found = self._variables.evaluate(value, at, bindings)
+        elif value.bracket:
+            found = value.text
+        else:
+            found = self._variables.evaluate(value.text, at, bindings)
+        return None if found is None else _shown(found)
+
+    def expand_list(
+        self,
+        arguments: Iterable[Argument],
+        at: Command | None = None,
+        bindings: Mapping[str, str] = _NO_BINDINGS,
+    ) -> list[str] | None:
+        """Replace variables in arguments and split lists; ``None`` when anything is not known."""
+        found: list[str] = []
+        for argument in arguments:
+            values = self._variables.argument(argument, at, bindings)
+            if values is None:
+                return None
+            found.extend(map(_shown, values))
+        return found
+
+    def path_of(self, value: str) -> str:
+        """Return the path, relative to the root of the package, of what ``expand`` returned."""
+        return self._path(value if value.startswith("/") else f"{self._directory}/{value}")
+
+    # -- testing
+
+    def guarded_by_testing(self, command: Command) -> bool:
+        """Tell whether a command only runs when tests are built: ``if(BUILD_TESTING)``."""
+        if any(left.index < command.index for left in self._leaves_without_testing):
+            return True
+        if command.depth > _DEEPEST:
+            return False
+        at = command
+        while at.parent is not None and at.branch is not None:
+            if at.parent.name == "if":
+                if at.branch.name == "else":
+                    if _asks_for_testing(at.parent) is False:
+                        return True
+                elif _asks_for_testing(at.branch):
+                    return True
+            at = at.parent
+        return False
+
+    def is_for_ros1(self, command: Command) -> bool:
+        """Tell whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
+        at = command if command.depth <= _DEEPEST else None
+        while at is not None and at.parent is not None and at.branch is not None:
+            if at.parent.name == "if":
+                asked = at.parent if at.branch.name == "else" else at.branch
+                if _asks_for_ros(asked) == ("2" if asked is not at.branch else "1"):
+                    return True
+            at = at.parent
+        return False
+
+    @cached_property
+    def _leaves_without_testing(self) -> list[Command]:
+        """The first ``return()`` in an ``if(NOT BUILD_TESTING)`` at the top."""
+        for command in self.find("return"):
+            branch = command.branch
+            at_top = command.depth == 1 and branch is not None and branch.name == "if"
+            if at_top and branch is not None and _asks_for_testing(branch) is False:
+                return [command]
+        return []
+
+    # -- packages
+
+    @cached_property
+    def found_packages(self) -> list[FoundPackage]:
+        """What ``find_package`` looks for, also in a loop over a known list."""
+        return list(self._found_packages())
+
+    @property
+    def finds_automatically(self) -> bool:
+        """Whether every build dependency of the manifest is found by one command."""
+        return any(self.find(name) for name in FINDS_DEPENDENCIES)
+
+    @property
+    def finds_tests_automatically(self) -> bool:
+        """Whether every test dependency of the manifest is found by one command."""
+        return bool(self.find("ament_auto_find_test_dependencies"))
+
+    def finds(self, name: str) -> bool:
+        """Tell whether a package is looked for by its name."""
+        return any(found.name == name for found in self.found_packages)
+
+    def _found_packages(self) -> Iterator[FoundPackage]:
+        for command in self.find("find_package"):
+            if not command.arguments or self.is_for_ros1(command):
+                continue
+            argument = command.arguments[0]
+            required = command.has("REQUIRED")
+            in_testing = self.guarded_by_testing(command)
+            seen: set[str] = set()
+            for bindings in self._variables.combinations(command) or ():
+                name = self.expand(argument, command, bindings)
+                if name and name not in seen:
+                    seen.add(name)
+                    yield FoundPackage(name, argument.location, command, required, in_testing)
+
+    # -- installation
+
+    @cached_property
+    def installs(self) -> list[Install]:
+        """What is installed, with ``install`` and with ``ament_auto_package`` and its like."""
+        found: list[Install] = []
+        items = 0
+        for command in self.find("install", *LAST_CALLS[1:]):
+            if self.is_for_ros1(command):
+                continue
+            # A loop over something unknown still tells what is written down.
+            for bindings in self._variables.combinations(command) or ({},):
+                if items > _MOST_ITEMS:
+                    return found
+                found.extend(self._installs_of(command, bindings))
+                items += len(found[-1].items) if found else 0
+        return found
+
+    def _installs_of(self, command: Command, bindings: Mapping[str, str]) -> Iterator[Install]:
+        if command.name != "install":
+            keyword = "INSTALL_TO_SHARE"
+            arguments = command.keyword(
+                keyword, {"INSTALL_TO_PATH", "USE_SCOPED_HEADER_INSTALL_DIR"}
+            )
+            if arguments:
+                name = self.project_name
+                share = None if name is None else f"share/{name}"
+                items = self._items(arguments, command, bindings, are_files=True)
+                yield Install("DIRECTORY", items, share, None, {}, None, [], [], command)
+            return
+        kind = next(iter(command.values), "")
+        if kind not in _INSTALL_KINDS:
+            return
+        sections = command.sections({kind, *_INSTALL_KEYWORDS})
+        destination = next(iter(sections.get("DESTINATION", ())), None)
+        rename = next(iter(sections.get("RENAME", ())), None)
+        patterns, excludes = self._patterns(command)
+        yield Install(
+            kind,
+            self._items(sections[kind], command, bindings, are_files=kind in _INSTALL_KINDS[:3]),
+            self._destination(destination, command, bindings),
+            destination,
+            self._destinations(command, bindings),
+            None if rename is None else self.expand(rename, command, bindings),
+            patterns,
+            excludes,
+            command,
+        )
+
+    def _items(
+        self,
+        arguments: Sequence[Argument],
+        command: Command,
+        bindings: Mapping[str, str],
+        *,
+        are_files: bool,
+    ) -> list[InstallItem]:
+        found: list[InstallItem] = []
+        for argument in arguments:
+            values = self._variables.argument(argument, command, bindings)
+            if values is None:
+                found.append(InstallItem(argument, None, None))
+                continue
+            for value in values:
+                full = value if value.startswith((ROOT, "/")) else f"{self._directory}/{value}"
+                path = self._path(full) if are_files else None
+                found.append(InstallItem(argument, _shown(value), path))
+        return found
+
+    def _destinations(self, command: Command, bindings: Mapping[str, str]) -> dict[str, str | None]:
+        """Return where each kind of artifact of a target goes."""
+        found: dict[str, str | None] = {}
+        artifact = ""
+        arguments = iter(command.arguments)
+        for argument in arguments:
+            value = argument.value
+            if value in _ARTIFACTS:
+                artifact = value
+            elif value == "DESTINATION":
+                where = next(arguments, None)
+                if where is not None:
+                    found[artifact] = self._destination(where, command, bindings)
+        return found
+
+    def _destination(
+        self, argument: Argument | None, command: Command, bindings: Mapping[str, str]
+    ) -> str | None:
+        """Return a destination relative to the prefix, which some people write in front."""
+        if argument is None:
+            return None
+        return self.expand(argument.text.removeprefix(_PREFIX), command, bindings)
+
+    def _patterns(self, command: Command) -> tuple[list[str], list[str]]:
+        """Return what the patterns of install(DIRECTORY) select and what they leave out."""
+        selected: list[str] = []
+        excluded: list[str] = []
+        values = command.values
+        for number, value in enumerate(values[:-1]):
+            if value not in {"PATTERN", "REGEX"}:
+                continue
+            behind = values[number + 2 : number + 3]
+            (excluded if behind == ["EXCLUDE"] else selected).append(values[number + 1])
+        return selected, excluded
+
+    @property
+    def _directory(self) -> str:
+        directory = self.source.path.rpartition("/")[0]
+        return f"{ROOT}/{directory}" if directory else ROOT
+
+    def _path(self, full: str) -> str:
+        """Return a path that begins with ``ROOT`` relative to it, without ``.`` and ``..``."""
+        parts: list[str] = []
+        for part in full.removeprefix(ROOT).split("/"):
+            if part == ".." and parts and parts[-1] != "..":
+                parts.pop()
+            elif part not in {"", "."}:
+                parts.append(part)
+        absolute = "/" if full.startswith("/") else ""
+        return absolute + "/".join(parts) or "."
+
+
+def _shown(value: str) -> str:
+    """Write paths below the root of the package the way people do."""
+    if ROOT not in value:
+        return value
+    return value.replace(f"{ROOT}/", "").replace(ROOT, ".") or "."
+
+
+def _asks_for_testing(condition: Command) -> bool | None:
+    """Tell whether a condition wants tests to be built, or not to be; else ``None``."""
+    values = condition.values
+    for number, value in enumerate(values):
+        if value in {"BUILD_TESTING", "${BUILD_TESTING}"}:
+            return values[number - 1] != "NOT" if number else True
+    return None
+
+
+def _asks_for_ros(condition: Command) -> str | None:
+    """Return the version of ROS that a condition asks for, if it asks for nothing else."""
+    match condition.values:
+        case [variable, "EQUAL" | "STREQUAL", version] if "ROS_VERSION" in variable:
+            return version
+        case ["catkin_FOUND"]:
+            return "1"
+        case _:
+            return None

@@ -1,0 +1,116 @@
+"""What ``rosidl_generate_interfaces`` in a CMakeLists.txt generates."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.cmake.lists import CMakeLists
+    from scaffold.model.cmake.parser import Argument, Command
+    from scaffold.model.package import Package
+
+GENERATE = "rosidl_generate_interfaces"
+_OPTIONS = frozenset({"ADD_LINTER_TESTS", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK"})
+_WITH_VALUES = frozenset({"DEPENDENCIES", "LIBRARY_NAME"})
+
+
+class Listed(NamedTuple):
+    """A file that is handed over."""
+
+    path: str
+    """Relative to the package."""
+    argument: Argument
+    """Where it is written: in the call, or in the ``set`` of the variable that holds it."""
+
+
+class Generation(NamedTuple):
+    """A call of ``rosidl_generate_interfaces``."""
+
+    command: Command
+    target: str | None
+    """The first argument, with variables replaced."""
+    files: list[Listed]
+    is_complete: bool
+    """Whether these are all files, and all are of this package."""
+    dependencies: list[str] | None
+    """``None`` when a variable is not known."""
+    options: frozenset[str]
+    """``SKIP_INSTALL`` ..., and the names of the arguments with values."""
+    for_tests: bool
+
+
+def generations(package: Package) -> list[Generation]:
+    """Return the calls in CMakeLists.txt; raises ViewError."""
+    return package.remember("generations", lambda: generations_of(package.cmake))
+
+
+def generations_of(cmake: CMakeLists) -> list[Generation]:
+    """Return the calls in a CMakeLists.txt."""
+    return [_generation(cmake, command) for command in cmake.find(GENERATE) if command.arguments]
+
+
+def may_generate_more(package: Package) -> bool:
+    """Tell whether other CMake files or commands may generate interfaces, too."""
+    return has_unknown_commands(package) or any(
+        "generate" in command.name and "interfaces" in command.name
+        for command in package.cmake.commands
+        if command.name != GENERATE
+    )
+
+
+def is_interface_package(package: Package) -> bool:
+    """Tell whether a package installs interfaces; raises ViewError."""
+    return any(
+        not one.for_tests and "SKIP_INSTALL" not in one.options for one in generations(package)
+    )
+
+
+def _generation(cmake: CMakeLists, command: Command) -> Generation:
+    files: list[Listed] = []
+    options: set[str] = set()
+    dependencies: list[str] = []
+    knows_dependencies = True
+    complete = True
+    collecting = ""
+    target, *arguments = command.arguments
+    for argument in arguments:
+        values = cmake.expand_list([argument], command)
+        for value in [None] if values is None else values:
+            if value in _OPTIONS or value in _WITH_VALUES:
+                options.add(str(value))
+                collecting = str(value) if value in _WITH_VALUES else ""
+            elif collecting == "DEPENDENCIES":
+                knows_dependencies = knows_dependencies and value is not None
+                # A quoted list falls apart where rosidl takes it.
+                dependencies += str(value).split(";")
+            elif collecting:
+                collecting = ""
+            elif value is None or ":" in value or value.startswith("/") or "$" in value:
+                complete = False
+            else:
+                written = _where_written(cmake, command, argument, value)
+                files.append(Listed(cmake.path_of(value), written))
+    return Generation(
+        command,
+        cmake.expand(target, command),
+        files,
+        complete,
+        dependencies if knows_dependencies else None,
+        frozenset(options),
+        cmake.guarded_by_testing(command),
+    )
+
+
+def _where_written(cmake: CMakeLists, command: Command, argument: Argument, value: str) -> Argument:
+    """Return the argument that spells a value: it may stand in the ``set`` of a variable."""
+    if "$" not in argument.raw:
+        return argument
+    for other in cmake.find("set", "list"):
+        if other.index < command.index:
+            for one in other.arguments[1:]:
+                if one.value == value:
+                    return one
+    return argument

@@ -1,0 +1,1 @@
+"""Which packages the paths of a user stand for."""

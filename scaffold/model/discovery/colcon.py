@@ -1,0 +1,105 @@
+"""Where colcon finds packages: below a directory, and in the workspace around one."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from scaffold.files.tree import BUILD_DIRECTORIES, MANIFEST
+
+if TYPE_CHECKING:
+    from scaffold.files.disk import Disk
+
+SOURCES = "src"
+"""The directory of a workspace with the packages."""
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+"""Files that hide a directory from colcon."""
+
+_RESULTS = ("install", "build")
+"""What colcon makes beside the sources."""
+
+
+def package_directories(
+    disk: Disk, top: str, *, ignored: bool = False, most: int | None = None
+) -> list[str]:
+    """Return the directories at and below one that hold a package.
+
+    What lies inside of a package is not searched. Of a package nothing but its manifest and the
+    markers are looked for, so that the answer stays the same when other files of it change.
+
+    Args:
+        disk: Notes what was looked at.
+        top: The directory; it is searched whether it is hidden from colcon or not.
+        ignored: Search hidden directories as well.
+        most: Directories to search at most; a larger tree is taken to hold none.
+    """
+    if disk.is_file(os.path.join(top, MANIFEST)):
+        return [top]
+    found: list[str] = []
+    pending = [top]
+    for parent in pending:
+        for name in disk.names(parent)[1]:
+            path = os.path.join(parent, name)
+            if name.startswith(".") or not (ignored or _is_visible(disk, path)):
+                continue
+            if disk.is_file(os.path.join(path, MANIFEST)):
+                found.append(path)
+            elif name not in BUILD_DIRECTORIES:
+                pending.append(path)
+        if most is not None and len(pending) + len(found) > most:
+            return []
+    return sorted(found)
+
+
+def _is_visible(disk: Disk, directory: str) -> bool:
+    return not any(disk.exists(os.path.join(directory, marker)) for marker in IGNORE_MARKERS)
+
+
+def package_around(disk: Disk, directory: str) -> str | None:
+    """Return the innermost package that a directory lies in, or is.
+
+    Args:
+        disk: Notes what was looked at.
+        directory: An absolute path.
+    """
+    for parent in _upwards(directory):
+        if disk.is_file(os.path.join(parent, MANIFEST)):
+            return parent
+    return None
+
+
+def sources_around(disk: Disk, directory: str) -> str | None:
+    """Return the directory with the sources of the workspace that a directory lies in, or is.
+
+    The one beside the results of colcon, else the innermost that is called ``src``.
+
+    Args:
+        disk: Notes what was looked at.
+        directory: An absolute path without links.
+    """
+    found = [one for one in _upwards(directory) if os.path.basename(one) == SOURCES]
+    for sources in found if len(found) > 1 else ():
+        top = os.path.dirname(sources)
+        if any(disk.is_directory(os.path.join(top, result)) for result in _RESULTS):
+            return sources
+    return found[0] if found else None
+
+
+def sources_at(disk: Disk, directory: str) -> str | None:
+    """Return the sources of the workspace that somebody in a directory works on.
+
+    Those below it, else those around it.
+
+    Args:
+        disk: Notes what was looked at.
+        directory: An absolute path without links.
+    """
+    below = os.path.join(directory, SOURCES)
+    return below if disk.is_directory(below) else sources_around(disk, directory)
+
+
+def _upwards(directory: str) -> list[str]:
+    found = [directory]
+    while found[-1] != os.path.dirname(found[-1]):
+        found.append(os.path.dirname(found[-1]))
+    return found

@@ -1,0 +1,122 @@
+"""Finding packages below the paths that a user gives, the way colcon does."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from scaffold.errors import InputError
+from scaffold.files.disk import Disk
+from scaffold.files.tree import MANIFEST, DiskTree
+from scaffold.model.discovery import colcon
+from scaffold.model.discovery.unchecked import Surroundings
+from scaffold.model.package import Package
+from scaffold.model.workspace.workspace import Workspace
+from scaffold.record import NamedTuple
+
+
+class Target(NamedTuple):
+    """A package to check; ``only`` limits what is reported to these files of it."""
+
+    package: Package
+    only: frozenset[str] | None = None
+
+
+class _LooseFiles(DiskTree):
+    """Python files that belong to no package."""
+
+    def __init__(self, directory: str, names: Sequence[str]) -> None:
+        super().__init__(directory)
+        self._names = names
+
+    @property
+    def files(self) -> Sequence[str]:
+        return self._names
+
+    @property
+    def directories(self) -> frozenset[str]:
+        return frozenset()
+
+
+def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
+    """Return the packages at or below the paths, and the packages of single files.
+
+    Args:
+        paths: Directories and files.
+        disk: Notes what was looked at, now and later, outside of the packages.
+
+    Raises:
+        InputError: a path does not exist, or holds no package.
+    """
+    disk = disk or Disk()
+    workspace = Workspace(disk=disk)
+    directories = [path for path in paths if disk.is_directory(path)]
+    whole: dict[str, Target] = {}
+    for path in directories:
+        for directory in _package_directories(disk, path):
+            package = Package.at(directory, workspace)
+            whole.setdefault(disk.real(directory), Target(package))
+    partial, loose = _sort_files(disk, [path for path in paths if path not in directories])
+    targets = list(whole.values())
+    for root, names in partial.items():
+        if disk.real(root) not in whole:
+            targets.append(Target(Package.at(root, workspace), frozenset(names)))
+    for directory, names in loose.items():
+        package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
+        targets.append(Target(package, frozenset(names)))
+    for target in targets:
+        workspace.add(target.package)
+    workspace.around = _surroundings(disk, workspace, directories)
+    return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _surroundings(disk: Disk, workspace: Workspace, given: Sequence[str]) -> Surroundings | None:
+    """Return the packages beside those given, unless the whole workspace was given."""
+    own = [disk.real(one.directory) for one in workspace if not isinstance(one.tree, _LooseFiles)]
+    covered = [os.path.join(disk.real(path), "") for path in given]
+    sources = dict.fromkeys(filter(None, (colcon.sources_around(disk, one) for one in own)))
+    open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
+    return Surroundings(open_, frozenset(own), workspace) if open_ else None
+
+
+def _sort_files(
+    disk: Disk, paths: Sequence[str]
+) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """Return the files of packages by package, and loose Python files by directory."""
+    partial: dict[str, set[str]] = {}
+    loose: dict[str, set[str]] = {}
+    for path in paths:
+        if not disk.exists(path):
+            raise InputError(f"{path}: no such file or directory")
+        if not disk.is_file(path):
+            raise InputError(f"{path}: neither a file nor a directory")
+        root = _package_of(disk, path)
+        if root is not None:
+            partial.setdefault(root, set()).add(_relative(path, root))
+        elif path.endswith(".py"):
+            directory, name = os.path.split(path)
+            loose.setdefault(directory or ".", set()).add(name)
+        else:
+            raise InputError(f"{path}: belongs to no package and is not a Python file")
+    return partial, loose
+
+
+def _package_directories(disk: Disk, path: str) -> list[str]:
+    found = colcon.package_directories(disk, path)
+    # If nothing else is there, these are meant; a rule says that colcon does not see them.
+    found = found or colcon.package_directories(disk, path, ignored=True)
+    if found:
+        return found
+    if disk.is_file(os.path.join(path, "setup.py")):
+        raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
+    raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")
+
+
+def _package_of(disk: Disk, path: str) -> str | None:
+    """Return the package that a file lies in, as the user would write it."""
+    found = colcon.package_around(disk, os.path.dirname(os.path.abspath(path)))
+    return os.path.relpath(found) if found and not os.path.isabs(path) else found
+
+
+def _relative(path: str, root: str) -> str:
+    return os.path.relpath(path, root).replace(os.sep, "/")

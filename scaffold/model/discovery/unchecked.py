@@ -1,0 +1,79 @@
+"""The packages beside those that are checked, in the same colcon workspace.
+
+Who gives one package, such as a hook does, still has the others around it: what it takes from them
+is judged as if all had been given. They are looked for only when a name is not known otherwise,
+by their manifests alone; more of one is read only when a rule needs it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.files.tree import MANIFEST
+from scaffold.model.discovery.colcon import package_directories
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.workspace.workspace import Workspace
+
+MOST_DIRECTORIES = 2000
+"""A larger workspace is not searched: that would take longer than the check of a package."""
+_NAME = rb"<name>\s*([A-Za-z][\w-]*)\s*</name>"
+
+
+class Surroundings:
+    """The packages below some directories, except for those that are checked.
+
+    Args:
+        sources: The directories.
+        own: The directories of the packages that are checked, without links.
+        workspace: What the packages belong to; all that is read of them is noted there.
+    """
+
+    def __init__(self, sources: Sequence[str], own: Collection[str], workspace: Workspace) -> None:
+        self._sources = sources
+        self._own = own
+        self._workspace = workspace
+        self._packages: dict[str, Package] = {}
+
+    @cached_property
+    def directories(self) -> Mapping[str, str]:
+        """Where the packages are, by name; none if there are too many directories."""
+        found: dict[str, str] = {}
+        for top in self._sources:
+            for directory in package_directories(self._workspace.disk, top, most=MOST_DIRECTORIES):
+                name = None if directory in self._own else self._name_of(directory)
+                if name is not None:
+                    found.setdefault(name, directory)
+        return found
+
+    def _name_of(self, directory: str) -> str | None:
+        from scaffold.files.limits import most_bytes
+
+        try:
+            path = os.path.join(directory, MANIFEST)
+            data = self._workspace.disk.read(path, most_bytes(MANIFEST))
+        except OSError:
+            return None
+        found = re.search(_NAME, data)
+        return found[1].decode() if found else None
+
+    def get(self, name: str) -> Package | None:
+        """Return the package of a name, if it is there."""
+        if name not in self._packages and name in self.directories:
+            from scaffold.model.package import Package
+
+            self._packages[name] = Package.at(
+                self.directories[name], self._workspace, self._workspace.disk
+            )
+        return self._packages.get(name)
+
+    def __iter__(self) -> Iterator[Package]:
+        for name in self.directories:
+            found = self.get(name)
+            if found is not None:
+                yield found

@@ -1,0 +1,137 @@
+"""The Python modules of a package itself, by the names that it imports them by."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from scaffold.model.catalog import ROS_PACKAGES
+from scaffold.model.cmake.ament import programs
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import Import, PythonModule
+
+
+def absolute_name(module: PythonModule, one: Import) -> str:
+    """Return the full name of what an import means, without the dots in front."""
+    if not one.level:
+        return one.module
+    directory = module.path.split("/")[: -one.level]
+    return ".".join([*directory, *([one.module] if one.module else [])])
+
+
+def names_imported(package: Package) -> set[str]:
+    """Return the full names of what modules of the package import: modules and what is in them."""
+    found: set[str] = set()
+    for module in package.modules():
+        for one in module.imports:
+            base = absolute_name(module, one)
+            found |= {base, *(f"{base}.{name.name}" for name in one.names)}
+    return found
+
+
+def paths_imported_by(package: Package, files: set[str]) -> list[str]:
+    """Return where modules lie that some files import, relative to a directory on Python's path."""
+    modules = [package.module(path) for path in sorted(files & set(package.python_files))]
+    names = {one.module for module in modules for one in module.imports}
+    return [f"{name.replace('.', '/')}.py" for name in sorted(names) if name]
+
+
+def own_roots(package: Package) -> set[str]:
+    """Return the names by which Python imports the packages in the root of a package."""
+    roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
+    others = {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
+    return {root for root in roots - others if root.isidentifier()}
+
+
+def file_of(package: Package, name: str) -> str:
+    """Return the file of a module; empty if the package has none."""
+    base = name.replace(".", "/")
+    return next((one for one in (f"{base}.py", f"{base}/__init__.py") if package.has(one)), "")
+
+
+def may_be_made(package: Package, name: str) -> bool:
+    """Tell whether a module may come from elsewhere: compiled, generated, a namespace."""
+    base = name.replace(".", "/")
+    if package.has_directory(base) or package.glob(f"{base}.*"):
+        return True
+    cmake = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
+    last = name.rpartition(".")[2]
+    if last in cmake or "pybind11" in cmake:
+        return True
+    return any(
+        last in package.source(path).text
+        for path in ("setup.py", ".gitignore")
+        if package.has(path)
+    )
+
+
+def modules_of(package: Package, root: str) -> list[str]:
+    """Return the names of the modules in a directory and below it."""
+    return [
+        path.removesuffix(".py").replace("/", ".")
+        for path in package.python_files
+        if path.startswith(f"{root}/") and path.endswith(".py")
+    ]
+
+
+def meant_module(package: Package, module: PythonModule, name: str) -> str:
+    """Return the module of the package that a name means which is not on Python's path."""
+    own = module.path.partition("/")[0]
+    if module.path.count("/") != 1 or not package.has(f"{own}/__init__.py") or module.in_tests:
+        return ""
+    root, _, rest = name.partition(".")
+    if root in ROS_PACKAGES or root in sys.stdlib_module_names:
+        return ""
+    if rest.startswith(f"{own}.") and not package.has_directory(root) and file_of(package, rest):
+        return rest if root == "src" else ""
+    if package.build_type == "ament_python":
+        return f"{own}.{name}" if _lacks_package(package, module, own, name) else ""
+    installed = {one.path: one.destination for one in programs(package)}
+    path = file_of(package, f"{own}.{name}")
+    if module.path in installed and path and path not in installed:
+        others = [one for one in package.cmake.installs if one.kind == "FILES"]
+        mended = "sys.path" in module.source.text or bool(others)
+        return "" if mended else f"{own}.{name}"
+    return ""
+
+
+def _lacks_package(package: Package, module: PythonModule, own: str, name: str) -> bool:
+    """Tell whether a module that an entry point starts imports without its package's name."""
+    root = name.partition(".")[0]
+    setup = package.setup_py
+    started = {one.module for one in setup.console_scripts}
+    if module.path.removesuffix(".py").replace("/", ".") not in started:
+        return False
+    if package.has_directory(root) or package.has(f"{root}.py"):
+        return False
+    mended = "sys.path" in module.source.text or "-packages" in setup.module.source.text
+    return not mended and bool(file_of(package, f"{own}.{name}"))
+
+
+def shows_itself(package: Package, module: PythonModule) -> bool:
+    """Tell a module of a CMake package that, when it is started, only shows what it can do.
+
+    It lies in a Python package, and has neither a ``main`` nor a node that is spun: others import
+    it.
+    """
+    directory = module.path.rpartition("/")[0]
+    return (
+        bool(package.cmake.find("ament_python_install_package"))
+        and package.has(f"{directory}/__init__.py")
+        and "main" not in module.functions
+        and "spin" not in module.source.text
+    )
+
+
+def is_started(package: Package, module: PythonModule) -> bool:
+    """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
+    return (
+        module.is_script
+        and module.has_main_guard
+        and "rclpy" in module.imports_by_root
+        and not module.in_tests
+        and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
+        and not shows_itself(package, module)
+    )

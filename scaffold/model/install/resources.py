@@ -1,0 +1,137 @@
+"""Which files of a package its Python modules read from beside themselves."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.values import UNKNOWN, PathValue
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import PythonModule
+    from scaffold.source import Location
+
+ROOT = "/<source>/"
+"""In front of paths that are relative to the root of the package."""
+_DEEPEST = 50
+"""Directories above a file of a package; a longer path is not written by hand."""
+_MENTIONS = ("__file__", "resources", "get_data", "pkg_resources")
+_SAME = frozenset({"resolve", "absolute", "expanduser"})
+_READERS = frozenset(
+    {"importlib.resources.open_text", "importlib.resources.read_text", "pkgutil.get_data"}
+    | {"importlib.resources.open_binary", "importlib.resources.read_binary"}
+    | {"importlib.resources.path", "importlib_resources.path", "pkg_resources.resource_string"}
+    | {"pkg_resources.resource_filename", "pkg_resources.resource_stream"}
+)
+
+
+class OwnFile(NamedTuple):
+    """A file that a module reads from beside itself."""
+
+    path: str
+    """Relative to the root of the package."""
+    location: Location
+
+
+class _FileEvaluator(Evaluator):
+    """Knows where ``__file__`` is."""
+
+    def evaluate(self, node: ast.expr | None) -> object:
+        """Return the value of an expression."""
+        if isinstance(node, ast.Name) and node.id == "__file__":
+            return ROOT + self.module.path
+        return super().evaluate(node)
+
+    def attribute(self, node: ast.Attribute) -> object:
+        """Return what an attribute of a path is."""
+        if node.attr not in {"parent", "parents"}:
+            return UNKNOWN
+        path = self.evaluate(node.value)
+        if not isinstance(path, PathValue):
+            return UNKNOWN
+        parents: list[PathValue] = []
+        while "/" in path.text.removeprefix(ROOT) and len(parents) < _DEEPEST:
+            path = PathValue(_dirname(path.text))
+            parents.append(path)
+        if node.attr == "parents":
+            return parents
+        return parents[0] if parents else UNKNOWN
+
+    def call(self, node: ast.Call) -> object:
+        """Return what a call that gives a path gives."""
+        names = self.module.qualified_names(node.func)
+        name = next(iter(names), "")
+        first = node.args[0] if node.args else None
+        if name in _PATH_FUNCTIONS and first is not None:
+            path = self.evaluate(first)
+            text = path.text if isinstance(path, PathValue) else path
+            return _PATH_FUNCTIONS[name](text) if isinstance(text, str) else UNKNOWN
+        if name in {"importlib.resources.files", "importlib_resources.files"}:
+            return self._package_directory(first)
+        if name in _READERS and len(node.args) > 1:
+            directory, rest = self._package_directory(first), self.evaluate(node.args[1])
+            if isinstance(directory, PathValue) and isinstance(rest, str):
+                return PathValue(f"{directory.text}/{rest}")
+        if isinstance(node.func, ast.Attribute) and node.func.attr in _SAME and not names:
+            return self.evaluate(node.func.value)
+        return UNKNOWN
+
+    def _package_directory(self, node: ast.expr | None) -> object:
+        if isinstance(node, ast.Name) and node.id in {"__name__", "__package__"}:
+            return PathValue(_dirname(ROOT + self.module.path))
+        name = self.evaluate(node)
+        return PathValue(ROOT + name.replace(".", "/")) if isinstance(name, str) else UNKNOWN
+
+
+def own_files(package: Package) -> Iterator[OwnFile]:
+    """Yield the files of the package that its modules read, with where they name them."""
+    for module in package.modules():
+        if module.in_tests or not any(word in module.source.text for word in _MENTIONS):
+            continue
+        yield from _named_in(package, module)
+
+
+def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
+    evaluator = _FileEvaluator(module)
+    nodes: list[ast.expr] = [*module.walk(ast.Call), *module.walk(ast.BinOp)]
+    nodes += module.walk(ast.JoinedStr)
+    seen: set[str] = set()
+    for node in nodes:
+        value = evaluator.evaluate(node)
+        text = value.text if isinstance(value, PathValue) else value
+        if not isinstance(text, str) or not text.startswith(ROOT):
+            continue
+        path = _normalized(text.removeprefix(ROOT))
+        if path != module.path and path not in seen and package.has(path):
+            seen.add(path)
+            yield OwnFile(path, module.location(node))
+
+
+def _dirname(text: str) -> str:
+    return text.rpartition("/")[0]
+
+
+def _same(text: str) -> str:
+    return text
+
+
+_PATH_FUNCTIONS: Mapping[str, Callable[[str], str]] = {
+    "os.path.dirname": _dirname,
+    "os.path.abspath": _same,
+    "os.path.realpath": _same,
+    "os.path.normpath": _same,
+}
+
+
+def _normalized(path: str) -> str:
+    parts: list[str] = []
+    for part in path.split("/"):
+        if part == ".." and parts:
+            parts.pop()
+        elif part not in {"", "."}:
+            parts.append(part)
+    return "/".join(parts)

@@ -1,0 +1,118 @@
+"""What a package installs below ``share/<package>``, and from where."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
+
+from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.model.python.values import Glob
+from scaffold.model.setup_py.package_data import matches
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.cmake.lists import Install, InstallItem
+    from scaffold.model.package import Package
+
+
+class Share(NamedTuple):
+    """The share directory of a package as far as it is known."""
+
+    files: dict[str, str]
+    """Source by path relative to ``share/<package>``."""
+    complete: bool
+    """Whether these are all."""
+
+    def has(self, path: str) -> bool:
+        """Tell whether a file or a directory is there."""
+        return path in self.files or any(name.startswith(f"{path}/") for name in self.files)
+
+
+def share_of(package: Package) -> Share:
+    """Return what a package installs below its share directory."""
+    return package.remember("share_files", lambda: _share(package))
+
+
+def _share(package: Package) -> Share:
+    read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
+    try:
+        found = read(package) if read else None
+    except ViewError:
+        found = None
+    return found or Share({}, complete=False)
+
+
+def _by_setup(package: Package) -> Share | None:
+    setup = package.setup_py
+    if setup.call is None:
+        return None
+    complete = setup.data_files_complete and not setup.has_unknown_keywords
+    files: dict[str, str] = {}
+    for data in setup.data_files:
+        below = _below_share(data.destination, package.name)
+        complete = complete and data.malformed is None
+        if below is None:
+            continue
+        for source in data.sources:
+            paths = matches(source, package.files) if isinstance(source, Glob) else [source]
+            for path in paths:
+                if isinstance(path, str):
+                    name = path.rpartition("/")[2]
+                    files[posixpath.join(below, name)] = posixpath.normpath(path)
+    return Share(files, complete)
+
+
+def _by_cmake(package: Package) -> Share | None:
+    cmake = package.cmake
+    complete = not has_unknown_commands(package) and not cmake.find("file", "configure_file")
+    complete = complete and not cmake.find("add_custom_command", "add_custom_target")
+    files: dict[str, str] = {"package.xml": "package.xml"}
+    for install in cmake.installs:
+        if install.kind not in {"DIRECTORY", "FILES", "PROGRAMS"}:
+            complete = complete and install.kind not in {"SCRIPT", "CODE"}
+            continue
+        below = _below_share(install.destination, package.name)
+        if below is None:
+            complete = complete and install.destination is not None
+            continue
+        for item in install.items:
+            complete = complete and item.path is not None
+            for name, source in _installed(package, install, item):
+                files[posixpath.join(below, name)] = source
+    return Share(files, complete)
+
+
+def _installed(package: Package, install: Install, item: InstallItem) -> Iterator[tuple[str, str]]:
+    path = item.path
+    if path is None:
+        return
+    if install.kind != "DIRECTORY":
+        yield install.rename or path.rpartition("/")[2], path
+        return
+    inside = "" if path == "." else f"{path}/"
+    keeps = not (item.value or "").endswith("/") and path != "."
+    base = path.rpartition("/")[2] + "/" if keeps else ""
+    for file in package.files:
+        if file.startswith(inside) and _selected(install, file):
+            yield base + file.removeprefix(inside), file
+
+
+def _selected(install: Install, path: str) -> bool:
+    """Tell whether the patterns of install(DIRECTORY) let a file through; in doubt they do."""
+    if "FILES_MATCHING" not in install.command.values or "REGEX" in install.command.values:
+        return True
+    return any(fnmatchcase(path.rpartition("/")[2], pattern) for pattern in install.patterns)
+
+
+def _below_share(destination: object, name: str) -> str | None:
+    """Return where below ``share/<package>`` a destination is; ``None`` if elsewhere."""
+    if not isinstance(destination, str):
+        return None
+    path = posixpath.normpath(destination)
+    share = f"share/{name}"
+    if path == share:
+        return ""
+    return path.removeprefix(f"{share}/") if path.startswith(f"{share}/") else None

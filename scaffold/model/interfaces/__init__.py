@@ -1,0 +1,1 @@
+"""Definitions of messages, services and actions."""

@@ -1,0 +1,345 @@
+"""The interfaces that a package can use: messages, services and actions, with their fields."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.errors import InputError
+from scaffold.model.interfaces.sources import (
+    BundleSource,
+    DefinitionSource,
+    KnownPackage,
+    PrefixSource,
+    Text,
+    WorkspaceSource,
+)
+from scaffold.model.interfaces.syntax import (
+    SECTIONS,
+    SEPARATOR,
+    Constant,
+    Definition,
+    Field,
+    Section,
+    parse,
+)
+from scaffold.model.interfaces.types import TEXTS, Value
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.workspace.workspace import Workspace
+
+KINDS = tuple(SECTIONS)
+
+
+class Interface(NamedTuple):
+    """A message, a service or an action."""
+
+    package: str
+    kind: str
+    """``msg``, ``srv`` or ``action``."""
+    name: str
+    sections: tuple[Section, ...]
+    origin: str
+    """Which definition this is, in words for a message."""
+
+    @property
+    def full_name(self) -> str:
+        """``package/kind/Name``."""
+        return f"{self.package}/{self.kind}/{self.name}"
+
+    def section(self, name: str) -> Section:
+        """Return a part by its name; raises KeyError for one that the kind does not have."""
+        for section in self.sections:
+            if section.name == name:
+                return section
+        raise KeyError(name)
+
+    @property
+    def fields(self) -> tuple[Field, ...]:
+        """The fields of a message."""
+        return self.section("message").fields
+
+    @property
+    def constants(self) -> tuple[Constant, ...]:
+        """The constants of a message."""
+        return self.section("message").constants
+
+    @property
+    def request(self) -> Section:
+        """The request of a service."""
+        return self.section("request")
+
+    @property
+    def response(self) -> Section:
+        """The response of a service."""
+        return self.section("response")
+
+    @property
+    def goal(self) -> Section:
+        """The goal of an action."""
+        return self.section("goal")
+
+    @property
+    def result(self) -> Section:
+        """The result of an action."""
+        return self.section("result")
+
+    @property
+    def feedback(self) -> Section:
+        """The feedback of an action."""
+        return self.section("feedback")
+
+
+class Spelling(NamedTuple):
+    """A type as a user spells it."""
+
+    package: str | None
+    kind: str | None
+    name: str
+
+
+class Definitions:
+    """Looks interfaces up; the first source that knows a package answers for all of it."""
+
+    def __init__(self, sources: Sequence[DefinitionSource]) -> None:
+        self._sources = sources
+        self._packages: dict[str, KnownPackage | None] = {}
+        self._found: dict[str, Interface | None] = {}
+
+    @classmethod
+    def around(
+        cls, workspace: Workspace | None = None, prefixes: Sequence[str] | None = None
+    ) -> Definitions:
+        """Return the definitions of a workspace, of installed packages and of the bundle.
+
+        Args:
+            workspace: The packages that are checked or generated together.
+            prefixes: Where packages are installed; ``None``: what ``AMENT_PREFIX_PATH`` says.
+        """
+        if prefixes is None:
+            prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
+        sources: list[DefinitionSource] = []
+        if workspace is not None:
+            sources.append(WorkspaceSource(workspace))
+        if prefixes:
+            sources.append(PrefixSource(prefixes, workspace.disk if workspace else None))
+        return cls([*sources, BundleSource()])
+
+    def find(self, full_name: str) -> Interface | None:
+        """Return an interface by ``package/kind/Name``.
+
+        ``None`` when nothing is known about it, its file has problems, or it is IDL.
+        """
+        if full_name not in self._found:
+            self._found[full_name] = self._read(full_name)
+        return self._found[full_name]
+
+    def _read(self, full_name: str) -> Interface | None:
+        parsed = self._parsed(full_name)
+        if parsed is None or parsed[1].problems:
+            return None
+        package, kind, name = full_name.split("/")
+        return Interface(package, kind, name, parsed[1].sections, parsed[0].origin)
+
+    def _parsed(self, full_name: str) -> tuple[Text, Definition] | None:
+        package, kind, name = (*full_name.split("/"), "", "")[:3]
+        known = self._package(package)
+        text = known.text(kind, name) if known is not None and kind in SECTIONS else None
+        if text is None or full_name.count("/") != 2:  # noqa: PLR2004  package, kind and name
+            return None
+        return text, parse(text.source, package, kind, name)
+
+    def names(self, package: str, kind: str) -> Sequence[str] | None:
+        """Return the sorted names that a package has of a kind.
+
+        ``None`` when the package is not known, or may have more than can be seen.
+        """
+        known = self._package(package)
+        return known.names(kind) if known is not None and kind in SECTIONS else None
+
+    def packages(self) -> Sequence[str]:
+        """Return the sorted names of all packages that define interfaces."""
+        return sorted({name for source in self._sources for name in source.packages()})
+
+    def all_names(self) -> list[str]:
+        """Return the full names of all interfaces, sorted."""
+        return [
+            f"{package}/{kind}/{name}"
+            for package in self.packages()
+            for kind in KINDS
+            for name in self.names(package, kind) or ()
+        ]
+
+    def _package(self, name: str) -> KnownPackage | None:
+        if name not in self._packages:
+            known = (source.package(name) for source in self._sources)
+            self._packages[name] = next((one for one in known if one is not None), None)
+        return self._packages[name]
+
+    # -- what users write
+
+    def matches(self, spelling: str) -> list[str]:
+        """Return the full names that a spelling may mean, sorted.
+
+        ``std_msgs/msg/String``, ``std_msgs/String``, ``std_msgs.msg.String`` or ``String``; the
+        last is never the copy that example_interfaces has.
+        """
+        wanted = spell(spelling)
+        packages = [wanted.package] if wanted.package else self.packages()
+        kinds = [wanted.kind] if wanted.kind else KINDS
+        found = [
+            f"{package}/{kind}/{wanted.name}"
+            for package in packages
+            for kind in kinds
+            if wanted.name in (self.names(package, kind) or ())
+        ]
+        return [name for name in found if not _is_copy(name)] or found
+
+    def resolve(self, spelling: str) -> Interface:
+        """Return the one interface that a spelling means.
+
+        Raises:
+            InputError: there is none, there are several, or its file cannot be read; the
+                message names what it may be.
+        """
+        found = self.matches(spelling)
+        if not found:
+            near = self.nearest(spelling)
+            known = "see `ros2-scaffold interfaces`"
+            hint = f"; did you mean {' or '.join(near)}?" if near else f"; {known}"
+            raise InputError(f"there is no interface {spelling!r}{hint}")
+        if len(found) > 1:
+            raise InputError(
+                f"{spelling!r} is ambiguous: it may be {', '.join(found[:-1])} or {found[-1]}"
+            )
+        interface = self.find(found[0])
+        if interface is None:
+            raise InputError(f"{found[0]}: {self._why_unreadable(found[0])}")
+        return interface
+
+    def _why_unreadable(self, full_name: str) -> str:
+        parsed = self._parsed(full_name)
+        if parsed is None:
+            return "it is defined in IDL, or in a file that cannot be read"
+        problem = parsed[1].problems[0]
+        return f"{parsed[0].origin}:{problem.location.line}: {problem.message}"
+
+    def nearest(self, spelling: str, count: int = 3) -> list[str]:
+        """Return the full names that look most like a misspelt one, best first."""
+        wanted = spell(spelling)
+        found: list[tuple[float, bool, str]] = []
+        for full_name in self.all_names():
+            package, kind, name = full_name.split("/")
+            likeness = _likeness(wanted.name, name)
+            if likeness < _ALIKE:
+                continue
+            if wanted.package:
+                likeness += _likeness(wanted.package, package)
+            if wanted.kind == kind:
+                likeness += _SAME_KIND
+            found.append((-likeness, _is_copy(full_name), full_name))
+        best = min(found, default=(0.0, False, ""))[0]
+        return [name for score, _, name in sorted(found)[:count] if score <= best + _FAR]
+
+
+class WatchedDefinitions(Definitions):
+    """The same definitions for somebody of whom is to be known whether they look anything up."""
+
+    def __init__(self, shared: Definitions, tell: Callable[[], None]) -> None:
+        super().__init__(())
+        self._shared = shared
+        self._tell = tell
+
+    def find(self, full_name: str) -> Interface | None:
+        """Return an interface by ``package/kind/Name``."""
+        self._tell()
+        return self._shared.find(full_name)
+
+    def packages(self) -> Sequence[str]:
+        """Return the sorted names of all packages that define interfaces."""
+        self._tell()
+        return self._shared.packages()
+
+    def _package(self, name: str) -> KnownPackage | None:
+        self._tell()
+        return self._shared._package(name)  # noqa: SLF001  its own class
+
+
+def _is_copy(full_name: str) -> bool:
+    """Tell whether an interface is one of the package that repeats those of std_msgs."""
+    return full_name.startswith("example_interfaces/")
+
+
+_ALIKE = 0.7
+_MOST_KNOWN = 300
+_LONGEST = 200
+"""More names, or characters of one, than people write take long to compare."""
+_SAME_KIND = 0.1
+_FAR = 0.5
+"""What looks less alike than the best by more than this is not worth naming."""
+
+
+def _likeness(one: str, other: str) -> float:
+    from difflib import SequenceMatcher
+
+    return SequenceMatcher(None, one.lower(), other.lower()).ratio()
+
+
+def nearest_word(word: str, known: Sequence[str]) -> str:
+    """Return the end of a message, ``; did you mean ...``; empty if nothing comes near."""
+    from difflib import get_close_matches
+
+    if len(known) > _MOST_KNOWN or len(word) > _LONGEST:
+        return ""
+    lowered = {name.lower(): name for name in reversed(known)}
+    near = get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
+    return f"; did you mean {lowered[near[0]]!r}?" if near else ""
+
+
+def spell(text: str) -> Spelling:
+    """Take the spelling of a type apart."""
+    parts = [part for part in text.replace(".", "/").split("/") if part]
+    if len(parts) > 2 and parts[-2] in SECTIONS:  # noqa: PLR2004  package, kind and name
+        return Spelling("/".join(parts[:-2]), parts[-2], parts[-1])
+    if len(parts) == 2 and parts[0] in SECTIONS:  # noqa: PLR2004  kind and name
+        return Spelling(None, parts[0], parts[1])
+    return Spelling("/".join(parts[:-1]) or None, None, parts[-1] if parts else text)
+
+
+# -- as text
+
+
+def render(interface: Interface) -> str:
+    """Return a definition as text, without comments: what rosidl reads the same from."""
+    parts = [_render_section(section, interface.package) for section in interface.sections]
+    return f"{SEPARATOR}\n".join(parts)
+
+
+def _render_section(section: Section, package: str) -> str:
+    lines = [
+        f"{constant.type} {constant.name}={_value(constant.type.name, constant.value)}"
+        for constant in section.constants
+    ]
+    for field in section.fields:
+        type_ = str(field.type)
+        if field.type.package == package:
+            type_ = type_.partition("/")[2]
+        line = f"{type_} {field.name}"
+        if field.default is not None:
+            line += f" {_value(field.type.name, field.default)}"
+        lines.append(line)
+    return "".join(line + "\n" for line in lines)
+
+
+def _value(type_name: str, value: Value) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(_value(type_name, element) for element in value)}]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if type_name in TEXTS:
+        text = str(value)
+        quote = "'" if '"' in text else '"'
+        return quote + text.replace(quote, "\\" + quote) + quote
+    return repr(value)

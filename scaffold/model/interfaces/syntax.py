@@ -1,0 +1,372 @@
+"""Reads .msg, .srv and .action definitions: fields, constants, and everything that is wrong.
+
+The verdict is that of rosidl_adapter, which turns these files into IDL when a package is built:
+what it refuses is a problem here, with its place; what it takes is taken, with the same values.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+
+from scaffold.model.interfaces.types import (
+    PRIMITIVES,
+    FieldType,
+    TypeSpellingError,
+    Value,
+    ValueSpellingError,
+    is_constant_name,
+    is_field_name,
+    is_type_name,
+    parse_type,
+    parse_value,
+)
+from scaffold.record import NamedTuple
+from scaffold.source import Location, Source
+
+SEPARATOR = "---"
+SECTIONS = {
+    "msg": ("message",),
+    "srv": ("request", "response"),
+    "action": ("goal", "result", "feedback"),
+}
+"""The kinds of interfaces, by the ending of their files, and what each defines."""
+
+_BOM = "\ufeff"
+
+
+class ProblemKind(Enum):
+    """What a problem is about."""
+
+    TYPE_NAME = "type name"
+    FIELD_NAME = "field name"
+    CONSTANT_NAME = "constant name"
+    DUPLICATE = "duplicate"
+    SEPARATOR = "separator"
+    SYNTAX = "syntax"
+    TYPE = "type"
+    VALUE = "value"
+
+
+class Problem(NamedTuple):
+    """Something that rosidl_adapter refuses."""
+
+    kind: ProblemKind
+    location: Location
+    message: str
+
+
+class Field(NamedTuple):
+    """A field; its location is its name."""
+
+    type: FieldType
+    name: str
+    default: Value | None
+    comment: str
+    """What stands behind ``#`` on its line."""
+    location: Location
+    type_location: Location
+
+
+class Constant(NamedTuple):
+    """A constant; its location is its name."""
+
+    type: FieldType
+    name: str
+    value: Value
+    comment: str
+    """What stands behind ``#`` on its line."""
+    location: Location
+
+
+class Section(NamedTuple):
+    """A message, or one of the parts of a service or an action."""
+
+    name: str
+    """``message``, ``request``, ``response``, ``goal``, ``result`` or ``feedback``."""
+    fields: tuple[Field, ...]
+    constants: tuple[Constant, ...]
+    comment: str
+    """The comment lines it starts with."""
+
+    def field(self, name: str) -> Field | None:
+        """Return the field of a name."""
+        return next((field for field in self.fields if field.name == name), None)
+
+    def constant(self, name: str) -> Constant | None:
+        """Return the constant of a name."""
+        return next((constant for constant in self.constants if constant.name == name), None)
+
+
+class Definition(NamedTuple):
+    """What a file defines, as far as it can be read."""
+
+    sections: tuple[Section, ...]
+    problems: tuple[Problem, ...]
+
+
+class _Line(NamedTuple):
+    text: str
+    """Without its ending and trailing blanks, tabs as spaces."""
+    start: int
+    """Offset in the file."""
+    end: int
+    """Offset of the next line."""
+    number: int
+    column: int
+    """Of its first character: 1, unless a form feed or alike ends the line before."""
+
+    def at(self, path: str, start: int, length: int) -> Location:
+        """Return the place of some characters of it."""
+        column = self.column + start
+        return Location(path, self.number, column, self.number, column + length)
+
+
+def parse(source: Source, package: str, kind: str, name: str) -> Definition:
+    """Read a definition.
+
+    Args:
+        source: The file.
+        package: The package that defines it: types without a package are its own.
+        kind: ``msg``, ``srv`` or ``action``.
+        name: The name of the type, which is that of the file.
+    """
+    names = SECTIONS[kind]
+    problems: list[Problem] = []
+    if not is_type_name(name):
+        at = Location.start_of(source.path)
+        problems.append(Problem(ProblemKind.TYPE_NAME, at, _bad_type_name(name, kind)))
+    if source.text.startswith(_BOM):
+        message = "the file starts with a byte order mark, which rosidl takes for a type"
+        problems.append(Problem(ProblemKind.SYNTAX, Location.start_of(source.path), message))
+    parts = _split(source, kind, problems)
+    sections = [
+        _Parser(source.path, package, problems).section(names[index], lines)
+        for index, lines in enumerate(parts[: len(names)])
+    ]
+    sections += [Section(missing, (), (), "") for missing in names[len(sections) :]]
+    problems.sort(key=lambda problem: problem.location)
+    return Definition(tuple(sections), tuple(problems))
+
+
+def _bad_type_name(name: str, kind: str) -> str:
+    return (
+        f"the file name {name!r} is no type name: rosidl wants letters and digits only, "
+        f"a capital first, as in '{suggest_type_name(name) or 'MyType'}.{kind}'"
+    )
+
+
+def suggest_type_name(name: str) -> str:
+    """Return the valid type name nearest to a name; empty when nothing is left of it."""
+    words = re.findall("[A-Za-z0-9]+", name)
+    joined = "".join(word[0].upper() + word[1:] for word in words).lstrip("0123456789")
+    return joined[:1].upper() + joined[1:]
+
+
+def suggest_field_name(name: str) -> str:
+    """Return the valid field name nearest to a name; empty when nothing is left of it."""
+    spaced = re.sub("(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name)
+    return re.sub("[^a-z0-9]+", "_", spaced.lower()).strip("_").lstrip("0123456789_")
+
+
+def suggest_constant_name(name: str) -> str:
+    """Return the valid constant name nearest to a name; empty when nothing is left of it."""
+    return suggest_field_name(name).upper()
+
+
+def _lines(source: Source) -> Iterator[_Line]:
+    offset = int(source.text.startswith(_BOM))
+    number, column = 1, 1 + offset
+    for raw in source.text[offset:].splitlines(keepends=True):
+        end = offset + len(raw)
+        yield _Line(raw.replace("\t", " ").rstrip(), offset, end, number, column)
+        offset = end
+        if raw.endswith("\n"):
+            number, column = number + 1, 1
+        else:
+            column += len(raw)
+
+
+def _split(source: Source, kind: str, problems: list[Problem]) -> list[list[_Line]]:
+    """Return the lines of each section; a file without the right separators is all there is."""
+    parts: list[list[_Line]] = [[]]
+    places: list[Location] = []
+    wanted = len(SECTIONS[kind]) - 1
+    for line in _lines(source):
+        if wanted and line.text == SEPARATOR:
+            at = line.at(source.path, 0, len(SEPARATOR))
+            places.append(at)
+            if source.text[line.start : line.end].splitlines() != [SEPARATOR]:
+                message = f"blanks follow '{SEPARATOR}': rosidl does not take it for a separator"
+                problems.append(Problem(ProblemKind.SEPARATOR, at, message))
+            parts.append([])
+        else:
+            parts[-1].append(line)
+    if len(places) != wanted:
+        at = places[wanted] if len(places) > wanted else Location.start_of(source.path)
+        sections = ", ".join(SECTIONS[kind])
+        message = (
+            f"a .{kind} file has {wanted} line{'s' * (wanted > 1)} '{SEPARATOR}' between "
+            f"{sections}; this one has {len(places)}"
+        )
+        problems.append(Problem(ProblemKind.SEPARATOR, at, message))
+    return parts
+
+
+class _Word(NamedTuple):
+    text: str
+    at: Location
+
+
+class _Words(NamedTuple):
+    """What a line declares."""
+
+    type: _Word
+    name: _Word
+    value: _Word
+    """A default or the value of a constant; empty without one."""
+    comment: str
+
+
+class _Parser:
+    """Reads the lines of one section."""
+
+    def __init__(self, path: str, package: str, problems: list[Problem]) -> None:
+        self._path = path
+        self._package = package
+        self._problems = problems
+        self._fields: list[Field] = []
+        self._constants: list[Constant] = []
+        self._seen: dict[str, Location] = {}
+
+    def section(self, name: str, lines: Sequence[_Line]) -> Section:
+        for line in lines:
+            text, _, comment = line.text.partition("#")
+            text = text.rstrip()
+            if text:
+                self._declaration(line, text, comment.strip())
+        return Section(name, tuple(self._fields), tuple(self._constants), _heading(lines))
+
+    def _declaration(self, line: _Line, text: str, comment: str) -> None:
+        indent = len(text) - len(text.lstrip(" "))
+        type_text, _, behind = text[indent:].partition(" ")
+        type_at = line.at(self._path, indent, len(type_text))
+        if indent:
+            message = "the line is indented: rosidl wants the type in the first column"
+            self._problem(ProblemKind.SYNTAX, type_at, message)
+        rest = behind.lstrip()
+        if not rest:
+            self._incomplete(type_text, type_at)
+            return
+        name, sign, value = rest.partition("=")
+        if not sign:
+            name, _, value = rest.partition(" ")
+        name = name.rstrip()
+        value = value.lstrip()
+        words = _Words(
+            _Word(type_text, type_at),
+            _Word(name, line.at(self._path, len(text) - len(rest), max(len(name), 1))),
+            _Word(value, line.at(self._path, len(text) - len(value), len(value))),
+            comment,
+        )
+        if sign:
+            self._constant(words)
+        else:
+            self._field(words)
+
+    def _incomplete(self, text: str, at: Location) -> None:
+        if text == SEPARATOR:
+            message = f"'{SEPARATOR}' separates the parts of .srv and .action files only"
+            self._problem(ProblemKind.SEPARATOR, at, message)
+            return
+        message = f"{text!r} is followed by nothing: a line is a type and a name"
+        self._problem(ProblemKind.SYNTAX, at, message)
+
+    def _field(self, words: _Words) -> None:
+        name, name_at = words.name
+        if not is_field_name(name):
+            self._problem(ProblemKind.FIELD_NAME, name_at, _bad_field_name(name))
+        self._unique(name, name_at, "field")
+        type_ = self._type(words.type)
+        if type_ is None:
+            return
+        default = self._value(type_, words.value) if words.value.text else None
+        self._fields.append(Field(type_, name, default, words.comment, name_at, words.type.at))
+
+    def _constant(self, words: _Words) -> None:
+        name, name_at = words.name
+        if is_constant_name(name):
+            self._unique(name, name_at, "constant")
+        else:
+            message = _bad_constant_name(name, words.type.text)
+            self._problem(ProblemKind.CONSTANT_NAME, name_at, message)
+        type_ = self._type(words.type)
+        if type_ is None:
+            return
+        if words.type.text not in PRIMITIVES:
+            message = (
+                f"a constant cannot be a {words.type.text!r}: only primitive types, without bounds"
+            )
+            self._problem(ProblemKind.TYPE, words.type.at, message)
+            return
+        value = self._value(type_, words.value)
+        if value is not None:
+            self._constants.append(Constant(type_, name, value, words.comment, name_at))
+
+    def _type(self, word: _Word) -> FieldType | None:
+        try:
+            return parse_type(word.text, self._package)
+        except TypeSpellingError as error:
+            self._problem(ProblemKind.TYPE, word.at, str(error))
+            return None
+
+    def _value(self, type_: FieldType, word: _Word) -> Value | None:
+        try:
+            return parse_value(type_, word.text)
+        except ValueSpellingError as error:
+            self._problem(ProblemKind.VALUE, word.at, str(error))
+            return None
+
+    def _unique(self, name: str, at: Location, what: str) -> None:
+        before = self._seen.setdefault(f"{what} {name}", at)
+        if before is not at:
+            message = f"the {what} {name!r} exists already, in line {before.line}"
+            self._problem(ProblemKind.DUPLICATE, at, message)
+
+    def _problem(self, kind: ProblemKind, at: Location, message: str) -> None:
+        self._problems.append(Problem(kind, at, message))
+
+
+def _heading(lines: Iterable[_Line]) -> str:
+    heading: list[str] = []
+    for line in lines:
+        if not line.text.startswith("#"):
+            break
+        heading.append(line.text.lstrip("#").strip())
+    return "\n".join(heading).strip()
+
+
+def _bad_field_name(name: str) -> str:
+    message = (
+        f"{name!r} is no field name: rosidl wants lower-case letters, digits and single "
+        "underscores, a letter first"
+    )
+    better = suggest_field_name(name)
+    return f"{message}, as in {better!r}" if better else message
+
+
+def _bad_constant_name(name: str, type_text: str) -> str:
+    if name.startswith("<"):
+        return f"a bound is written without blanks, as in '{type_text}<=10'"
+    if " " in name:
+        return (
+            f"the '=' makes this line a constant, and {name!r} is no name of one; "
+            "a default value stands behind the name, without '='"
+        )
+    message = (
+        f"the '=' makes this line a constant, and {name!r} is no name of one: rosidl wants "
+        "capitals, digits and single underscores, a letter first"
+    )
+    better = suggest_constant_name(name)
+    return f"{message}, as in {better!r}" if better else message

@@ -1,0 +1,1 @@
+"""Launch files, in Python, XML and YAML."""

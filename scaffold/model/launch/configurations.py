@@ -1,0 +1,128 @@
+"""Which launch configurations have a value when a launch file runs."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile, share_path
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigurationFrom")
+_BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
+_ENDINGS = (".py", ".xml", ".yaml", ".yml")
+
+
+def set_names(
+    package: Package, launch: LaunchFile, seen: frozenset[str] = frozenset()
+) -> set[str] | None:
+    """Return the configurations that a file sets, with those that it includes.
+
+    Returns:
+        ``None`` when nobody can say: names are computed, or unknown files are included.
+    """
+    names = set(_BY_LAUNCH)
+    for call in launch.calls:
+        if call.kind.startswith(_SETTERS):
+            name = launch.text(call, "name")
+            if not isinstance(name, str):
+                return None
+            names.add(name)
+    if _has_own_actions(launch):
+        return None
+    for call in launch.find("IncludeLaunchDescription"):
+        given, inner = _given(launch, call), _included(package, launch, call, seen)
+        if given is None or inner is None:
+            return None
+        names |= given | inner
+    return names
+
+
+def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
+    """Tell whether another launch file of the workspace includes this one and sets the name.
+
+    Or includes, beside this one, a third file that sets it.
+    """
+    basename = launch.path.rpartition("/")[2]
+    including = [text for _, text in _others(package, launch) if basename in text]
+    if any(name in text for text in including):
+        return True
+    return bool(including) and any(
+        name in text and any(other in one for one in including)
+        for other, text in _others(package, launch)
+    )
+
+
+def _others(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
+    """Yield name and text of the other launch files of the workspace."""
+    for other in package.workspace:
+        for path in other.files:
+            if "launch" not in path or not path.endswith(_ENDINGS):
+                continue
+            if other is package and path == launch.path:
+                continue
+            try:
+                yield path.rpartition("/")[2], other.source(path).text
+            except ViewError:
+                continue
+
+
+def _has_own_actions(launch: LaunchFile) -> bool:
+    """Tell whether functions or classes of other packages may declare arguments.
+
+    Such as those of nav2_common, moveit_configs_utils and simple_launch.
+    """
+    for call in launch.module.walk(ast.Call):
+        name = launch.module.qualified_name(call.func) or ""
+        root, _, last = name.partition(".")[0], "", name.rpartition(".")[2].lower()
+        if root in {"", "launch", "launch_ros"} or "." not in name:
+            continue
+        if "arg" in last or "declare" in last or "launch" in last or "generate" in last:
+            return root not in {"os", "sys", "argparse", "ament_index_python"}
+    # ``context.launch_configurations['x'] = ...``
+    return any(node.attr == "launch_configurations" for node in launch.module.walk(ast.Attribute))
+
+
+def _given(launch: LaunchFile, call: LaunchCall) -> set[str] | None:
+    """Return the names that an include sets: they stay set afterwards."""
+    node = call.given.get("launch_arguments")
+    if node is None:
+        return None if call.is_open else set()
+    match node:
+        case ast.Call(func=ast.Attribute(value=ast.Dict() as literal, attr="items")):
+            keys = [launch.evaluator.joined_text(key) for key in literal.keys]
+        case ast.Dict():
+            keys = [launch.evaluator.joined_text(key) for key in node.keys]
+        case ast.List() | ast.Tuple():
+            keys = [
+                launch.evaluator.joined_text(pair.elts[0])
+                for pair in node.elts
+                if isinstance(pair, ast.Tuple | ast.List) and pair.elts
+            ]
+        case _:
+            return None
+    names = {key for key in keys if isinstance(key, str)}
+    return names if len(names) == len(set(keys)) else None
+
+
+def _included(
+    package: Package, launch: LaunchFile, call: LaunchCall, seen: frozenset[str]
+) -> set[str] | None:
+    """Return the names that an included file of the same package sets."""
+    source = call.given.get("launch_description_source")
+    inner = launch.call_of(source)
+    argument = next(iter(inner.call.args), None) if inner is not None else source
+    path = share_path(launch.evaluator.joined_text(argument))
+    if path is None or path[0] != package.name or not path[1].endswith(".py"):
+        return None
+    if path[1] in seen:
+        return set()
+    try:
+        other = LaunchFile.of(package, path[1])
+    except ViewError:
+        return None
+    return set_names(package, other, seen | {path[1]})

@@ -1,0 +1,134 @@
+"""In which order a launch file executes its actions, and what they read by then."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.launch.actions import function_of
+from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+
+_AT_ONCE = (
+    *NODES,
+    *("DeclareLaunchArgument", "ExecuteProcess", "IncludeLaunchDescription", "LogInfo"),
+    *("PushRosNamespace", "SetEnvironmentVariable", "SetParameter", "SetRemap"),
+)
+"""Actions that read their values as soon as they are executed."""
+_HARMLESS = ("RegisterEventHandler", "TimerAction")
+"""Actions that do nothing by themselves, and set nothing."""
+_MAY_SET = ("IncludeLaunchDescription", "OpaqueFunction")
+"""Actions behind which any configuration may be set."""
+_DEEPEST = 6
+
+
+class Step(NamedTuple):
+    """An action of the list, in the order of execution."""
+
+    action: LaunchCall
+    reads: tuple[LaunchCall, ...]
+    """The launch configurations that it needs at once."""
+
+
+def steps(launch: LaunchFile) -> list[Step] | None:
+    """Return the actions of the only LaunchDescription, up to one that may set anything.
+
+    Returns:
+        ``None`` when the order is not known: several descriptions, or actions that are added in
+        loops and branches.
+    """
+    descriptions = launch.find("LaunchDescription")
+    function = launch.function
+    if len(descriptions) != 1 or function is None:
+        return None
+    nodes = _items(launch, descriptions[0], function.node)
+    return None if nodes is None else [_step(launch, call) for call in _calls(launch, nodes)]
+
+
+def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
+    """Yield the actions up to one that is not understood, or that may set configurations."""
+    for node in nodes:
+        call = launch.call_of(node)
+        if call is None or call.kind not in (*_AT_ONCE, *_HARMLESS, *_MAY_SET):
+            return
+        yield call
+        if call.kind in _MAY_SET:
+            return
+
+
+def later_declarations(launch: LaunchFile, known: list[Step]) -> dict[str, int]:
+    """Return the positions of the declarations, by name, where all of them are understood."""
+    found: dict[str, int] = {}
+    places = {step.action.call: index for index, step in enumerate(known)}
+    for name, call in launch.declared.items():
+        if "condition" not in call.given:
+            found[name] = places.get(call.call, len(known))
+    return found
+
+
+def _items(
+    launch: LaunchFile, description: LaunchCall, function: FunctionNode
+) -> list[ast.expr] | None:
+    listed = description.given.get("initial_entities")
+    if listed is not None and not isinstance(listed, ast.List):
+        return None
+    items = list(listed.elts) if listed is not None else []
+    holder = launch.module.parent(description.call)
+    if isinstance(holder, ast.Return):
+        return items
+    if not isinstance(holder, ast.Assign) or not isinstance(holder.targets[0], ast.Name):
+        return None
+    added = [
+        (call, item)
+        for call in launch.module.walk(ast.Call)
+        for item in call.args[:1]
+        if isinstance(call.func, ast.Attribute) and call.func.attr in {"add_action", "add_entity"}
+    ]
+    for call, item in added:
+        statement = launch.module.parent(call)
+        if statement is None or launch.module.parent(statement) is not function:
+            return None
+        items.append(item)
+    return items
+
+
+def _step(launch: LaunchFile, call: LaunchCall) -> Step:
+    if call.kind in _HARMLESS:
+        return Step(call, ())
+    if call.kind == "OpaqueFunction":
+        return Step(call, tuple(_performed(launch, call)) if "condition" not in call.given else ())
+    parts = [call.given["condition"]] if "condition" in call.given else list(call.given.values())
+    read = [one for part in parts for one in _reads(launch, part, 0)]
+    return Step(call, tuple(read))
+
+
+def _performed(launch: LaunchFile, call: LaunchCall) -> Iterator[LaunchCall]:
+    """Yield the configurations whose text a function asks for, whatever happens in it."""
+    function = function_of(launch, call.given.get("function"))
+    for statement in function.body if function is not None else ():
+        if not isinstance(statement, ast.Assign | ast.Expr):
+            return
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Subscript):
+            return  # it may set a configuration
+        match statement.value:
+            case ast.Call(func=ast.Attribute(value=holder, attr="perform")):
+                yield from _reads(launch, holder, 0)
+
+
+def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCall]:
+    """Yield the launch configurations without a default in an expression, through names."""
+    for part in ast.walk(node):
+        if isinstance(part, ast.Call):
+            call = launch.call_of(part)
+            is_read = call is not None and call.kind == "LaunchConfiguration"
+            if is_read and call is not None and "default" not in call.given and not call.is_open:
+                yield call
+        elif isinstance(part, ast.Name) and depth < _DEEPEST:
+            found = launch.module.index.lookup(part.id, part)
+            values = [binding.value for binding in found[1]] if found else []
+            if len(values) == 1 and values[0] is not None:
+                yield from _reads(launch, values[0], depth + 1)

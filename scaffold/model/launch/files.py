@@ -1,0 +1,67 @@
+"""Which files of a package are launch files, and which others belong beside them at run time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+DIRECTORIES = ("launch/", "launches/")
+_USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
+DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds", "meshes")
+"""Directories whose files are read at run time from ``share/<package>``."""
+
+
+def launch_files(package: Package) -> list[str]:
+    """Return the launch files: by their ending, or by ``generate_launch_description``."""
+    return [path for path in package.files if _is_launch_file(package, path)]
+
+
+def data_files(package: Package, directory: str) -> list[str]:
+    """Return the files of a data directory that a node or a launch file may read."""
+    return [
+        path
+        for path in package.files
+        if path.startswith(f"{directory}/") and not path.endswith((".py", ".md", ".in", ".txt"))
+    ]
+
+
+def is_named(package: Package, directory: str) -> bool:
+    """Tell whether code or a launch file of the workspace names a file of a data directory."""
+    names = _names(data_files(package, directory))
+    for other in package.workspace:
+        wanted = names
+        if other.name != package.name:  # which may mean its own of the same name
+            wanted = names.difference(*(_names(data_files(other, one)) for one in DATA_DIRECTORIES))
+        for path in other.files if wanted else ():
+            if not path.endswith(_USERS):
+                continue
+            try:
+                text = other.source(path).text
+            except ViewError:
+                continue
+            if any(name in text for name in wanted):
+                return True
+    return False
+
+
+def _names(paths: list[str]) -> set[str]:
+    return {path.rpartition("/")[2] for path in paths}
+
+
+def _is_launch_file(package: Package, path: str) -> bool:
+    directory, _, name = path.rpartition("/")
+    if not f"{directory}/".startswith(DIRECTORIES):
+        return False
+    if name.endswith(ENDINGS):
+        return True
+    if not name.endswith(".py"):
+        return False
+    try:
+        return package.module(path).defines("generate_launch_description") is True
+    except ViewError:
+        return False

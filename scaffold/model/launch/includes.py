@@ -1,0 +1,92 @@
+"""What launch files include, and the arguments that they give and need."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from scaffold.model.launch.configurations import set_names
+from scaffold.model.launch.python_file import LaunchCall, LaunchFile, share_path
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+Given = tuple[str, ast.expr, ast.expr]
+"""Name, its place, and the value of an argument."""
+
+
+class Included(NamedTuple):
+    """A Python launch file of the same package that is included."""
+
+    path: str
+    names: frozenset[str]
+    """What it declares, reads or sets."""
+    required: frozenset[str]
+    """What it declares without a default."""
+    is_open: bool
+    """It may take other names too: it includes files, or has actions of others."""
+
+
+def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
+    """Return what an include gives; ``None`` when that is not known to its end."""
+    node = call.given.get("launch_arguments")
+    if node is None:
+        return None if call.is_open else []
+    pairs: list[tuple[ast.expr | None, ast.expr]] = []
+    match node:
+        case ast.Call(func=ast.Attribute(value=ast.Dict() as literal, attr="items")):
+            pairs = list(zip(literal.keys, literal.values, strict=True))
+        case ast.List() | ast.Tuple():
+            for item in node.elts:
+                if not isinstance(item, ast.Tuple | ast.List) or len(item.elts) != 2:  # noqa: PLR2004  name and value
+                    return None
+                pairs.append((item.elts[0], item.elts[1]))
+        case _:
+            return None
+    found: list[Given] = []
+    for key, value in pairs:
+        name = launch.evaluator.joined_text(key)
+        if key is None or not isinstance(name, str):
+            return None
+        found.append((name, key, value))
+    return found
+
+
+def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:
+    """Return what an include refers to, when it is a Python launch file of the same package."""
+    source = call.given.get("launch_description_source")
+    inner = launch.call_of(source)
+    is_source = inner is not None and inner.kind.endswith("Source")
+    argument = next(iter(inner.given.values()), None) if inner and is_source else source
+    path = share_path(launch.evaluator.joined_text(argument))
+    if path is None or path[0] != package.name or not path[1].endswith(".py"):
+        return None
+    try:
+        other = LaunchFile.of(package, path[1])
+    except ViewError:
+        return None
+    if other.function is None:
+        return None
+    names, required = set(other.declared), set[str]()
+    for declared in other.find("DeclareLaunchArgument"):
+        name = other.text(declared, "name")
+        is_plain = not declared.is_open and not _is_conditional(other, declared)
+        if isinstance(name, str) and "default_value" not in declared.given and is_plain:
+            required.add(name)
+    is_open = set_names(package, other) is None or bool(other.find("IncludeLaunchDescription"))
+    for read in other.find("LaunchConfiguration", "SetLaunchConfiguration"):
+        text = next((other.evaluator.joined_text(one) for one in read.given.values()), None)
+        is_open = is_open or not isinstance(text, str)
+        names.add(str(text))
+    return Included(other.path, frozenset(names), frozenset(required), is_open)
+
+
+def _is_conditional(launch: LaunchFile, call: LaunchCall) -> bool:
+    """Tell whether an argument may not be declared: under a condition, or in a group."""
+    if "condition" in call.given or launch.is_optional(call.call):
+        return True
+    parents = [one for one in launch.module.parents(call.call) if isinstance(one, ast.Call)]
+    found = [launch.call_of(one) for one in parents]
+    return any(one is not None and one.kind == "GroupAction" for one in found)

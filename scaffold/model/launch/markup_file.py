@@ -1,0 +1,155 @@
+"""What launch files in XML and YAML say: nodes and packages, with places."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.formats import xml as xml_tree
+from scaffold.formats import yaml as yaml_tree
+from scaffold.formats.xml import Attribute
+from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
+from scaffold.record import NamedTuple
+from scaffold.source import Location, Source, ViewError
+
+if TYPE_CHECKING:
+    from scaffold.formats.xml import Document
+    from scaffold.model.package import Package
+
+_FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
+
+
+_Element = tuple[str, Location, dict[str, Attribute], list[dict[str, Attribute]]]
+"""Tag, place and attributes, and the attributes of its parameters."""
+_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
+
+
+class MarkupNode(NamedTuple):
+    """A ``<node pkg="…" exec="…"/>``."""
+
+    path: str
+    package: Attribute | None
+    executable: Attribute | None
+    name: Attribute | None
+    location: Location
+    parameters: list[tuple[Attribute, Attribute]]
+    """Name and value of those that are given one by one, without a type."""
+
+
+class MarkupPath(NamedTuple):
+    """A ``$(find-pkg-share package)/path`` in an attribute."""
+
+    package: str
+    path: str
+    """Relative to the share directory; empty when it is not known to its end."""
+    location: Location
+
+
+class MarkupFile(NamedTuple):
+    """A launch file in XML or YAML."""
+
+    path: str
+    nodes: list[MarkupNode]
+    paths: list[MarkupPath]
+    attributes: list[Attribute]
+
+
+def markup_files(package: Package) -> list[MarkupFile]:
+    """Return the launch files in XML and YAML that can be read; tests are left out."""
+
+    def read() -> list[MarkupFile]:
+        paths = [path for path in package.files if path.endswith(_ENDINGS)]
+        found = [_read(package, path) for path in paths if not _in_tests(path)]
+        return [file for file in found if file is not None]
+
+    return package.remember("launch_markup", read)
+
+
+def is_known(attribute: Attribute | None) -> bool:
+    """Tell whether the value of an attribute is given and has no substitutions."""
+    return attribute is not None and "$(" not in attribute.value and attribute.value != ""
+
+
+def _in_tests(path: str) -> bool:
+    return not {"test", "tests"}.isdisjoint(path.split("/"))
+
+
+def _read(package: Package, path: str) -> MarkupFile | None:
+    nodes: list[MarkupNode] = []
+    attributes: list[Attribute] = []
+    try:
+        elements = _elements(package, path)
+    except ViewError:
+        return None  # another rule reports what is not well-formed
+    for tag, at, given, parameters in elements:
+        attributes.extend(given.values())
+        if tag == "node":
+            package_, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
+            pairs = [
+                (one["name"], one["value"])
+                for one in parameters
+                if "type" not in one and "name" in one and "value" in one
+            ]
+            nodes.append(MarkupNode(path, package_, executable, name, at, pairs))
+    paths = [found for attribute in attributes for found in _paths(attribute)]
+    return MarkupFile(path, nodes, paths, attributes)
+
+
+def _elements(package: Package, path: str) -> list[_Element]:
+    """Return everything in a launch file."""
+    if path.endswith(".xml"):
+        root = _document(package, path).root
+        return [
+            (
+                one.tag,
+                one.name_location,
+                one.attributes,
+                [child.attributes for child in one.children if child.tag == "param"],
+            )
+            for one in root.descendants()
+        ]
+    found: list[_Element] = []
+    roots = yaml_tree.parse(Source.decode(path, package.data(path)))
+    pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
+    for tag, node in pending:  # grows on the way
+        if isinstance(node, Sequence):
+            pending += [(tag, item) for item in node.items]
+        elif isinstance(node, Mapping):
+            given = [
+                dict(_scalars(item))
+                for key, value in node.pairs
+                if key.text == "param" and isinstance(value, Sequence)
+                for item in value.items
+                if isinstance(item, Mapping) and _is_plain(item)
+            ]
+            found.append((tag, node.location, dict(_scalars(node)), given))
+            pending += [(key.text, value) for key, value in node.pairs]
+    return found
+
+
+def _is_plain(node: Mapping) -> bool:
+    """Tell whether no value of a mapping is in quotes."""
+    return all(isinstance(value, Scalar) and value.is_plain for _, value in node.pairs)
+
+
+def _scalars(node: Mapping) -> Iterator[tuple[str, Attribute]]:
+    """Yield the values of a mapping as attributes."""
+    for key, value in node.pairs:
+        if isinstance(value, Scalar):
+            yield key.text, Attribute(key.text, value.text, value.location, key.location)
+
+
+def _document(package: Package, path: str) -> Document:
+    return xml_tree.parse(xml_tree.decode(path, package.data(path)))
+
+
+def _paths(attribute: Attribute) -> Iterator[MarkupPath]:
+    at = attribute.location
+    for found in re.finditer(_FIND, attribute.value):
+        place = at
+        if at.end_column - at.column == len(attribute.value):  # no references, on one line
+            start = at.column + found.start()
+            place = Location(at.path, at.line, start, at.line, at.column + found.end(2))
+        path = "" if found[3] else found[2].strip("/")
+        yield MarkupPath(found[1], path, place)

@@ -1,0 +1,131 @@
+"""Which nodes read which parameter files, and which sections of them are for which node."""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING
+
+from scaffold.model.install.share import share_of
+from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
+from scaffold.model.parameters.declared import own_nodes
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.parameters.files import ParameterFile, Section
+    from scaffold.model.rclpy.nodes import NodeOwner
+
+_ALIKE = 0.75
+_LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
+
+
+class FileUse(NamedTuple):
+    """Who reads a parameter file."""
+
+    nodes: list[StartedNode]
+    """The nodes that the launch files of the package give it to."""
+    complete: bool
+    """Whether no other file of the package names it."""
+
+
+def use_of(package: Package, path: str) -> FileUse:
+    """Return who reads a parameter file, as far as the package itself says."""
+    installed = share_of(package).files
+    found: list[StartedNode] = []
+    named_by: list[tuple[StartedNode, ast.expr]] = []
+    for node in consumers(package):
+        for named, expression in node.parameter_files:
+            if installed.get(named, named) == path:
+                found.append(node)
+                named_by.append((node, expression))
+    known = {node.launch.path for node in found}
+    passed = any(_is_handed_on(node, expression) for node, expression in named_by)
+    return FileUse(found, not passed and not _is_mentioned(package, path, known))
+
+
+def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
+    """Return the code of the node that a section is for; none when that is not sure."""
+    use = use_of(package, path)
+    name = section.name
+    if section.is_pattern:
+        if not use.nodes:
+            return []
+        owners = [node.owner for node in use.nodes]
+    else:
+        owners = [node.owner for node in use.nodes if node.name == name]
+        if not owners:
+            nodes, complete = own_nodes(package)
+            renamed = {node.name for node in started_nodes(package) if node.package != package.name}
+            owners = [node for node in nodes if node.node_name == name]
+            owners = owners if complete and name not in renamed and len(owners) == 1 else []
+    found = [owner for owner in owners if owner is not None]
+    return list(dict.fromkeys(found)) if len(found) == len(owners) else []
+
+
+def is_loaded(package: Package, path: str) -> bool:
+    """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
+
+    Then it may hold what is for that code alone.
+    """
+
+    def find() -> list[str]:
+        return [text for text in _python_texts(package) if "yaml.safe_load" in text]
+
+    name = path.rpartition("/")[2]
+    return any(name in text for text in package.remember("code_loading_yaml", find))
+
+
+def _python_texts(package: Package) -> Iterator[str]:
+    for other in package.workspace:
+        for path in other.python_files:
+            with contextlib.suppress(ViewError):
+                yield other.source(path).text
+
+
+def node_names(package: Package) -> set[str]:
+    """Return all names of nodes that the package mentions: in its code, in its launch files."""
+    names = {str(node.node_name) for node in own_nodes(package)[0]}
+    return names | {str(node.name) for node in (*started_nodes(package), *consumers(package))}
+
+
+def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
+    """Return the nodes without a section of the file that one for ``name`` may be meant for."""
+    given = {section.name for section in file.sections}
+    return [other for other in sorted(names - given) if _is_alike(name, other)]
+
+
+def _is_alike(name: str, other: str) -> bool:
+    """Tell whether one name of a node may be meant to be the other."""
+    one, two = name.replace("_", "").lower(), other.replace("_", "").lower()
+    if one == two:
+        return name != other
+    if one in {two + "node", "node" + two} or two in {one + "node", "node" + one}:
+        return True
+    return SequenceMatcher(None, one, two).ratio() >= _ALIKE
+
+
+def _is_handed_on(node: StartedNode, expression: ast.expr) -> bool:
+    """Tell whether a launch file gives a parameter file to a file that it includes, too."""
+    text = node.launch.module.text(expression)
+    return any(
+        text in node.launch.module.text(given)
+        for call in node.launch.find("IncludeLaunchDescription")
+        if (given := call.given.get("launch_arguments")) is not None
+    )
+
+
+def _is_mentioned(package: Package, path: str, known: set[str]) -> bool:
+    """Tell whether a launch file that is not known to use a parameter file names it."""
+    name = path.rpartition("/")[2]
+    for other in package.files:
+        if other.endswith(_LAUNCH_ENDINGS) and other not in known and other != "setup.py":
+            try:
+                if name in package.source(other).text:
+                    return True
+            except ViewError:
+                continue
+    return False

@@ -1,0 +1,410 @@
+"""What a Python launch file says, without running it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.model.launch.signatures import signature
+from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.values import UNKNOWN, PathValue, Unknown, join_paths
+from scaffold.record import NamedTuple
+from scaffold.source import Location
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import Function, PythonModule
+    from scaffold.model.python.scopes import FunctionNode
+
+FUNCTION = "generate_launch_description"
+NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
+"""Actions that start a process with a node."""
+SHARE = "/<share>/"
+"""In front of a package's name, in the values of expressions: its share directory."""
+
+_MODULES = ("launch.", "launch_ros.", "launch_xml.", "launch_yaml.", "ament_index_python.")
+_ROOTS = frozenset({"launch", "launch_ros"})
+_POSITIONAL: Mapping[str, tuple[str, ...]] = {
+    "ParameterFile": ("param_file",),
+    "ParameterValue": ("value",),
+    "get_package_share_directory": ("package_name",),
+    "get_package_share_path": ("package_name",),
+}
+
+
+class LaunchCall(NamedTuple):
+    """A call of something from launch, launch_ros or ament_index_python."""
+
+    kind: str
+    """The last part of its name: ``Node``, ``DeclareLaunchArgument`` ..."""
+    call: ast.Call
+    module: PythonModule
+    given: Mapping[str, ast.expr]
+    """The arguments by name, where that is known."""
+    words: Mapping[str, ast.keyword]
+    """The keyword arguments by name."""
+    is_open: bool
+    """There is a ``*`` or ``**``: more arguments may be given."""
+
+    @property
+    def location(self) -> Location:
+        """The place of what is called."""
+        return self.module.location(self.call.func)
+
+
+class PackageUse(NamedTuple):
+    """A package that a launch file names."""
+
+    name: str
+    location: Location
+    node: ast.expr
+    action: LaunchCall | None
+    """The node that is started from it; ``None`` where a file of it is looked for."""
+
+
+class SharePath(NamedTuple):
+    """A path below the share directory of a package."""
+
+    package: str
+    path: str
+    """Relative to ``share/<package>``, normalised."""
+    location: Location
+    node: ast.expr
+
+
+class LaunchEvaluator(Evaluator):
+    """Knows the share directories of packages, and substitutions that are constant."""
+
+    def __init__(self, module: PythonModule, package_name: str) -> None:
+        super().__init__(module)
+        self._package_name = package_name
+
+    def call(self, node: ast.Call) -> object:
+        """Return what a call of launch is worth: a substitution is the text that it gives."""
+        found = launch_call(self.module, node)
+        if found is None:
+            return self._found_package(node)
+        value: object = UNKNOWN
+        match found.kind:
+            case "get_package_share_directory" | "FindPackageShare":
+                value = self._share(next(iter(found.given.values()), None))
+            case "get_package_share_path":
+                share = self._share(next(iter(found.given.values()), None))
+                value = PathValue(share) if isinstance(share, str) else UNKNOWN
+            case "PathJoinSubstitution":
+                value = self._join(found.given.get("substitutions"))
+            case "TextSubstitution":
+                value = self.text(found.given.get("text"))
+            case "ThisLaunchFileDir":
+                directory = self.module.path.rpartition("/")[0]
+                value = f"{SHARE}{self._package_name}/{directory}".rstrip("/")
+        return value
+
+    def joined_text(self, node: ast.expr | None) -> str | Unknown:
+        """Return the text of a substitution, or of a list of them, which launch joins."""
+        return _concatenated(self.evaluate(node))
+
+    def _share(self, node: ast.expr | None) -> str | Unknown:
+        name = self.joined_text(node)
+        return f"{SHARE}{name}" if isinstance(name, str) and "/" not in name else UNKNOWN
+
+    def _join(self, node: ast.expr | None) -> str | Unknown:
+        value = self.evaluate(node)
+        if not isinstance(value, list | tuple) or not value:
+            return UNKNOWN
+        parts = [_concatenated(part) for part in value]
+        texts = [part for part in parts if isinstance(part, str)]
+        return join_paths(texts) if len(texts) == len(parts) else UNKNOWN
+
+    def _found_package(self, node: ast.Call) -> str | Unknown:
+        """Return the value of ``FindPackageShare(...).find('name')``."""
+        match node.func:
+            case ast.Attribute(value=ast.Call() as holder, attr="find") if node.args:
+                found = launch_call(self.module, holder)
+                if found is not None and found.kind == "FindPackageShare":
+                    return self._share(node.args[0])
+        return UNKNOWN
+
+
+class LaunchFile:
+    """A Python launch file."""
+
+    def __init__(self, module: PythonModule, package_name: str) -> None:
+        self.module = module
+        self.path = module.path
+        self.package_name = package_name
+        self.evaluator = LaunchEvaluator(module, package_name)
+
+    @classmethod
+    def of(cls, package: Package, path: str) -> LaunchFile:
+        """Return the view of a Python file.
+
+        Raises:
+            ViewError: there is no such file, or it cannot be parsed.
+        """
+        module = package.module(path)
+        return package.remember(("launch_py", path), lambda: cls(module, package.name))
+
+    @classmethod
+    def of_package(cls, package: Package) -> list[LaunchFile]:
+        """Return the launch files of a package; those that only tests use are left out."""
+        return package.remember("launch_py", lambda: list(cls._all(package)))
+
+    @classmethod
+    def _all(cls, package: Package) -> Iterator[LaunchFile]:
+        for module in package.modules():
+            in_tests = module.in_tests or ".test." in module.path
+            if not in_tests and not _ROOTS.isdisjoint(module.imports_by_root):
+                yield cls.of(package, module.path)
+
+    @property
+    def function(self) -> Function | None:
+        """``generate_launch_description``."""
+        return self.module.functions.get(FUNCTION)
+
+    # -- calls
+
+    @cached_property
+    def calls(self) -> Sequence[LaunchCall]:
+        """All calls of launch, in the order of the text."""
+        found = (launch_call(self.module, call) for call in self.module.walk(ast.Call))
+        calls = [call for call in found if call is not None]
+        replaced = self._replaced
+        if not replaced:
+            return calls
+        return [
+            call
+            for call in calls
+            if not any(parent in replaced for parent in self.module.parents(call.call))
+        ]
+
+    @cached_property
+    def _replaced(self) -> set[ast.stmt]:
+        """The functions of the module that a later one of the same name takes the place of."""
+        last: dict[str, ast.stmt] = {}
+        found: set[ast.stmt] = set()
+        for statement in self.module.tree.body:
+            if isinstance(statement, ast.FunctionDef):
+                earlier = last.get(statement.name)
+                if earlier is not None:
+                    found.add(earlier)
+                last[statement.name] = statement
+        return found
+
+    def find(self, *kinds: str) -> list[LaunchCall]:
+        """Return the calls of some kinds, in the order of the text."""
+        return [call for call in self.calls if call.kind in kinds]
+
+    def call_of(self, node: ast.expr | None) -> LaunchCall | None:
+        """Return the call that an expression is, or the name of one is assigned once."""
+        for _ in range(10):
+            if isinstance(node, ast.Call):
+                return launch_call(self.module, node)
+            if not isinstance(node, ast.Name):
+                return None
+            found = self.module.index.lookup(node.id, node)
+            values = [binding.value for binding in found[1]] if found else []
+            node = values[0] if len(values) == 1 else None
+        return None
+
+    def text(self, call: LaunchCall, name: str) -> str | Unknown | None:
+        """Return the text of an argument; ``None`` when it is not given."""
+        if name not in call.given:
+            return UNKNOWN if call.is_open else None
+        return self.evaluator.joined_text(call.given[name])
+
+    def location(self, node: ast.AST) -> Location:
+        """Return the place of a node."""
+        return self.module.location(node)
+
+    # -- launch arguments
+
+    @cached_property
+    def declared(self) -> Mapping[str, LaunchCall]:
+        """The launch arguments that are declared with a known name."""
+        found: dict[str, LaunchCall] = {}
+        for call in self.find("DeclareLaunchArgument"):
+            name = self.text(call, "name")
+            if isinstance(name, str):
+                found.setdefault(name, call)
+        return found
+
+    def default_of(self, node: ast.expr | None) -> str | Unknown:
+        """Return the text that a LaunchConfiguration has when nobody sets it."""
+        call = self.call_of(node)
+        if call is None or call.kind != "LaunchConfiguration":
+            return UNKNOWN
+        declared = self.declared.get(str(self.text(call, "variable_name")))
+        if declared is not None:
+            return self.text(declared, "default_value") or UNKNOWN
+        return self.text(call, "default") or UNKNOWN
+
+    # -- what it names
+
+    @cached_property
+    def package_uses(self) -> Sequence[PackageUse]:
+        """The packages that it starts nodes of or looks for files in."""
+        found: list[PackageUse] = []
+        for call in self.calls:
+            if call.kind in {*NODES, "ComposableNode"}:
+                node, action = call.given.get("package"), call
+            elif call.kind in {"FindPackageShare", "get_package_share_directory"} | {
+                "get_package_share_path"
+            }:
+                node, action = next(iter(call.given.values()), None), None
+            else:
+                continue
+            name = self.evaluator.joined_text(node)
+            if node is not None and isinstance(name, str) and name:
+                found.append(PackageUse(name, self.location(node), node, action))
+        return found
+
+    def is_optional(self, node: ast.AST) -> bool:
+        """Tell whether an expression is evaluated only if Python decides so, or may fail."""
+        kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)
+        return any(isinstance(parent, kinds) for parent in self.module.parents(node))
+
+    @cached_property
+    def share_paths(self) -> Sequence[SharePath]:
+        """The paths below share directories, each where it is complete."""
+        found: list[SharePath] = []
+        for node in self._path_expressions():
+            path = share_path(self.evaluator.joined_text(node))
+            if path is not None:
+                found.append(SharePath(*path, self.location(node), node))
+        return found
+
+    def _path_expressions(self) -> Iterator[ast.expr]:
+        """Yield the outermost expressions that are paths below a share directory."""
+        candidates: list[ast.expr] = [*self.module.walk(ast.Call), *self.module.walk(ast.BinOp)]
+        candidates += self.module.walk(ast.List)
+        candidates += self.module.walk(ast.JoinedStr)
+        paths = {node for node in candidates if self._is_path(node)}
+        for node in sorted(paths, key=lambda node: (node.lineno, node.col_offset)):
+            parent = self.module.parent(node)
+            above = self.module.parent(parent) if parent is not None else None
+            if parent in paths or (isinstance(parent, ast.List) and above in paths):
+                continue
+            if not self._is_extended(node):
+                yield node
+
+    def _is_path(self, node: ast.expr) -> bool:
+        if isinstance(node, ast.List):
+            parent = self.module.parent(node)
+            call = launch_call(self.module, parent) if isinstance(parent, ast.Call) else None
+            source = call is not None and call.kind.endswith(("Source", "ParameterFile"))
+            if not source and not isinstance(parent, ast.keyword):
+                return False
+            if isinstance(parent, ast.keyword) and parent.arg != "default_value":
+                return False
+        return share_path(self.evaluator.joined_text(node)) is not None
+
+    def _is_extended(self, node: ast.expr) -> bool:
+        """Tell whether an expression is only the beginning of a path that is not known."""
+        parent = self.module.parent(node)
+        match parent:
+            case ast.BinOp() | ast.FormattedValue() | ast.Attribute():
+                return True
+            case ast.Assign() | ast.AnnAssign():
+                return "." not in str(self.evaluator.joined_text(node)).rpartition("/")[2]
+            case ast.List():
+                above = self.module.parent(parent)
+                call = launch_call(self.module, above) if isinstance(above, ast.Call) else None
+                joins = {"PathJoinSubstitution", "Command", "PythonLaunchDescriptionSource"}
+                return call is not None and (
+                    call.kind in joins or call.kind.endswith(("Source", "Substitution"))
+                )
+            case ast.Call():
+                return self.module.qualified_name(parent.func) == "os.path.join"
+            case _:
+                return False
+
+
+def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
+    """Return the view of a call if it is one of launch's."""
+    called = module.qualified_names(node.func)
+    kinds = {name.rpartition(".")[2] for name in called if name.startswith(_MODULES)}
+    if len(kinds) != 1 or any(".events." in name for name in called):
+        return None
+    kind = kinds.pop()
+    words = {word.arg: word for word in node.keywords if word.arg}
+    known = signature(kind)
+    names = known.positional if known is not None else _POSITIONAL.get(kind, ())
+    given: dict[str, ast.expr] = dict(zip(names, node.args, strict=False))
+    given.update({name: word.value for name, word in words.items()})
+    is_open = len(words) < len(node.keywords)
+    is_open = is_open or any(isinstance(arg, ast.Starred) for arg in node.args)
+    return LaunchCall(kind, node, module, given, words, is_open)
+
+
+def share_path(value: object) -> tuple[str, str] | None:
+    """Return the package and the path below its share directory that a value stands for."""
+    text = value.text if isinstance(value, PathValue) else value
+    if not isinstance(text, str) or not text.startswith(SHARE):
+        return None
+    package, _, rest = text.removeprefix(SHARE).partition("/")
+    parts: list[str] = []
+    for part in rest.split("/"):
+        if part == ".." and not parts:
+            return None
+        if part == "..":
+            parts.pop()
+        elif part not in {"", "."}:
+            parts.append(part)
+    return (package, "/".join(parts)) if parts else None
+
+
+def returns(function: FunctionNode) -> tuple[list[ast.Return], bool]:
+    """Return the return statements of a function, and whether its end can be reached."""
+    found: list[ast.Return] = []
+    pending: list[ast.AST] = list(function.body)
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.Return):
+            found.append(node)
+        elif not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            pending.extend(ast.iter_child_nodes(node))
+    return sorted(found, key=lambda node: node.lineno), _falls_through(function.body)
+
+
+def _falls_through(body: Sequence[ast.stmt]) -> bool:
+    return all(_passes(statement) for statement in body)
+
+
+def _passes(statement: ast.stmt) -> bool:
+    """Tell whether what follows a statement can be reached."""
+    match statement:
+        case ast.If(body=body, orelse=orelse):
+            passes = _falls_through(body) or _falls_through(orelse)
+        case ast.With(body=body) | ast.AsyncWith(body=body):
+            passes = _falls_through(body)
+        case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=finalbody):
+            ways = [[*body, *orelse], *(handler.body for handler in handlers)]
+            passes = _falls_through(finalbody) and any(map(_falls_through, ways))
+        case _:
+            passes = not _leaves(statement)
+    return passes
+
+
+def _leaves(statement: ast.stmt) -> bool:
+    """Tell whether a statement ends the function, or may do so in a way nobody follows."""
+    match statement:
+        case ast.Return() | ast.Raise() | ast.Match() | ast.While(test=ast.Constant(value=True)):
+            return True
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name))):
+            return name in {"exit", "_exit", "quit", "fail"}
+        case _:
+            return False
+
+
+def _concatenated(value: object) -> str | Unknown:
+    """Return the text of a value: substitutions in a list are joined without a separator."""
+    if isinstance(value, PathValue):
+        return value.text
+    if isinstance(value, list | tuple):
+        parts = [_concatenated(part) for part in value]
+        texts = [part for part in parts if isinstance(part, str)]
+        return "".join(texts) if len(texts) == len(parts) else UNKNOWN
+    return value if isinstance(value, str) else UNKNOWN

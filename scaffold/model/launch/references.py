@@ -1,0 +1,99 @@
+"""The packages and programs that launch files name, in Python and in XML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
+from scaffold.model.launch.markup_file import is_known, markup_files
+from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.programs.executables import programs_of
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+
+class Use(NamedTuple):
+    """A place where a launch file names a package."""
+
+    name: str
+    location: Location
+    executable: str | Unknown | None
+    """The program that is started from it; ``None`` where a file of it is looked for."""
+    executable_location: Location
+    is_optional: bool = False
+    """Looked for under a condition that Python decides: it may well not be there."""
+
+
+class Meant(NamedTuple):
+    """The package that a wrong name stands for."""
+
+    name: str
+    reason: str
+
+
+def package_uses(package: Package) -> list[Use]:
+    """Return the packages that the launch files name, in the order of the text."""
+    return package.remember("launch_uses", lambda: [*_in_python(package), *_in_xml(package)])
+
+
+def _in_python(package: Package) -> Iterator[Use]:
+    for launch in LaunchFile.of_package(package):
+        for found in launch.package_uses:
+            call = found.action
+            executable: str | Unknown | None = None
+            at = found.location
+            if call is not None and call.kind != "ComposableNode":
+                executable = launch.text(call, "executable") or UNKNOWN
+                node = call.given.get("executable")
+                at = launch.location(node) if node is not None else at
+            optional = launch.is_optional(found.node)
+            yield Use(found.name, found.location, executable, at, optional)
+
+
+def _in_xml(package: Package) -> Iterator[Use]:
+    for file in markup_files(package):
+        for node in file.nodes:
+            if node.package is not None and is_known(node.package):
+                program = node.executable
+                executable: str | Unknown = UNKNOWN
+                if program is not None and is_known(program):
+                    executable = program.value
+                at = (program or node.package).location
+                yield Use(node.package.value, node.package.location, executable, at)
+        for path in file.paths:
+            yield Use(path.package, path.location, None, path.location)
+
+
+def exists(package: Package, name: str) -> bool:
+    """Tell whether a package is known: itself, of the workspace, declared, or well known."""
+    if name == package.name or name in ROS_PACKAGES or package.workspace.get(name) is not None:
+        return True
+    try:
+        return name in package.manifest.declared_names
+    except ViewError:
+        return True
+
+
+def meant_package(package: Package, use: Use) -> Meant | None:
+    """Return the package that a name surely stands for, when no package is called so."""
+    if exists(package, use.name):
+        return None
+    own = programs_of(package).sources
+    if isinstance(use.executable, str) and use.executable in own:
+        return Meant(package.name, f"it has the program {use.executable!r}")
+    if is_near(use.name, package.name):
+        return Meant(package.name, "this package")
+    for other in package.workspace.names:
+        if is_near(use.name, other):
+            return Meant(other, "a package of the workspace")
+    for other in sorted(package.manifest.declared_names):
+        if is_near(use.name, other):
+            return Meant(other, "which package.xml declares")
+    known = similar_package(use.name)
+    return Meant(known, "a package of ROS") if known else None

@@ -1,0 +1,130 @@
+"""Whether the files that launch files name are installed."""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from collections.abc import Iterator
+from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+from scaffold.model.install.share import share_of
+from scaffold.model.launch.markup_file import markup_files
+from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+
+_OF_MADE_FILES = frozenset(
+    {"os.mknod", "os.remove", "os.unlink", "os.path.exists", "os.path.isfile"}
+    | {"xacro.open_output"}
+)
+"""Functions that make, remove or ask for a file that need not be there."""
+
+
+class NamedPath(NamedTuple):
+    """A path below the share directory of a package, named in a launch file."""
+
+    package: str
+    path: str
+    location: Location
+
+
+def paths_of(package: Package) -> Iterator[NamedPath]:
+    """Yield the paths below share directories that launch files of a package name."""
+    for launch in LaunchFile.of_package(package):
+        for found in launch.share_paths:
+            if launch.is_optional(found.node) or _is_given_to_unknown(launch, found.node):
+                continue
+            if not _is_written(launch, found.node):
+                yield NamedPath(found.package, found.path, found.location)
+    for file in markup_files(package):
+        for path in file.paths:
+            if path.path:
+                yield NamedPath(path.package, path.path, path.location)
+
+
+def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a function that Python looks up gets a path: it may ask whether it is there."""
+    call = launch.module.parent(node)
+    if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
+        return False
+    found = launch.module.index.lookup(call.func.id, call.func)
+    made = [one.value.func for one in found[1] if isinstance(one.value, ast.Call)] if found else []
+    return any(isinstance(one, ast.Name) and one.id == "getattr" for one in made)
+
+
+def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a launch file makes the file itself, ``open(path, 'w')``, or asks for it."""
+    holder = launch.module.parent(node)
+    targets = holder.targets if isinstance(holder, ast.Assign) else ()
+    names = {target.id for target in targets if isinstance(target, ast.Name)}
+    for call in launch.module.walk(ast.Call) if names else ():
+        match call:
+            case ast.Call(
+                func=ast.Name(id="open"), args=[ast.Name(id=name), ast.Constant(value=mode), *_]
+            ) if name in names and str(mode)[:1] in "wax":
+                return True
+            case ast.Call(args=[ast.Name(id=name), *_]) if (
+                name in names and launch.module.qualified_name(call.func) in _OF_MADE_FILES
+            ):
+                return not _is_demanded(launch, call)
+    return False
+
+
+def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
+    """Tell whether a launch file raises an error when a file that it asks for is not there."""
+    parents = [one for one in launch.module.parents(call) if isinstance(one, ast.If)]
+    return any(isinstance(node, ast.Raise) for one in parents[:1] for node in ast.walk(one))
+
+
+def why_missing(package: Package, named: NamedPath) -> str | None:
+    """Return why a path is surely not there; ``None`` when it is, or nobody can say."""
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    if owner is None or not _is_file_name(named.path):
+        return None
+    share = share_of(owner)
+    if share.has(named.path) or not share.complete:
+        return None
+    return _reason(owner, named.path, share.files)
+
+
+def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
+    """Return why a path is not among the installed files of its package."""
+    where = [one for one in owner.files if _name(one) == _name(path)]
+    installed = sorted(name for name, source in files.items() if source in where)
+    if installed:
+        return f"it is installed as share/{owner.name}/{installed[0]}"
+    if where:
+        first = path if path in where else where[0]
+        if _nothing_of(first, files):
+            return None  # another rule says that the whole directory is not installed
+        build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
+        return f"{build} of {owner.name} does not install {first}"
+    if any(_name(one).startswith(f"{_name(path)}.") for one in owner.files):
+        return None  # made from a template
+    if is_left_out(owner, path):
+        return None  # made on each machine
+    near = get_close_matches(path, files, 1, 0.6)
+    hint = f"; {near[0]} is" if near else ""
+    return f"{owner.name} has no such file{hint}"
+
+
+def _nothing_of(path: str, installed: dict[str, str]) -> bool:
+    directory = path.partition("/")[0]
+    return not any(source.startswith(f"{directory}/") for source in installed.values())
+
+
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]
+
+
+def _is_file_name(path: str) -> bool:
+    """Tell a file from a directory, from the beginning of a name, and from a pattern."""
+    stem, ending = posixpath.splitext(_name(path))
+    is_pattern = not {"*", "?", "["}.isdisjoint(path)
+    return bool(stem) and 2 <= len(ending) <= 8 and not is_pattern  # noqa: PLR2004  .py to .geojson

@@ -1,0 +1,205 @@
+"""Where a Python launch file uses substitutions as if they had a text while it is read."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import math
+import warnings
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.launch.python_file import LaunchFile
+    from scaffold.model.python.module import PythonModule
+
+
+_KINDS = frozenset(
+    {"Command", "EnvironmentVariable", "FindPackageShare", "LaunchConfiguration"}
+    | {"PathJoinSubstitution", "PythonExpression", "TextSubstitution", "ThisLaunchFileDir"}
+)
+_TEXT_FUNCTIONS = frozenset(
+    {"os.path.join", "os.path.exists", "open", "int", "float", "os.path.isfile", "pathlib.Path"}
+    | {"bool", "len", "range"}
+)
+_METHODS = frozenset({"lower", "upper", "replace", "split", "strip", "format", "startswith"})
+_CONDITIONS = ("IfCondition", "UnlessCondition")
+
+
+class TextUse(NamedTuple):
+    """A place where a substitution is taken for text."""
+
+    node: ast.expr
+    kind: str
+    """The class of the substitution."""
+    what: str
+    """What it is used for, for people."""
+
+
+def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
+    """Yield the places where Python treats a substitution as a text or as a truth value."""
+    module = launch.module
+    for sum_ in module.walk(ast.BinOp):
+        yield from _in_sum(launch, sum_)
+    for call in module.walk(ast.Call):
+        yield from _in_call(launch, call)
+    for part in module.walk(ast.FormattedValue):
+        yield from _one(launch, part.value, "in an f-string")
+    for comparison in module.walk(ast.Compare):
+        yield from _in_comparison(launch, comparison)
+    for item in module.walk(ast.Subscript):
+        if isinstance(_value_of(launch, item.value), ast.Dict):
+            yield from _one(launch, item.slice, "to be looked up")
+    for test in truth_tests(module):
+        if not _is_reported_as_condition(launch, test):
+            yield from _one(launch, test, "to decide by: it is always true")
+
+
+def truth_tests(module: PythonModule) -> Iterator[ast.expr]:
+    """Yield the expressions whose truth Python looks at, without ``not``, ``and``, ``or``."""
+    pending: list[ast.expr] = [one.test for one in module.walk(ast.If)]
+    pending += [one.test for one in module.walk(ast.IfExp)]
+    pending += [one.operand for one in module.walk(ast.UnaryOp) if isinstance(one.op, ast.Not)]
+    pending += [value for one in module.walk(ast.BoolOp) for value in one.values[:-1]]
+    pending += [test for one in module.walk(ast.comprehension) for test in one.ifs]
+    seen: set[ast.expr] = set()
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.BoolOp):
+            pending += node.values
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+            pending.append(node.operand)
+        elif node not in seen:
+            seen.add(node)
+            yield node
+
+
+def _in_sum(launch: LaunchFile, sum_: ast.BinOp) -> Iterator[TextUse]:
+    if isinstance(sum_.op, ast.Mod) and isinstance(sum_.left, ast.Constant | ast.JoinedStr):
+        values = sum_.right.elts if isinstance(sum_.right, ast.Tuple) else [sum_.right]
+        if isinstance(sum_.left, ast.JoinedStr) or isinstance(sum_.left.value, str):
+            for value in values:
+                yield from _one(launch, value, "to be filled in")
+    for node, other in ((sum_.left, sum_.right), (sum_.right, sum_.left)):
+        kind = _kind(launch, node) if isinstance(sum_.op, ast.Add) else ""
+        if kind and isinstance(launch.evaluator.evaluate(other), str):
+            yield TextUse(sum_, kind, "to be added to")
+            return
+
+
+def _in_call(launch: LaunchFile, call: ast.Call) -> Iterator[TextUse]:
+    name = launch.module.qualified_name(call.func)
+    if name in _TEXT_FUNCTIONS or (name == "str" and len(call.args) == 1):
+        for node in call.args:
+            yield from _one(launch, node, f"for {launch.module.text(call.func)}()")
+    match call.func:
+        case ast.Attribute(value=ast.Constant(value=str()), attr="format"):
+            for node in [*call.args, *(word.value for word in call.keywords)]:
+                yield from _one(launch, node, "for format()")
+        case ast.Attribute(value=ast.Constant(value=str()), attr="join"):
+            for node in _joined(call):
+                yield from _one(launch, node, "for join()")
+        case ast.Attribute(value=holder, attr=method):
+            kind = _kind(launch, holder)
+            if kind and method in _METHODS:
+                yield TextUse(holder, kind, f"for {method}()")
+            elif kind and method == "perform" and not call.args and not call.keywords:
+                yield TextUse(call, kind, "without a context")
+
+
+def _joined(call: ast.Call) -> list[ast.expr]:
+    match call.args:
+        case [ast.List(elts=items) | ast.Tuple(elts=items)]:
+            return items
+    return []
+
+
+def _in_comparison(launch: LaunchFile, comparison: ast.Compare) -> Iterator[TextUse]:
+    operator = comparison.ops[0]
+    sides = [comparison.left]
+    if isinstance(operator, ast.Eq | ast.NotEq):
+        sides.append(comparison.comparators[0])
+    elif not isinstance(operator, ast.In | ast.NotIn) or not isinstance(
+        comparison.comparators[0], ast.List | ast.Tuple | ast.Set | ast.Constant
+    ):
+        return
+    for side in sides:
+        yield from _one(launch, side, "to compare")
+
+
+def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether an expression stands in an IfCondition, of which another rule tells more."""
+    for parent in launch.module.parents(node):
+        if isinstance(parent, ast.stmt):
+            return False
+        if isinstance(parent, ast.Call):
+            call = launch.call_of(parent)
+            return call is not None and call.kind in _CONDITIONS
+    return False
+
+
+def _one(launch: LaunchFile, node: ast.expr, what: str) -> Iterator[TextUse]:
+    kind = _kind(launch, node)
+    if kind:
+        yield TextUse(node, kind, what)
+
+
+def _value_of(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
+    if not isinstance(node, ast.Name):
+        return node
+    found = launch.module.index.lookup(node.id, node)
+    values = [binding.value for binding in found[1]] if found else []
+    return values[0] if len(values) == 1 else None
+
+
+def _kind(launch: LaunchFile, node: ast.expr) -> str:
+    call = launch.call_of(node)
+    return call.kind if call is not None and call.kind in _KINDS else ""
+
+
+_NAMES = frozenset({*dir(builtins), *dir(math), "math"})
+
+
+def failure(launch: LaunchFile, node: ast.expr | None) -> str:
+    """Return why an expression fails when nobody gives another value to its arguments.
+
+    Nothing is evaluated: it is looked at whether Python can read it, and knows its names.
+    """
+    text = _text(launch, node)
+    if not isinstance(text, str) or len(text) > 1000:  # noqa: PLR2004  nobody writes that
+        return ""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return f"with the defaults this is {text!r}, which is no expression of Python"
+    own = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name) and _is_set(one)}
+    own |= {one.arg for one in ast.walk(tree) if isinstance(one, ast.arg)}
+    for one in ast.walk(tree):
+        if isinstance(one, ast.Name) and one.id not in _NAMES | own:
+            return f"with the defaults this is {text!r}: the name {one.id!r} is not defined"
+    return ""
+
+
+def _is_set(name: ast.Name) -> bool:
+    return not isinstance(name.ctx, ast.Load)
+
+
+def _text(launch: LaunchFile, node: ast.expr | None) -> str | Unknown:
+    """Return the text of an expression, with the defaults of the launch arguments in it."""
+    if not isinstance(node, ast.List):
+        return _part(launch, node)
+    parts = [_part(launch, item) for item in node.elts]
+    texts = [part for part in parts if isinstance(part, str)]
+    return "".join(texts) if len(texts) == len(parts) else UNKNOWN
+
+
+def _part(launch: LaunchFile, node: ast.expr | None) -> str | Unknown:
+    call = launch.call_of(node)
+    if call is not None and call.kind == "LaunchConfiguration":
+        return launch.default_of(node)
+    return launch.evaluator.joined_text(node)

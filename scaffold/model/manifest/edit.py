@@ -1,0 +1,248 @@
+"""Edits of package.xml that keep everything else of the file as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+from scaffold.edits import Edit
+from scaffold.formats.xml import Element
+from scaffold.model.manifest.manifest import DEPENDENCY_TAGS, Manifest
+from scaffold.record import NamedTuple
+
+SCHEMA = "http://download.ros.org/schema/package_format{}.xsd"
+_DEPENDENCIES = (*DEPENDENCY_TAGS, "conflict", "replace")
+_ORDER: tuple[tuple[str, ...], ...] = (
+    ("name",),
+    ("version",),
+    ("description",),
+    ("maintainer",),
+    ("license",),
+    ("url",),
+    ("author",),
+    _DEPENDENCIES,
+    ("group_depend",),
+    ("member_of_group",),
+    ("export",),
+)
+_SECTION = {tag: number for number, tags in enumerate(_ORDER) for tag in tags}
+
+
+def section(tag: str) -> int | None:
+    """Return the number of the part of the manifest a tag belongs to; they stand in this order."""
+    return _SECTION.get(tag)
+
+
+def insert(
+    manifest: Manifest, tag: str, text: str, attributes: Mapping[str, str] | None = None
+) -> Edit:
+    """Add an element below the root: in its sorted place among its like, else in its order."""
+    return place(manifest, tag, text, render(tag, text, attributes))
+
+
+def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
+    """Add markup behind an element, on a line of its own where that one has one."""
+    return _after(manifest, element, markup)
+
+
+def _insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
+    """Add markup as the last child of an element."""
+    source = manifest.source
+    children = parent.children
+    if children:
+        return _after(manifest, children[-1], markup)
+    outer = _indent_of(manifest, parent)
+    unit = _indentation(manifest)
+    body = f"{source.newline}{outer}{unit}{markup}{source.newline}{outer}"
+    if parent.is_empty_tag:
+        opened = source.text[parent.start : parent.open_end - 2].rstrip()
+        text = f"{opened}>{body}</{parent.tag}>"
+        return Edit(source.path, parent.start, parent.end, text)
+    if source.text[parent.open_end : parent.close_start].strip():
+        return Edit(source.path, parent.close_start, parent.close_start, markup)
+    return Edit(source.path, parent.open_end, parent.close_start, body)
+
+
+def remove(manifest: Manifest, element: Element) -> Edit:
+    """Remove an element, with its line and the comment behind it when it is alone there."""
+    text = manifest.source.text
+    start, end = element.start, _rest_of_line(manifest, element) or element.end
+    line_start = text.rfind("\n", 0, start) + 1
+    line_end = text.find("\n", end)
+    line_end = len(text) if line_end < 0 else line_end + 1
+    if not text[line_start:start].strip() and not text[end:line_end].strip():
+        return Edit(manifest.source.path, line_start, line_end, "")
+    end = element.end
+    while start > line_start and text[start - 1] in " \t" and text[end : end + 1] in {" ", "\t"}:
+        start -= 1
+    return Edit(manifest.source.path, start, end, "")
+
+
+def reorder(manifest: Manifest) -> Edit | None:
+    """Put what stands below the root in the order of the schema.
+
+    Comments and blank lines go with the element they stand in front of. ``None`` when the order
+    is right, or when text between the elements makes a move unsafe.
+    """
+    source, root = manifest.source, manifest.root
+    chunks: list[tuple[int, str]] = []
+    number, at = 0, root.open_end
+    for child in root.children:
+        end = _rest_of_line(manifest, child) or child.end
+        number = _SECTION.get(child.tag, number)
+        chunks.append((number, source.text[at:end]))
+        at = end
+    in_order = sorted(chunks, key=lambda chunk: chunk[0])
+    if in_order == chunks or root.own_text:
+        return None
+    first = next(i for i, pair in enumerate(zip(chunks, in_order, strict=True)) if len({*pair}) > 1)
+    start = root.open_end + sum(len(text) for _, text in chunks[:first])
+    return Edit(source.path, start, at, "".join(text for _, text in in_order[first:]))
+
+
+class InsertedDependency(NamedTuple):
+    """What an edit inserts: a dependency on a line of its own."""
+
+    name: str
+    rank: int
+    """Where its tag is by custom among those of dependencies."""
+    is_before: bool
+    """Whether the line is put before another, and not after it."""
+
+
+def inserted_dependency(edit: Edit) -> InsertedDependency | None:
+    """Return what an edit inserts, if it is one dependency on a line of its own."""
+    import re
+
+    inserted = re.fullmatch(r"(\s*)<([a-z_]+)[^<>]*>([^<>]+)</\2>(\s*)", edit.text)
+    if inserted is None or inserted[2] not in _DEPENDENCIES:
+        return None
+    ahead, after = ("\n" in inserted[1], "\n" in inserted[4])
+    if ahead == after:
+        return None
+    return InsertedDependency(inserted[3].strip(), _custom(inserted[2]), is_before=after)
+
+
+def rename(manifest: Manifest, element: Element, tag: str) -> tuple[Edit, ...]:
+    """Give an element another tag."""
+    path = manifest.source.path
+    start = element.start + 1
+    edits = [Edit(path, start, start + len(element.tag), tag)]
+    if not element.is_empty_tag:
+        start = element.close_start + 2
+        edits.append(Edit(path, start, start + len(element.tag), tag))
+    return tuple(edits)
+
+
+def render(tag: str, text: str, attributes: Mapping[str, str] | None = None) -> str:
+    """Return the markup of an element."""
+    written = "".join(
+        f' {name}="{escape(value, chr(34))}"' for name, value in (attributes or {}).items()
+    )
+    return f"<{tag}{written}>{escape(text)}</{tag}>" if text else f"<{tag}{written}/>"
+
+
+def escape(text: str, quote: str = "") -> str:
+    """Return text as it is written in XML."""
+    text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return text.replace('"', "&quot;") if quote == '"' else text
+
+
+def place(manifest: Manifest, tag: str, text: str, markup: str) -> Edit:
+    """Add the markup of an element below the root, where it belongs."""
+    children = manifest.root.children
+    run = _last_run(children, tag)
+    if run:
+        texts = [element.text for element in run]
+        if all(one <= two for one, two in pairwise(texts)):
+            for element in run:
+                if element.text > text:
+                    return _before(manifest, element, markup)
+        return _after(manifest, run[-1], markup)
+    anchor = _predecessor(children, tag)
+    if anchor is not None:
+        return _after(manifest, anchor, markup)
+    if children:
+        return _before(manifest, children[0], markup)
+    return _insert_into(manifest, manifest.root, markup)
+
+
+def _last_run(children: Sequence[Element], tag: str) -> list[Element]:
+    run: list[Element] = []
+    for child in reversed(children):
+        if child.tag == tag:
+            run.append(child)
+        elif run:
+            break
+    return run[::-1]
+
+
+def _predecessor(children: Sequence[Element], tag: str) -> Element | None:
+    """Return the last element that must, or by custom does, stand before a new one."""
+    own = _SECTION.get(tag, len(_ORDER))
+    found: Element | None = None
+    for child in children:
+        number = _SECTION.get(child.tag, -1)
+        if number < own or (number == own and _custom(child.tag) <= _custom(tag)):
+            found = child
+    return found
+
+
+def _custom(tag: str) -> int:
+    return _DEPENDENCIES.index(tag) if tag in _DEPENDENCIES else 0
+
+
+def _after(manifest: Manifest, element: Element, markup: str) -> Edit:
+    source = manifest.source
+    at = _rest_of_line(manifest, element)
+    if at is None:
+        return Edit(source.path, element.end, element.end, markup)
+    text = f"{source.newline}{_indent_of(manifest, element)}{markup}"
+    return Edit(source.path, at, at, text)
+
+
+def _before(manifest: Manifest, element: Element, markup: str) -> Edit:
+    source = manifest.source
+    at = element.start
+    first = source.text.rfind("\n", 0, at) + 1
+    if source.text[first:at].strip(" \t") or not first:
+        return Edit(source.path, at, at, markup)
+    return Edit(source.path, at, at, f"{markup}{source.newline}{source.text[first:at]}")
+
+
+def _rest_of_line(manifest: Manifest, element: Element) -> int | None:
+    """Return where the line of an element ends, behind comments; None if more markup follows."""
+    text = manifest.source.text
+    at = element.end
+    comments = {comment.start: comment.end for comment in manifest.comments}
+    behind = at
+    while at < len(text):
+        if text[at] in " \t":
+            at += 1
+        elif text[at] in "\r\n":
+            return behind
+        elif at in comments and "\n" not in text[at : comments[at]]:
+            at = behind = comments[at]
+        elif at in comments:
+            return element.end
+        else:
+            return None
+    return behind
+
+
+def _indent_of(manifest: Manifest, element: Element) -> str:
+    """Return the blanks in front of the line that an element begins on."""
+    text = manifest.source.text
+    first = text.rfind("\n", 0, element.start) + 1
+    line = text[first : element.start]
+    return line[: len(line) - len(line.lstrip(" \t"))]
+
+
+def _indentation(manifest: Manifest) -> str:
+    """Return what one level of this file is indented by."""
+    outer = _indent_of(manifest, manifest.root)
+    for child in manifest.root.children:
+        inner = _indent_of(manifest, child)
+        if len(inner) > len(outer) and inner.startswith(outer):
+            return inner[len(outer) :]
+    return "  "

@@ -1,0 +1,284 @@
+"""package.xml: what the manifest of a package says, and where."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.formats import xml as xml_tree
+from scaffold.formats.xml import Comment, Document, Element, Instruction, decode
+from scaffold.record import NamedTuple
+from scaffold.source import Location, Source
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from scaffold.edits import Edit
+
+__all__ = [
+    "DEPENDENCY_TAGS",
+    "Dependency",
+    "Element",
+    "Manifest",
+    "XmlModel",
+    "decode",
+]
+
+NEWEST_FORMAT = 3
+
+# What a dependency of each kind is needed for: building, building against, running, testing.
+_PURPOSES: dict[str, frozenset[str]] = {
+    "buildtool_depend": frozenset({"build"}),
+    "buildtool_export_depend": frozenset({"build_export"}),
+    "build_depend": frozenset({"build"}),
+    "build_export_depend": frozenset({"build_export"}),
+    "run_depend": frozenset({"build_export", "run"}),
+    "exec_depend": frozenset({"run"}),
+    "depend": frozenset({"build", "build_export", "run"}),
+    "doc_depend": frozenset({"doc"}),
+    "test_depend": frozenset({"test"}),
+}
+DEPENDENCY_TAGS = tuple(_PURPOSES)
+"""The tags of dependencies on packages, in the order that people write them."""
+
+
+class Dependency(NamedTuple):
+    """A dependency on a package or a rosdep key."""
+
+    name: str
+    kind: str
+    """The tag: ``exec_depend``, ``depend`` …"""
+    element: Element
+    condition: str | None
+
+    @property
+    def location(self) -> Location:
+        """The place of the name."""
+        return self.element.text_location
+
+    @property
+    def active(self) -> bool:
+        """Whether its condition holds on Jazzy; a broken condition does not."""
+        return _is_active(self.condition)
+
+
+class XmlModel(NamedTuple):
+    """The line that names the schema: ``<?xml-model href="…" schematypens="…"?>``."""
+
+    href: str | None
+    location: Location
+    instruction: Instruction
+
+
+class Manifest:
+    """A package manifest, format 1 to 3."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.source: Source = document.source
+        self.root: Element = document.root
+
+    @classmethod
+    def parse(cls, source: Source) -> Manifest:
+        """Read a manifest.
+
+        Raises:
+            ParseError: it is not well-formed XML, or has a document type declaration.
+        """
+        return cls(xml_tree.parse(source))
+
+    # -- elements
+
+    def all(self, tag: str) -> list[Element]:
+        """Return the elements with a tag directly below the root, in the order of the file."""
+        return self._by_tag.get(tag, [])
+
+    def one(self, tag: str) -> Element | None:
+        """Return the first element with a tag directly below the root."""
+        found = self._by_tag.get(tag)
+        return found[0] if found else None
+
+    @cached_property
+    def _by_tag(self) -> Mapping[str, list[Element]]:
+        found: dict[str, list[Element]] = {}
+        for child in self.root.children:
+            found.setdefault(child.tag, []).append(child)
+        return found
+
+    @property
+    def comments(self) -> list[Comment]:
+        """All comments of the file."""
+        return self.document.comments
+
+    # -- identity
+
+    @property
+    def declared_format(self) -> str | None:
+        """The attribute ``format`` as it is written."""
+        return self.root.get("format")
+
+    @property
+    def format(self) -> int:
+        """The format; 1 when none is declared, the newest when the number cannot be read."""
+        declared = self.declared_format
+        if declared is None:
+            return 1
+        try:
+            return int(declared) if declared.isascii() else NEWEST_FORMAT
+        except ValueError:
+            return NEWEST_FORMAT
+
+    @property
+    def name(self) -> str:
+        """The name of the package; empty when there is none."""
+        return self._text("name")
+
+    @property
+    def version(self) -> str:
+        """The version; empty when there is none."""
+        return self._text("version")
+
+    @property
+    def description(self) -> str:
+        """The description; empty when there is none."""
+        return self._text("description")
+
+    def _text(self, tag: str) -> str:
+        element = self.one(tag)
+        return element.text if element is not None else ""
+
+    # -- dependencies
+
+    @cached_property
+    def dependencies(self) -> list[Dependency]:
+        """The dependencies of every kind, in the order of the file."""
+        return [
+            Dependency(child.text, child.tag, child, child.get("condition"))
+            for child in self.root.children
+            if child.tag in _PURPOSES
+        ]
+
+    def depends(self, *kinds: str) -> dict[str, Dependency]:
+        """Return the dependencies of some kinds (of all, if none is given) by name.
+
+        Of several on one package it is the first. Conditions are not looked at.
+        """
+        if kinds not in self._depends:
+            found: dict[str, Dependency] = {}
+            for dependency in self.dependencies:
+                if not kinds or dependency.kind in kinds:
+                    found.setdefault(dependency.name, dependency)
+            self._depends[kinds] = found
+        return self._depends[kinds]
+
+    @cached_property
+    def _depends(self) -> dict[tuple[str, ...], dict[str, Dependency]]:
+        return {}
+
+    def names_for(self, *purposes: str) -> set[str]:
+        """Return the packages that are there on Jazzy for some purposes.
+
+        Args:
+            purposes: Of ``build``, ``build_export``, ``run``, ``test`` and ``doc``.
+        """
+        return {
+            dependency.name
+            for dependency in self.dependencies
+            if not _PURPOSES[dependency.kind].isdisjoint(purposes) and dependency.active
+        }
+
+    @cached_property
+    def build_names(self) -> set[str]:
+        """What is there when the package is built: ``buildtool_``, ``build_`` and ``depend``."""
+        return self.names_for("build")
+
+    @cached_property
+    def build_export_names(self) -> set[str]:
+        """What is there when another package is built against this one."""
+        return self.names_for("build_export")
+
+    @cached_property
+    def run_names(self) -> set[str]:
+        """What is there when the package runs: ``exec_depend``, ``depend``, ``run_depend``."""
+        return self.names_for("run")
+
+    @cached_property
+    def test_names(self) -> set[str]:
+        """What is there for tests beyond what building and running need: ``test_depend``."""
+        return self.names_for("test")
+
+    @cached_property
+    def declared_names(self) -> set[str]:
+        """Every package that any dependency names, on Jazzy or not."""
+        return {dependency.name for dependency in self.dependencies}
+
+    @property
+    def groups(self) -> list[Element]:
+        """The elements ``group_depend`` and ``member_of_group``."""
+        tags = {"group_depend", "member_of_group"}
+        return [child for child in self.root.children if child.tag in tags]
+
+    def member_of(self, group: str) -> bool:
+        """Tell whether the package is a member of a group."""
+        return any(
+            element.text == group and _is_active(element.get("condition"))
+            for element in self.all("member_of_group")
+        )
+
+    # -- export
+
+    @cached_property
+    def exports(self) -> list[Element]:
+        """The elements inside ``<export>``."""
+        return [child for export in self.all("export") for child in export.children]
+
+    @cached_property
+    def build_type_elements(self) -> list[Element]:
+        """The ``<build_type>`` elements inside ``<export>``, whatever their conditions."""
+        return [element for element in self.exports if element.tag == "build_type"]
+
+    @property
+    def build_type(self) -> str | None:
+        """The build type on Jazzy; the last one, if there are several."""
+        found = [
+            element.text
+            for element in self.build_type_elements
+            if _is_active(element.get("condition"))
+        ]
+        return found[-1] if found else None
+
+    # -- around the root
+
+    @cached_property
+    def xml_models(self) -> list[XmlModel]:
+        """All ``<?xml-model …?>`` lines."""
+        return [
+            XmlModel(instruction.pseudo_attributes.get("href"), instruction.location, instruction)
+            for instruction in self.document.instructions
+            if instruction.target == "xml-model"
+        ]
+
+    # -- edits
+
+    def insert(self, tag: str, text: str, attributes: Mapping[str, str] | None = None) -> Edit:
+        """Return the edit that adds an element below the root, where it belongs."""
+        from scaffold.model.manifest import edit as manifest_edit
+
+        return manifest_edit.insert(self, tag, text, attributes)
+
+    def remove(self, element: Element) -> Edit:
+        """Return the edit that removes an element, with its line when it is alone there."""
+        from scaffold.model.manifest import edit as manifest_edit
+
+        return manifest_edit.remove(self, element)
+
+
+def _is_active(condition: str | None) -> bool:
+    if condition is None:
+        return True
+    from scaffold.model.manifest import conditions  # few manifests have one
+
+    try:
+        return conditions.holds(condition)
+    except conditions.ConditionError:
+        return False

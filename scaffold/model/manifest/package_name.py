@@ -1,0 +1,66 @@
+"""Which of two names of a package is the wrong one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+def other_name(package: Package) -> str | None:
+    """Return the name that everything but package.xml uses, if that is so.
+
+    The build file names the package otherwise, and more of the directory, the Python package,
+    the marker and setup.cfg agree with it than with package.xml: then package.xml is to blame.
+    """
+    return package.remember("other_name", lambda: _other_name(package))
+
+
+def _other_name(package: Package) -> str | None:
+    try:
+        declared = package.manifest.name
+    except ViewError:
+        return None
+    other = _built_name(package)
+    if not other or not declared or _plain(other) == _plain(declared):
+        return None
+    if _witnesses(package, other) > _witnesses(package, declared):
+        return other
+    return None
+
+
+def _built_name(package: Package) -> str | None:
+    """Return the name in CMakeLists.txt or setup.py."""
+    try:
+        if package.has("CMakeLists.txt"):
+            return package.cmake.project_name
+        name = package.setup_py.name
+    except ViewError:
+        return None
+    return name if isinstance(name, str) else None
+
+
+def _witnesses(package: Package, name: str) -> int:
+    """Count what else in the package has a name."""
+    return sum(
+        (
+            package.directory.rstrip("/").rpartition("/")[2] == name,
+            package.has(f"{name}/__init__.py"),
+            package.has(f"resource/{name}"),
+            f"lib/{name}" in _script_directory(package),
+        )
+    )
+
+
+def _script_directory(package: Package) -> str:
+    try:
+        return package.setup_cfg.get("install", "install_scripts") or ""
+    except ViewError:
+        return ""
+
+
+def _plain(name: str) -> str:
+    return name.replace("-", "_")

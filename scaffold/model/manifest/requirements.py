@@ -1,0 +1,196 @@
+"""What the Python code of a package needs from other packages: its imports, as manifest keys."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, provided_by
+from scaffold.model.cmake.rosidl import generations
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import Import, PythonModule
+    from scaffold.source import Location
+
+INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
+_NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
+_OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
+
+
+class Need(NamedTuple):
+    """An import that another package has to provide."""
+
+    keys: tuple[str, ...]
+    """The manifest keys that would do, the usual one first."""
+    module: str
+    """The top-level name that is imported."""
+    location: Location
+    """The first import of it."""
+    for_tests: bool
+    """Only tests import it."""
+
+
+class Declared(NamedTuple):
+    """What the manifest says is there, directly and along the way."""
+
+    direct: set[str]
+    along: set[str]
+
+
+def needs(package: Package) -> list[Need]:
+    """Return what the package imports from others, once each; what is not known is left out."""
+    found: dict[str, Need] = {}
+    local = _local_names(package)
+    for module in package.modules():
+        if not is_shipped(package, module):
+            continue
+        for one in module.imports:
+            keys = _keys(package, one, local)
+            if not keys:
+                continue
+            known = found.get(one.root)
+            for_tests = module.in_tests or _is_named_for_tests(package, module.path)
+            if known is None or (known.for_tests and not for_tests):
+                found[one.root] = Need(keys, one.root, one.location, for_tests)
+    return sorted(found.values(), key=lambda need: need.location)
+
+
+def declared(package: Package, *, for_tests: bool) -> Declared:
+    """Return what is there when the package runs, or when its tests run."""
+    return package.remember(("declared", for_tests), lambda: _declared(package, for_tests))
+
+
+def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  as declared() says
+    manifest = package.manifest
+    direct = set(manifest.run_names)
+    # What generates code while the package is built stands among its modules, too.
+    direct |= {one.name for one in manifest.dependencies if one.kind.startswith("buildtool")}
+    if for_tests:
+        direct |= manifest.test_names | manifest.build_names
+    along = provided_by(direct)
+    seen = {package.name}
+    pending = sorted(direct)
+    while pending:
+        name = pending.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        neighbour = package.workspace.get(name)
+        if neighbour is not None:
+            brought = _run_names(neighbour)
+            along |= brought
+            pending += sorted(brought)
+    return Declared(direct, along | provided_by(along))
+
+
+def is_shipped(package: Package, module: PythonModule) -> bool:
+    """Tell whether a file is installed or is a test; helper scripts and documentation are not.
+
+    A module of a Python package, a launch file, a test, or a script that a build file names.
+    """
+    path = module.path
+    if path.startswith(_NOT_SHIPPED) or path.endswith("/setup.py"):
+        return False
+    if path.endswith("launch.py") or not path.endswith(".py"):
+        return True
+    directory, _, name = path.rpartition("/")
+    if module.in_tests and (_is_collected(name) or _is_imported_by_tests(package, name)):
+        return True
+    if directory and package.has(f"{directory}/requirements.txt"):
+        return False  # a tool for itself
+    if directory and package.has(f"{directory}/__init__.py"):
+        # "talker copy" is no package: nothing can import it.
+        return directory.replace("/", "").replace("-", "").isidentifier()
+    # The directory as a whole, not ``console_scripts`` and not another file of it.
+    whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
+    return any(
+        name in text or (directory and re.search(whole, text) is not None)
+        for text in _builds(package)
+    )
+
+
+def _is_collected(name: str) -> bool:
+    """Tell whether pytest, or launch_testing, runs a file of its own accord."""
+    return name.startswith("test_") or name.endswith(("_test.py", ".test.py")) or "conftest" in name
+
+
+def _is_imported_by_tests(package: Package, name: str) -> bool:
+    def find() -> set[str]:
+        imports = [one for module in package.modules() if module.in_tests for one in module.imports]
+        words = {part for one in imports for part in one.module.split(".")}
+        return words | {name.name for one in imports for name in one.names}
+
+    stem = name.removesuffix(".py")
+    return stem in package.remember("imported_by_tests", find)
+
+
+def _is_named_for_tests(package: Package, path: str) -> bool:
+    """Tell whether CMake has to do with a file, or its directory, for tests alone."""
+    try:
+        cmake = package.cmake
+    except ViewError:
+        return False
+    names = {path, path.rpartition("/")[2], path.rpartition("/")[0]} - {""}
+    using = [one for one in cmake.commands if not names.isdisjoint(one.values)]
+    return bool(using) and all(cmake.guarded_by_testing(one) for one in using)
+
+
+def _builds(package: Package) -> Iterator[str]:
+    for path in ("CMakeLists.txt", "setup.py"):
+        try:
+            yield package.source(path).text
+        except ViewError:
+            continue
+
+
+def _keys(package: Package, one: Import, local: frozenset[str]) -> tuple[str, ...]:
+    root = one.root
+    if not root or one.guarded or root in local or root == package.name:
+        return ()
+    if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
+        return ()
+    known = keys_of_module(root)
+    if known:
+        return known
+    names = one.module.split(".")
+    if root in ROS1_PACKAGES:
+        return ()
+    is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
+    if is_interface or package.workspace.get(root) is not None:
+        return (root,)
+    return ()
+
+
+def _local_names(package: Package) -> frozenset[str]:
+    """Return the names of own modules: scripts import what lies beside them.
+
+    A directory counts when it is a Python package, or when no ROS package has its name: nearly
+    every package has a ``launch/``, which is not what ``import launch`` means.
+    """
+    files = {path.rpartition("/")[2][:-3] for path in package.python_files if path.endswith(".py")}
+    directories = {
+        path.rpartition("/")[2]
+        for path in package.tree.directories
+        if package.has(f"{path}/__init__.py") or not keys_of_module(path.rpartition("/")[2])
+    }
+    return frozenset(files | directories | _generated_names(package))
+
+
+def _generated_names(package: Package) -> set[str]:
+    """Return the modules that CMake generates of interfaces; tests may have some of their own."""
+    try:
+        return {one.target for one in generations(package) if one.target}
+    except ViewError:
+        return set()
+
+
+def _run_names(package: Package) -> set[str]:
+    try:
+        return package.manifest.run_names
+    except ViewError:
+        return set()

@@ -1,0 +1,240 @@
+"""What may stand in a package.xml, where and how often: formats 1 to 3.
+
+The verdict is that of the schemas which ament_xmllint uses, with two deliberate exceptions: a
+dot in a version is a dot (their pattern lets any character pass), and a document type declaration
+is refused by the reader. What differs from them in the other direction would be a defect.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from scaffold.formats.xml import BLANK, Attribute, Element, Text
+from scaffold.model.manifest.manifest import Manifest
+from scaffold.record import NamedTuple
+from scaffold.source import Location
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_MOST_UNKNOWN = 1000  # elements that are named; each is compared with all known ones
+FORMATS = (1, 2, 3)
+PLAIN = ("name", "version", "description", "maintainer", "license", "url", "author")
+REQUIRED = PLAIN[:5]
+ONCE = frozenset({"name", "version", "description", "export"})
+GROUPS = ("group_depend", "member_of_group")
+_EVER = ("build_depend", "buildtool_depend", "test_depend", "conflict", "replace")
+_SINCE_2 = ("build_export_depend", "buildtool_export_depend", "exec_depend", "depend", "doc_depend")
+_DEPENDENCIES = {1: (*_EVER, "run_depend"), 2: (*_EVER, *_SINCE_2), 3: (*_EVER, *_SINCE_2)}
+_LIMITS = ("version_lt", "version_lte", "version_eq", "version_gte", "version_gt")
+LIMITS = frozenset(_LIMITS)
+_SCHEMA_INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"
+_SCHEMA_ATTRIBUTES = frozenset({"noNamespaceSchemaLocation", "schemaLocation"})
+
+
+class Unknown(NamedTuple):
+    """An element that the format does not have at this place."""
+
+    element: Element
+    since: int | None
+    """The format that has it, if a later one does."""
+
+
+class Misplaced(NamedTuple):
+    """Elements of one kind, side by side, that stand in the wrong place."""
+
+    elements: list[Element]
+    after: Element | None
+    """Where they belong: behind this one."""
+    before: Element | None
+    """And before this one."""
+
+
+class Structure:
+    """How a manifest is built; every property is a list of mistakes of one kind."""
+
+    def __init__(self, manifest: Manifest) -> None:
+        self.manifest = manifest
+        self.root = manifest.root
+        self.format = manifest.format if manifest.format in FORMATS else FORMATS[-1]
+        self.dependency_tags = _DEPENDENCIES[self.format]
+        self.sections = _sections(self.format)
+        """The number of the part of the manifest that a tag belongs to."""
+        self.is_manifest = self.root.tag == "package"
+
+    @cached_property
+    def children(self) -> list[Element]:
+        """The elements below the root; none if the root is another element."""
+        return self.root.children if self.is_manifest else []
+
+    @cached_property
+    def known(self) -> list[Element]:
+        """The elements below the root that the format has."""
+        return [child for child in self.children if child.tag in self.sections]
+
+    # -- elements
+
+    @cached_property
+    def unknown(self) -> list[Unknown]:
+        """The elements that the format does not have."""
+        found = [] if self.is_manifest else [self.root]
+        found += [child for child in self.children if child.tag not in self.sections]
+        return [Unknown(element, self._since(element.tag)) for element in found[:_MOST_UNKNOWN]]
+
+    def _since(self, tag: str) -> int | None:
+        return next((n for n in FORMATS if n > self.format and tag in _sections(n)), None)
+
+    @cached_property
+    def missing(self) -> list[str]:
+        """The tags of elements that every manifest has."""
+        there = {child.tag for child in self.known}
+        return [tag for tag in REQUIRED if tag not in there] if self.is_manifest else []
+
+    @cached_property
+    def repeated(self) -> list[tuple[Element, Element]]:
+        """The elements that may stand there once, with the first of their kind."""
+        first: dict[str, Element] = {}
+        for child in self.known:
+            first.setdefault(child.tag, child)
+        return [
+            (child, first[child.tag])
+            for child in self.known
+            if child.tag in ONCE and first[child.tag] is not child
+        ]
+
+    @cached_property
+    def misplaced(self) -> list[Misplaced]:
+        """The fewest elements that must move for the order to be right."""
+        again = {id(element) for element, _ in self.repeated}
+        row = [child for child in self.known if id(child) not in again]
+        numbers = [self.sections[child.tag] for child in row]
+        kept = _longest_run(numbers)
+        if len(kept) == len(row):
+            return []
+        staying = [row[index] for index in kept]
+        order = [numbers[index] for index in kept]
+        found: list[Misplaced] = []
+        stays = frozenset(kept)
+        # Side by side and of one section: one mistake.
+        keyed = groupby(range(len(row)), lambda i: (i in stays, numbers[i]))
+        for (stay, number), indices in keyed:
+            if not stay:
+                at = bisect_right(order, number)
+                after = staying[at - 1] if at else None
+                before = staying[at] if at < len(staying) else None
+                found.append(Misplaced([row[index] for index in indices], after, before))
+        return found
+
+    @cached_property
+    def nested(self) -> list[tuple[Element, Element]]:
+        """Elements inside of such that hold text only, with the one around them."""
+        return [
+            (child.children[0], child)
+            for child in self.known
+            if child.tag not in {"description", "export"} and child.children
+        ]
+
+    @cached_property
+    def stray_texts(self) -> list[Location]:
+        """Text between elements, in the root and in ``export``."""
+        parents = [self.root] if self.is_manifest else []
+        parents += [child for child in self.known if child.tag == "export"]
+        return sorted(at for parent in parents for at in self._stray(parent))
+
+    def _stray(self, parent: Element) -> Iterator[Location]:
+        for is_text, items in groupby(parent.content, lambda item: isinstance(item, Text)):
+            runs = [i for i in items if isinstance(i, Text) and i.text.strip(BLANK)]
+            if is_text and runs:
+                start = runs[0].start + len(runs[0].text) - len(runs[0].text.lstrip(BLANK))
+                end = max(runs[-1].start + len(runs[-1].text.rstrip(BLANK)), start + 1)
+                yield self.manifest.source.location(start, end)
+
+    # -- attributes
+
+    @cached_property
+    def unknown_attributes(self) -> list[tuple[Element, Attribute]]:
+        """The attributes that the format does not have there."""
+        elements = [self.root, *self.known] if self.is_manifest else []
+        return [
+            (element, attribute)
+            for element in elements
+            for attribute in element.attributes.values()
+            if not self._knows(element, attribute)
+        ]
+
+    def _knows(self, element: Element, attribute: Attribute) -> bool:
+        name = attribute.name
+        if name in self.attributes(element):
+            return True
+        prefix, colon, local = name.partition(":")
+        if not colon:
+            return name == "xmlns" and not attribute.value
+        bound = element.get(f"xmlns:{prefix}") or self.root.get(f"xmlns:{prefix}")
+        is_schema = bound == _SCHEMA_INSTANCE and local in _SCHEMA_ATTRIBUTES
+        return prefix == "xmlns" or is_schema
+
+    def attributes(self, element: Element) -> tuple[str, ...]:
+        """Return the names of the attributes that an element may have in this format."""
+        return ("format",) if element is self.root else self._attributes.get(element.tag, ())
+
+    @cached_property
+    def _attributes(self) -> dict[str, tuple[str, ...]]:
+        newest = self.format == FORMATS[-1]
+        limits = (*_LIMITS, "condition") if newest else _LIMITS
+        found: dict[str, tuple[str, ...]] = dict.fromkeys(self.dependency_tags, limits)
+        found |= {"maintainer": ("email",), "author": ("email",), "url": ("type",)}
+        if newest:
+            found |= {"license": ("file",), **dict.fromkeys(GROUPS, ("condition",))}
+        return found
+
+    # -- values
+
+    def values(self, tag: str) -> Iterator[tuple[Element, str]]:
+        """Yield the elements with a tag that hold text only, and their text, blanks joined."""
+        for child in self.known:
+            if child.tag == tag and not child.children:
+                text = "".join(item.text for item in child.content if isinstance(item, Text))
+                yield child, collapse(text)
+
+
+def structure(package: Package) -> Structure:
+    """Return how the manifest of a package is built; raises ViewError without a manifest."""
+    return package.remember("manifest_structure", lambda: Structure(package.manifest))
+
+
+def collapse(text: str) -> str:
+    """Join the blanks of XML, not those of Unicode, as schemas do for every value."""
+    for blank in "\t\r\n":
+        text = text.replace(blank, " ")
+    return " ".join(word for word in text.split(" ") if word)
+
+
+def _sections(number: int) -> dict[str, int]:
+    rows: list[tuple[str, ...]] = [(tag,) for tag in PLAIN]
+    rows.append(_DEPENDENCIES[number])
+    if number == FORMATS[-1]:
+        rows += [(tag,) for tag in GROUPS]
+    rows.append(("export",))
+    return {tag: place for place, tags in enumerate(rows) for tag in tags}
+
+
+def _longest_run(numbers: list[int]) -> list[int]:
+    """Return the indices of a longest subsequence that does not fall."""
+    tails: list[int] = []
+    ends: list[int] = []
+    before: list[int] = []
+    for index, number in enumerate(numbers):
+        at = bisect_right(tails, number)
+        before.append(ends[at - 1] if at else -1)
+        tails[at : at + 1] = [number]
+        ends[at : at + 1] = [index]
+    found: list[int] = []
+    at = ends[-1] if ends else -1
+    while at >= 0:
+        found.append(at)
+        at = before[at]
+    return found[::-1]

@@ -1,0 +1,1 @@
+"""Messages in Python code: their types, fields and values."""

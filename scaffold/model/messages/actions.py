@@ -1,0 +1,92 @@
+"""What an action client is given: feedback and results, each inside of a message of rclpy."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.api import future_given
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.entities import ActionClient
+    from scaffold.model.rclpy.file import NodeFacts
+
+
+class Wrapped(NamedTuple):
+    """A message that holds a part of an action and little else."""
+
+    client: ActionClient
+    part: str
+    """``Feedback`` or ``Result``."""
+    field: str
+    """The field that it is in."""
+    other: str
+    """The only other field."""
+
+
+class ActionMessages:
+    """Finds in a file the messages that action clients are given."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+        self._clients = {client.call: client for client in facts.action_clients}
+        self._feedback = dict(self._feedback_arguments())
+
+    def wrapped(self, node: ast.expr) -> Wrapped | None:
+        """Return what an expression surely is, if a client is given it."""
+        if not self._clients:
+            return None
+        value = self._facts.evaluator.single_value(node)
+        argument = self._facts.parameter_of(value)
+        client = self._feedback.get(argument) if argument is not None else None
+        if client is not None:
+            return Wrapped(client, "Feedback", "feedback", "goal_id")
+        made = self._made_of(value, "get_result_async")
+        sent = self._made_of(made, "send_goal_async") if made is not None else None
+        client = self._client(sent)
+        return Wrapped(client, "Result", "result", "status") if client else None
+
+    def _made_of(self, node: ast.expr, method: str) -> ast.expr | None:
+        """Return whose method gave the future that an expression is the result of."""
+        match self._facts.evaluator.single_value(node):
+            case ast.Call(func=ast.Attribute(attr="result", value=future), args=[]):
+                given = future_given(self._facts, future)
+                made = self._facts.evaluator.single_value(future if given is None else given)
+            case ast.Await(value=awaited):
+                made = self._facts.evaluator.single_value(awaited)
+            case _:
+                return None
+        match made:
+            case ast.Call(func=ast.Attribute(attr=name, value=holder)) if name == method:
+                return holder
+        return None
+
+    def _client(self, node: ast.expr | None) -> ActionClient | None:
+        call = self._facts.evaluator.single_value(node) if node is not None else None
+        return self._clients.get(call) if isinstance(call, ast.Call) else None
+
+    def _feedback_arguments(self) -> Iterator[tuple[ast.arg, ActionClient | None]]:
+        """Yield the parameters that are given feedback, with the client that gives it."""
+        found: dict[ast.arg, ActionClient | None] = {}
+        for attribute in self._facts.module.index.attributes("send_goal_async"):
+            call = self._facts.module.parent(attribute)
+            client = self._client(attribute.value)
+            if not isinstance(call, ast.Call) or call.func is not attribute or client is None:
+                continue
+            named = [word.value for word in call.keywords if word.arg == "feedback_callback"]
+            for given in [*call.args[1:2], *named]:
+                callback = self._facts.callback(given)
+                function = callback.function
+                if function is None or callback.is_called or callback.is_partial:
+                    continue
+                if not isinstance(function, ast.Lambda) and function.decorator_list:
+                    continue
+                arguments = [*function.args.posonlyargs, *function.args.args]
+                for argument in arguments[int(callback.is_bound) :][:1]:
+                    same = found.get(argument, client)
+                    found[argument] = (
+                        client if same and same.interface == client.interface else None
+                    )
+        yield from found.items()

@@ -1,0 +1,446 @@
+"""Whether a value that Python code gives to a field of a message fits its type."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.model.messages.inference import Assigned, MessageTypes
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
+
+RCLPY_TIMES: Mapping[str | None, str] = {
+    "rclpy.time.Time": "builtin_interfaces/msg/Time",
+    "rclpy.duration.Duration": "builtin_interfaces/msg/Duration",
+}
+"""The classes of rclpy that ``to_msg()`` turns into messages."""
+_CLOCKS = frozenset({"rclpy.clock.Clock", "rclpy.clock.ROSClock"})
+_RETURNS: Mapping[str, str] = {
+    "bool": "bool",
+    "float": "float",
+    "input": "str",
+    "int": "int",
+    "isinstance": "bool",
+    "len": "int",
+    "ord": "int",
+    "repr": "str",
+    "str": "str",
+    "math.atan2": "float",
+    "math.cos": "float",
+    "math.radians": "float",
+    "math.degrees": "float",
+    "math.sin": "float",
+    "math.sqrt": "float",
+    "math.floor": "int",
+    "math.ceil": "int",
+    "time.time": "float",
+    "math.hypot": "float",
+    "math.tan": "float",
+    "random.gauss": "float",
+    "random.randint": "int",
+    "random.random": "float",
+    "random.uniform": "float",
+    "time.monotonic": "float",
+    "time.perf_counter": "float",
+    "time.time_ns": "int",
+}
+_NAMES = {
+    "bool": "a bool",
+    "bytes": "bytes",
+    "dict": "a dict",
+    "float": "a float",
+    "int": "an int",
+    "list": "a list",
+    "none": "None",
+    "str": "a str",
+}
+_OF_TEXT = {
+    **dict.fromkeys(("lower", "upper", "strip", "rstrip", "lstrip", "title", "replace"), "str"),
+    **dict.fromkeys(("format", "join", "capitalize", "removeprefix", "removesuffix"), "str"),
+    "encode": "bytes",
+    "split": "list",
+    "splitlines": "list",
+}
+"""What methods of a text return."""
+_NUMBERS = frozenset({"int", "float"})
+_DEPTH = 8
+_SMALL = frozenset({"int8", "uint8", "byte", "char", "int16", "uint16"})
+_SHOWN = 30
+_NOW = 1.7e18
+"""Nanoseconds since 1970, these years."""
+
+
+def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
+    """Return the message that ``to_msg()`` of an rclpy Time or Duration would give.
+
+    ``None`` for what is not surely one: ``builtin_interfaces/msg/Time`` and so on.
+    """
+    value = types.facts.evaluator.single_value(node)
+    if not isinstance(value, ast.Call):
+        return None
+    called = types.module.qualified_name(value.func)
+    if called in RCLPY_TIMES:
+        return RCLPY_TIMES[called]
+    match value.func:
+        case ast.Attribute(attr="now", value=clock) if _is_clock(types, clock):
+            return RCLPY_TIMES["rclpy.time.Time"]
+    return None
+
+
+def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
+    made = types.facts.evaluator.single_value(node)
+    if not isinstance(made, ast.Call):
+        return False
+    asked = isinstance(made.func, ast.Attribute) and made.func.attr == "get_clock"
+    return asked or types.module.qualified_name(made.func) in _CLOCKS
+
+
+class Kinds:
+    """Finds out which kind of Python value an expression surely has."""
+
+    def __init__(self, types: MessageTypes) -> None:
+        self._types = types
+        self._module = types.module
+        self._evaluator = types.facts.evaluator
+        self._depth = 0
+
+    def of(self, node: ast.expr) -> str | None:
+        """Return ``bool``, ``int``, ``float``, ``str`` ...; ``None`` when that is not sure."""
+        value = self._evaluator.evaluate(node)
+        if value is None:
+            # None stands for "nothing assigned yet" as soon as it is not written right here.
+            return "none" if isinstance(node, ast.Constant) else None
+        if value is not UNKNOWN:
+            return _kind_of_value(value)
+        if self._depth > _DEPTH:
+            return None
+        self._depth += 1
+        found = self._of_expression(node)
+        self._depth -= 1
+        return found
+
+    def _of_expression(self, node: ast.expr) -> str | None:
+        kind = _literal_kind(node)
+        if kind is None:
+            match node:
+                case ast.Call():
+                    kind = self._of_call(node)
+                case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
+                    inner = self.of(operand)
+                    kind = inner if inner in _NUMBERS else None
+                case ast.IfExp():
+                    kind = self._agreed([node.body, node.orelse])
+                case ast.BinOp():
+                    kind = self._of_operation(node)
+                case ast.Attribute():
+                    kind = self._of_attribute(node)
+                case ast.Name():
+                    kind = self._of_name(node)
+        return kind
+
+    def _of_call(self, node: ast.Call) -> str | None:
+        name = self._module.qualified_name(node.func) or ""
+        if name in {"abs", "min", "max"} and len(node.args) > (name != "abs") and not node.keywords:
+            kind = self._agreed(node.args)
+            return kind if kind in _NUMBERS else None
+        if name == "round" and len(node.args) == 1:
+            return "int" if self.of(node.args[0]) in _NUMBERS else None
+        match node.func:
+            case ast.Attribute(attr=method, value=text) if method in _OF_TEXT:
+                return _OF_TEXT[method] if self.of(text) == "str" else None
+        return _RETURNS.get(name)
+
+    def _of_operation(self, node: ast.BinOp) -> str | None:
+        left, right = self.of(node.left), self.of(node.right)
+        if left == "str" and isinstance(node.op, ast.Mod | ast.Add):
+            return "str"
+        if left not in _NUMBERS or right not in _NUMBERS:
+            return None
+        if isinstance(node.op, ast.Div):
+            return "float"
+        if isinstance(node.op, ast.Add | ast.Sub | ast.Mult | ast.Mod | ast.FloorDiv):
+            return "float" if "float" in {left, right} else "int"
+        return None
+
+    def _of_name(self, node: ast.Name) -> str | None:
+        found = self._module.index.lookup(node.id, node)
+        bindings = [one for one in (found[1] if found else ()) if one.kind != "annotation"]
+        if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
+            return None
+        return self._agreed([b.value for b in bindings if b.value is not None])
+
+    def _of_attribute(self, node: ast.Attribute) -> str | None:
+        """Return the kind of a field, or of an attribute of ``self`` that is counted up."""
+        type_ = self._types.field_type_of(node)
+        if type_ is not None:
+            return _kind_of_field(type_)
+        if node.attr == "nanoseconds":
+            is_time = class_of(self._types.facts, node.value) in RCLPY_TIMES
+            return "int" if is_time else None
+        class_ = self._evaluator.self_class(node.value)
+        if class_ is None:
+            return None
+        family = self._types.facts.related_classes(class_)
+        values: list[ast.expr] = []
+        for store in self._evaluator.stores(node.attr):
+            if store.class_ is not None and store.class_ not in family:
+                continue
+            above = self._module.parent(store.node)
+            if isinstance(above, ast.AugAssign) and isinstance(above.op, ast.Add | ast.Sub):
+                values.append(above.value)
+            elif store.class_ is None or store.value is None:
+                return None
+            else:
+                values.append(store.value)
+        return self._agreed(values)
+
+    def _agreed(self, values: Sequence[ast.expr]) -> str | None:
+        kinds = {self.of(value) for value in values}
+        return kinds.pop() if len(kinds) == 1 else None
+
+
+def _kind_of_field(type_: FieldType) -> str | None:
+    """Return the kind of what is read from a field; ``None`` for what has several."""
+    if type_.is_array or not type_.is_primitive or type_.name == "byte":
+        return None
+    if type_.name in FLOATS:
+        return "float"
+    if type_.name in TEXTS:
+        return "str"
+    return "int" if type_.name in INTEGER_RANGES else "bool"
+
+
+def _literal_kind(node: ast.expr) -> str | None:
+    """Return the kind that the form of an expression shows."""
+    kind = None
+    match node:
+        case ast.JoinedStr():
+            kind = "str"
+        case ast.List() | ast.ListComp():
+            kind = "list"
+        case ast.Dict() | ast.DictComp():
+            kind = "dict"
+        case ast.Compare(ops=[ast.Is() | ast.IsNot() | ast.In() | ast.NotIn()]):
+            kind = "bool"
+        case ast.UnaryOp(op=ast.Not()):
+            kind = "bool"
+    return kind
+
+
+def _kind_of_value(value: object) -> str | None:
+    for type_, kind in (
+        (bool, "bool"),
+        (int, "int"),
+        (float, "float"),
+        (str, "str"),
+        (bytes, "bytes"),
+        (list | tuple, "list"),
+        (dict, "dict"),
+    ):
+        if isinstance(value, type_):
+            return kind
+    return None
+
+
+class Misfits:
+    """Finds values that do not fit their fields."""
+
+    def __init__(self, types: MessageTypes) -> None:
+        self._types = types
+        self._kinds = Kinds(types)
+
+    def misfit(self, item: Assigned) -> str | None:
+        """Say what a value is that its field cannot hold; ``None`` if it may well fit."""
+        type_, node = item.field.type, item.value
+        if not type_.is_array:
+            return self._one(type_, node)
+        kind = self._kinds.of(node)
+        if kind in {"int", "float", "bool", "none", "dict"}:
+            return f"{self._shown(node)} is {_NAMES[kind]}, not a list"
+        if kind == "str" and type_.name not in {"byte", "char", "uint8"}:
+            return f"{self._shown(node)} is a str, not a list"
+        if kind != "list":
+            return self._table(node)
+        return self._length(type_, node) or self._elements(type_.element, node)
+
+    def _table(self, node: ast.expr) -> str | None:
+        """Say that an array of numpy has two dimensions: rosidl reads beyond the first row."""
+        value = self._types.facts.evaluator.single_value(node)
+        if not isinstance(value, ast.Call) or not value.args:
+            return None
+        name = self._types.module.qualified_name(value.func) or ""
+        first = self._types.facts.evaluator.evaluate(value.args[0])
+        is_table = False
+        if name in {"numpy.eye", "numpy.identity"}:
+            is_table = True
+        elif name in {"numpy.zeros", "numpy.ones", "numpy.empty", "numpy.full"}:
+            is_table = isinstance(first, tuple | list) and len(first) > 1
+        elif name == "numpy.array" and isinstance(first, tuple | list):
+            is_table = any(isinstance(one, tuple | list) for one in first)
+        shown = f"{self._shown(node)} has rows and columns"
+        return f"{shown}, which are not read as one row; append .flatten()" if is_table else None
+
+    def _length(self, type_: FieldType, node: ast.expr) -> str | None:
+        value = self._types.facts.evaluator.evaluate(node)
+        size = type_.array_size
+        if size is None or not isinstance(value, list | tuple):
+            return None
+        count = len(value)
+        if count > size or (count < size and not type_.is_upper_bound):
+            most = "at most " if type_.is_upper_bound else ""
+            return f"{self._shown(node)} has {count} elements, not {most}{size}"
+        return None
+
+    def _elements(self, type_: FieldType, node: ast.expr) -> str | None:
+        if not isinstance(node, ast.List | ast.Tuple):
+            return None
+        for part in node.elts:
+            # rosidl converts the ints of a list of floats.
+            if type_.name in FLOATS and self._kinds.of(part) in {"int", "bool"}:
+                continue
+            wrong = None if isinstance(part, ast.Starred) else self._one(type_, part)
+            if wrong:
+                return f"the element {wrong}"
+        return None
+
+    def _one(self, type_: FieldType, node: ast.expr) -> str | None:
+        given = self._types.type_of(node)
+        if given is not None:
+            fits = given.name == type_.full_name
+            return None if fits else f"{self._shown(node)} is a {given.name}"
+        if not type_.is_primitive:
+            return self._instead_of_message(node)
+        kind = self._kinds.of(node)
+        if kind is None:
+            return self._object_of_rclpy(node)
+        if kind not in _accepted(type_.name):
+            return f"{self._shown(node)} is {_NAMES[kind]}"
+        value = self._types.facts.evaluator.evaluate(node)
+        bound = type_.text_bound
+        if bound is not None and isinstance(value, str) and len(value) > bound:
+            return f"{self._shown(node)} has {len(value)} characters, not {bound}"
+        return self._out_of_range(type_, node, value)
+
+    def _object_of_rclpy(self, node: ast.expr) -> str | None:
+        """Say that a value is an object of rclpy, or one of its methods that nobody calls."""
+        facts = self._types.facts
+        if isinstance(node, ast.Attribute):
+            owner = class_of(facts, node.value)
+            if owner is not None and is_method(owner, node.attr):
+                return f"{node.attr} is a method that is not called here: {node.attr}()"
+        class_ = class_of(facts, node) if isinstance(node, ast.Call) else None
+        if class_ == PARAMETER:
+            return f"{self._shown(node)} is a Parameter: its value is meant"
+        return None
+
+    def _instead_of_message(self, node: ast.expr) -> str | None:
+        if rclpy_time(self._types, node):
+            return None  # that has a rule of its own
+        kind = self._kinds.of(node)
+        shown = f"{self._shown(node)} is {_NAMES[kind]}" if kind else None
+        return shown or self._object_of_rclpy(node)
+
+    def _out_of_range(self, type_: FieldType, node: ast.expr, value: object) -> str | None:
+        if type_.name not in INTEGER_RANGES:
+            return None
+        lowest, highest = INTEGER_RANGES[type_.name]
+        held = f"{type_.name} holds {lowest} to {highest}"
+        if isinstance(value, int):
+            return None if lowest <= value <= highest else f"{value} is out of range: {held}"
+        if self._is_epoch(node) and highest < _NOW:
+            return f"{self._shown(node)} is about {_NOW:.0e}: {held}"
+        counter = self._endless_counter(node) if type_.name in _SMALL else None
+        if counter is not None:
+            at = self._types.module.location(counter)
+            name = self._types.module.text(counter)
+            return f"{name} grows without end in line {at.line}: {held}"
+        return None
+
+    def _is_epoch(self, node: ast.expr) -> bool:
+        """Tell whether a number is that of the nanoseconds since 1970."""
+        match self._types.facts.evaluator.single_value(node):
+            case ast.Attribute(attr="nanoseconds", value=ast.Call(func=ast.Attribute(attr="now"))):
+                return True
+        return False
+
+    def _endless_counter(self, node: ast.expr) -> ast.expr | None:
+        """Return the attribute in a sum that is counted up for ever, and never compared."""
+        for part in _summands(node):
+            if isinstance(part, ast.Attribute) and self._counts_up(part):
+                return self._counting(part)
+        return None
+
+    def _counting(self, node: ast.Attribute) -> ast.expr:
+        for store in self._types.facts.evaluator.stores(node.attr):
+            if isinstance(self._types.module.parent(store.node), ast.AugAssign):
+                return store.node
+        return node
+
+    def _counts_up(self, node: ast.Attribute) -> bool:
+        evaluator, module = self._types.facts.evaluator, self._types.module
+        class_ = evaluator.self_class(node.value)
+        if class_ is None:
+            return False
+        family = self._types.facts.related_classes(class_)
+        counted = False
+        for store in evaluator.stores(node.attr):
+            if store.class_ is not None and store.class_ not in family:
+                continue
+            above = module.parent(store.node)
+            if isinstance(above, ast.AugAssign):
+                step = evaluator.evaluate(above.value)
+                if not (isinstance(above.op, ast.Add) and isinstance(step, int) and step > 0):
+                    return False
+                counted = counted or self._runs_again(store.node)
+            elif store.value is None or not self._is_start(store.node, store.value):
+                return False
+        return counted and not self._is_watched(node.attr)
+
+    def _runs_again(self, node: ast.AST) -> bool:
+        """Tell whether a loop or the executor runs a node: nobody presses a button for ever."""
+        module, facts = self._types.module, self._types.facts
+        if any(isinstance(one, ast.While) for one in module.parents(node)):
+            return True
+        function = facts.function_of(node)
+        return any(
+            callback.function is not None and function in facts.reached(callback.function)
+            for _, callback in facts.callbacks
+        )
+
+    def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
+        """Tell whether an assignment stands in ``__init__``: it starts and resets nothing."""
+        function = self._types.module.enclosing_function(target)
+        is_int = isinstance(self._types.facts.evaluator.evaluate(value), int)
+        return is_int and function is not None and function.name == "__init__"
+
+    def _is_watched(self, name: str) -> bool:
+        """Tell whether an attribute is compared anywhere, which may stop or reset the counting."""
+        for compare in self._types.module.walk(ast.Compare):
+            for part in ast.walk(compare):
+                if isinstance(part, ast.Attribute) and part.attr == name:
+                    return True
+        return False
+
+    def _shown(self, node: ast.expr) -> str:
+        text = " ".join(self._types.module.text(node).split())
+        return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
+
+
+def _summands(node: ast.expr) -> list[ast.expr]:
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        return [*_summands(node.left), *_summands(node.right)]
+    return [node]
+
+
+def _accepted(type_name: str) -> frozenset[str]:
+    """Return the kinds of Python values that a field of a primitive type takes."""
+    if type_name == "bool":
+        return frozenset({"bool"})
+    if type_name == "byte":
+        return frozenset({"bytes"})
+    if type_name in FLOATS:
+        return frozenset({"float"})
+    if type_name in TEXTS:
+        return frozenset({"str"})
+    return frozenset({"int", "bool"})

@@ -1,0 +1,440 @@
+"""Which message an expression of rclpy code is, where that is certain."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+from scaffold.model.interfaces.definitions import KINDS, Definitions, Interface
+from scaffold.model.interfaces.syntax import Field, Section
+from scaffold.model.interfaces.types import FieldType
+from scaffold.model.messages.actions import ActionMessages
+from scaffold.model.package import Package
+from scaffold.model.python.attributes import Store
+from scaffold.model.python.scopes import Binding
+from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
+from scaffold.model.rclpy.entities import ActionServer, Endpoint, Service, Subscription
+from scaffold.model.rclpy.file import NodeFacts, node_facts
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ViewError
+
+PARTS = {
+    "msg": {},
+    "srv": {"Request": "request", "Response": "response"},
+    "action": {"Goal": "goal", "Result": "result", "Feedback": "feedback"},
+}
+"""The classes inside of the class of a service or an action, and what they are."""
+_NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
+_PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
+_DEPTH = 12
+_MOST_BINDINGS = 200  # of one name or attribute; with more nobody knows what it is
+_EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
+_RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
+_ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
+
+
+class MessageClass(NamedTuple):
+    """A Python class of a message, or of a part of a service or an action."""
+
+    interface: Interface
+    section: Section
+    part: str
+    """``Request`` ...; empty for a message."""
+
+    @property
+    def name(self) -> str:
+        """``std_msgs/msg/String``; of a part ``std_srvs/srv/SetBool.Request``."""
+        return self.interface.full_name + (f".{self.part}" if self.part else "")
+
+    @property
+    def origin(self) -> str:
+        """Which definition this is."""
+        return self.interface.origin
+
+    def allows(self, attribute: str) -> bool:
+        """Tell whether an object of the class has an attribute."""
+        return (
+            attribute.startswith("_")
+            or attribute.endswith("__DEFAULT")
+            or attribute in _NOT_FIELDS
+            or self.section.field(attribute) is not None
+            or self.section.constant(attribute) is not None
+        )
+
+
+class Assigned(NamedTuple):
+    """A value that a field is given: ``message.field = value`` or ``Message(field=value)``."""
+
+    owner: MessageClass
+    field: Field
+    value: ast.expr
+
+
+class MessageTypes:
+    """What is known about the messages in one Python file."""
+
+    def __init__(self, facts: NodeFacts, definitions: Definitions) -> None:
+        self.facts = facts
+        self.module = facts.module
+        self.definitions = definitions
+        self._known: dict[ast.AST, FieldType | MessageClass | None] = {}
+        self._classes: dict[ast.expr, MessageClass | None] = {}
+        self._depth = 0
+
+    @classmethod
+    def of(cls, package: Package, path: str) -> MessageTypes:
+        """Return the view of a file; raises ViewError if it cannot be parsed."""
+
+        def build() -> MessageTypes:
+            return cls(node_facts(package, path), package.workspace.interfaces)
+
+        return package.remember(("message_types", path), build)
+
+    @classmethod
+    def of_package(cls, package: Package) -> Iterator[MessageTypes]:
+        """Yield the views of all files that import interfaces, those of ROS 1 left out."""
+        for path in package.python_files:
+            try:
+                types = cls.of(package, path)
+            except ViewError:
+                continue
+            if types.is_relevant:
+                yield types
+
+    @cached_property
+    def is_relevant(self) -> bool:
+        """Whether the file imports interfaces and is not of ROS 1."""
+        if "rospy" in self.module.imports_by_root:
+            return False
+        return self.module.mentions("get_parameter_value(") or any(
+            not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
+            for import_ in self.module.imports
+        )
+
+    # -- classes
+
+    def class_named(self, dotted: str) -> MessageClass | None:
+        """Return the class of a full Python name: ``std_srvs.srv.SetBool.Request``."""
+        package, _, rest = dotted.partition(".")
+        kind, _, name = rest.partition(".")
+        if kind not in PARTS or not name:
+            return None
+        name, dot, part = name.partition(".")
+        if not dot and "_" in name:
+            name, _, part = name.rpartition("_")
+        interface = self.definitions.find(f"{package}/{kind}/{name}")
+        if interface is None:
+            return None
+        if kind == "msg":
+            return None if part else MessageClass(interface, interface.sections[0], "")
+        section = PARTS[kind].get(part)
+        return MessageClass(interface, interface.section(section), part) if section else None
+
+    def class_of(self, node: ast.expr) -> MessageClass | None:
+        """Return the message class that an expression names."""
+        if node not in self._classes:
+            name = self.module.qualified_name(self.facts.evaluator.single_value(node))
+            self._classes[node] = self.class_named(name) if name else None
+        return self._classes[node]
+
+    def _class_of_type(self, type_: FieldType) -> MessageClass | None:
+        interface = self.definitions.find(type_.full_name)
+        return MessageClass(interface, interface.sections[0], "") if interface else None
+
+    # -- objects
+
+    def type_of(self, node: ast.expr) -> MessageClass | None:
+        """Return the message that an expression surely is."""
+        found = self._type(node)
+        if isinstance(found, FieldType):
+            if found.is_primitive or found.is_array:
+                return None
+            return self._class_of_type(found)
+        return found
+
+    def field_type_of(self, node: ast.expr) -> FieldType | None:
+        """Return the type of the field that an expression surely reads."""
+        found = self._type(node)
+        return found if isinstance(found, FieldType) else None
+
+    def _type(self, node: ast.expr) -> FieldType | MessageClass | None:
+        """Return the message an expression is, or the type of the field it reads."""
+        if node not in self._known:
+            if self._depth > _DEPTH:
+                return None
+            self._known[node] = None  # ends the recursion of what is assigned to itself
+            self._depth += 1
+            self._known[node] = self._infer(node)
+            self._depth -= 1
+        return self._known[node]
+
+    def _infer(self, node: ast.expr) -> FieldType | MessageClass | None:
+        match node:
+            case ast.Call():
+                return self._made(node)
+            case ast.Name():
+                return self._type_of_name(node)
+            case ast.Subscript(value=value, slice=index) if not isinstance(index, ast.Slice):
+                return self._element(self._type(value))
+            case ast.Attribute():
+                return self._type_of_field(node)
+        return None
+
+    def _made(self, node: ast.Call) -> MessageClass | None:
+        """Return what a call gives."""
+        match node.func:
+            case ast.Attribute(attr="result", value=future) if not node.args:
+                return self._answer(future)
+            case ast.Attribute(attr="get_parameter_value", value=parameter):
+                is_known = class_of(self.facts, parameter) == PARAMETER
+                return self.class_named(_PARAMETER_VALUE) if is_known else None
+        return self.class_of(node.func)
+
+    def _answer(self, node: ast.expr) -> MessageClass | None:
+        """Return what the future of a service call gives."""
+        future = future_given(self.facts, node)
+        made = self.facts.evaluator.single_value(node if future is None else future)
+        match made:
+            case ast.Call(func=ast.Attribute(attr="call_async", value=holder)):
+                call = self.facts.evaluator.single_value(holder)
+                for client in self.facts.clients:
+                    if client.call is call:
+                        return self._class_of_endpoint(client, "Response")
+        return None
+
+    def _type_of_field(self, node: ast.Attribute) -> FieldType | MessageClass | None:
+        owner = self.type_of(node.value)
+        if owner is None:
+            return self._goal(node) or self._unwrapped(node) or self._type_of_attribute(node)
+        field = owner.section.field(node.attr)
+        return field.type if field else None
+
+    def _element(self, found: FieldType | MessageClass | None) -> FieldType | None:
+        is_array = isinstance(found, FieldType) and found.is_array
+        return found.element if is_array and isinstance(found, FieldType) else None
+
+    def _type_of_name(self, node: ast.Name) -> FieldType | MessageClass | None:
+        found = self.module.index.lookup(node.id, node)
+        if found is None:
+            return None
+        scope, all_bindings = found
+        bindings = [binding for binding in all_bindings if binding.kind != "annotation"]
+        if len(bindings) > _MOST_BINDINGS or self._is_asked(scope, node.id):
+            return None
+        types = [self._type_of_binding(binding) for binding in bindings]
+        return types[0] if types and all(type_ == types[0] for type_ in types) else None
+
+    def _type_of_binding(self, binding: Binding) -> FieldType | MessageClass | None:
+        if binding.kind == "assignment" and binding.value is not None:
+            return self._type(binding.value)
+        if binding.kind == "parameter":
+            return self._parameters.get(binding.node)
+        parent = self.module.parent(binding.node)
+        if isinstance(parent, ast.For | ast.comprehension) and parent.target is binding.node:
+            return self._element(self._type(parent.iter))
+        return None
+
+    def _type_of_attribute(self, node: ast.Attribute) -> FieldType | MessageClass | None:
+        """Return what an attribute of ``self`` is, if all that it is ever assigned agrees."""
+        evaluator = self.facts.evaluator
+        class_ = evaluator.self_class(node.value)
+        if class_ is None or self._is_asked(class_, node.attr):
+            return None
+        values = evaluator.attribute_values(node)
+        values = [v for v in values or () if not _is_none(v)]
+        if len(values) > _MOST_BINDINGS:
+            return None
+        types = [self._type(value) for value in values]
+        if not types or types[0] is None or any(type_ != types[0] for type_ in types):
+            return None
+        return types[0]
+
+    def _goal(self, node: ast.Attribute) -> MessageClass | None:
+        """Return the goal for ``goal_handle.request`` in the callback of an action server."""
+        if node.attr != "request" or not isinstance(node.value, ast.Name):
+            return None
+        found = self.module.index.lookup(node.value.id, node.value)
+        bindings = found[1] if found else ()
+        return self._goal_handles.get(bindings[0].node) if len(bindings) == 1 else None
+
+    @cached_property
+    def action_messages(self) -> ActionMessages:
+        """What action clients are given."""
+        return ActionMessages(self.facts)
+
+    def _unwrapped(self, node: ast.Attribute) -> MessageClass | None:
+        """Return the part of an action for ``message.feedback`` and ``future.result().result``."""
+        if node.attr not in {"feedback", "result"}:
+            return None
+        found = self.action_messages.wrapped(node.value)
+        if found is None or found.field != node.attr:
+            return None
+        return self._class_of_endpoint(found.client, found.part)
+
+    # -- parameters of callbacks
+
+    @cached_property
+    def _parameters(self) -> Mapping[ast.AST, MessageClass | None]:
+        """The parameters that rclpy passes messages to; ``None`` where callbacks disagree."""
+        found: dict[ast.AST, MessageClass | None] = {}
+        for endpoint, index, part in self._passed():
+            parameter = self._callback_parameter(endpoint, index)
+            class_ = self._class_of_endpoint(endpoint, part)
+            if parameter is not None:
+                same = found.get(parameter, class_) == class_
+                found[parameter] = class_ if same else None
+        return found
+
+    def _passed(self) -> Iterator[tuple[Endpoint, int, str]]:
+        """Yield endpoints with the index of a parameter and the part that it gets."""
+        for endpoint in self.facts.endpoints:
+            if isinstance(endpoint, Subscription) and not endpoint.argument("raw"):
+                yield endpoint, 0, ""
+            elif isinstance(endpoint, Service):
+                yield endpoint, 0, "Request"
+                yield endpoint, 1, "Response"
+
+    @cached_property
+    def _goal_handles(self) -> Mapping[ast.AST, MessageClass | None]:
+        found: dict[ast.AST, MessageClass | None] = {}
+        for endpoint in self.facts.action_servers:
+            parameter = self._callback_parameter(endpoint, 0)
+            if parameter is not None and isinstance(endpoint, ActionServer):
+                class_ = self._class_of_endpoint(endpoint, "Goal")
+                same = found.get(parameter, class_) == class_
+                found[parameter] = class_ if same else None
+        return found
+
+    def _class_of_endpoint(self, endpoint: Endpoint, part: str) -> MessageClass | None:
+        if endpoint.interface is None:
+            return None
+        dotted = endpoint.interface.replace("/", ".")
+        return self.class_named(f"{dotted}.{part}" if part else dotted)
+
+    def _callback_parameter(self, endpoint: Endpoint, index: int) -> ast.arg | None:
+        callback = endpoint.callback
+        if callback is None or callback.function is None or callback.is_partial:
+            return None
+        function = callback.function
+        if not isinstance(function, ast.Lambda) and function.decorator_list:
+            return None
+        parameters = [*function.args.posonlyargs, *function.args.args]
+        index += int(callback.is_bound)
+        return parameters[index] if index < len(parameters) else None
+
+    # -- where nothing is said
+
+    def is_tolerated(self, node: ast.AST) -> bool:
+        """Tell whether a mistake here is expected: a negative test, a handler for it."""
+        child = node
+        for parent in self.module.parents(node):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+                return False
+            if isinstance(parent, ast.Try) and self.module.index.place(child)[0] == "body":
+                caught = {
+                    name
+                    for handler in parent.handlers
+                    if handler.type is not None
+                    for name in _last_names(handler.type)
+                }
+                if caught & _EXPECTED:
+                    return True
+            if isinstance(parent, ast.With | ast.Call) and _expects_error(parent):
+                return True
+            child = parent
+        return False
+
+    def _is_asked(self, scope: ast.AST, name: str) -> bool:
+        """Tell whether code asks an object for its type: then it may be any."""
+        return (scope, name) in self._asked
+
+    @cached_property
+    def _asked(self) -> frozenset[tuple[ast.AST, str]]:
+        found: set[tuple[ast.AST, str]] = set()
+        for call in self.module.walk(ast.Call):
+            if not (isinstance(call.func, ast.Name) and call.func.id in _ASKS_TYPE and call.args):
+                continue
+            asked = call.args[0]
+            if isinstance(asked, ast.Name):
+                bound = self.module.index.lookup(asked.id, asked)
+                if bound:
+                    found.add((bound[0], asked.id))
+            elif isinstance(asked, ast.Attribute):
+                class_ = self.facts.evaluator.self_class(asked.value)
+                if class_:
+                    found.add((class_, asked.attr))
+        return frozenset(found)
+
+    # -- values of fields
+
+    @cached_property
+    def assigned(self) -> Sequence[Assigned]:
+        """All values that fields of known messages are given, in the order of the text."""
+        found = [*self._assigned_attributes(), *self._keywords()]
+        return sorted(found, key=lambda item: (item.value.lineno, item.value.col_offset))
+
+    def _assigned_attributes(self) -> Iterator[Assigned]:
+        for store in self._stores():
+            if store.value is None or self.is_tolerated(store.node):
+                continue
+            owner = self.type_of(store.node.value)
+            field = owner.section.field(store.node.attr) if owner else None
+            if owner and field:
+                yield Assigned(owner, field, store.value)
+
+    def _stores(self) -> Iterator[Store]:
+        for name in sorted({node.attr for node in self.module.walk(ast.Attribute)}):
+            yield from self.facts.evaluator.stores(name)
+
+    def _keywords(self) -> Iterator[Assigned]:
+        for call in self.module.walk(ast.Call):
+            if not call.keywords or self.is_tolerated(call):
+                continue
+            owner = self.class_of(call.func)
+            for word in call.keywords if owner else ():
+                field = owner.section.field(word.arg) if owner and word.arg else None
+                if owner and field:
+                    yield Assigned(owner, field, word.value)
+
+
+def _names_kind(module: str, names: Sequence[str]) -> bool:
+    _, dot, rest = module.partition(".")
+    return rest.partition(".")[0] in KINDS if dot else not set(KINDS).isdisjoint(names)
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _last_names(node: ast.expr) -> Iterator[str]:
+    for part in node.elts if isinstance(node, ast.Tuple) else [node]:
+        if isinstance(part, ast.Name):
+            yield part.id
+        elif isinstance(part, ast.Attribute):
+            yield part.attr
+
+
+def _expects_error(node: ast.With | ast.Call) -> bool:
+    """Tell whether a ``with`` or a call such as ``assertRaises`` wants an error."""
+    calls = [item.context_expr for item in node.items] if isinstance(node, ast.With) else [node]
+    return any(
+        isinstance(call, ast.Call) and not _RAISES.isdisjoint(_last_names(call.func))
+        for call in calls
+    )
+
+
+def interfaces_named(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
+    """Yield the interfaces that a file names: place, package, kind and name."""
+    module = types.module
+    for import_ in module.imports:
+        owner, _, kind = import_.module.partition(".")
+        if import_.level or import_.guarded or "." in kind:
+            continue
+        for imported in import_.names:
+            yield imported.location, owner, kind, imported.name
+    for node in module.walk(ast.Attribute):
+        parts = (module.qualified_name(node) or "").split(".")
+        match parts:
+            case [owner, kind, name] if kind in KINDS and not types.is_tolerated(node):
+                yield module.location(node), owner, kind, name

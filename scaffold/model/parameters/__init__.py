@@ -1,0 +1,1 @@
+"""Parameters of a whole package, and its parameter files."""

@@ -1,0 +1,221 @@
+"""Which parameters a node declares, and whether these are surely all."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.entities import Entity, Parameter
+    from scaffold.model.rclpy.file import NodeFacts
+
+ALWAYS = frozenset({"use_sim_time", "start_type_description_service"})
+"""Parameters that every node has."""
+_ALWAYS_PREFIXES = ("qos_overrides.",)
+_HARMLESS = ("rclpy.", "tf2_ros.", "message_filters.", "super", "isinstance", "print", "str", "id")
+_KNOWN = ("rclpy.", "tf2_ros.", "message_filters.", "cv_bridge.")
+"""Packages whose classes take a node and declare no parameters of their own."""
+_COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
+
+
+class Declared(NamedTuple):
+    """The parameters of a node."""
+
+    types: dict[str, str | None]
+    """The type by name; ``None`` where it is not known, or may change."""
+    places: dict[str, Parameter]
+    complete: bool
+    """Whether nothing else can be declared."""
+
+    def has(self, name: str) -> bool:
+        """Tell whether a parameter exists."""
+        return name in self.types or has_always(name)
+
+
+def has_always(name: str) -> bool:
+    """Tell whether rclpy itself declares a parameter on every node."""
+    return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
+
+
+def declared_by(owner: NodeOwner, package: Package) -> Declared:
+    """Return what a node declares: in its class, in base classes, and where it is made."""
+    package = home_of(owner, package)
+    types: dict[str, str | None] = {}
+    places: dict[str, Parameter] = {}
+    complete = True
+    current: NodeOwner | None = owner
+    while current is not None:
+        is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
+        for parameter in (*current.parameters, *_from_outside(package).get(current, ())):
+            name = parameter.name
+            if not isinstance(name, str) or parameter.has_unknown_arguments:
+                complete = False
+                continue
+            kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
+            types[name] = kind if name not in types or types[name] == kind else None
+            places.setdefault(name, parameter)
+        complete = complete and not current.declares_automatically and not _escapes(current)
+        complete = complete and all(item.owner is not None for item in current.facts.parameters)
+        complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
+        current = current.base if isinstance(current, NodeClass) else None
+    return Declared(types, places, complete)
+
+
+def home_of(owner: NodeOwner, package: Package) -> Package:
+    """Return the package that the code of a node is in; it may be another one."""
+    from scaffold.model.package import Package as _Package  # which imports what this imports
+
+    modules = owner.facts.modules
+    return modules if isinstance(modules, _Package) else package
+
+
+def place_of(created: Entity, package: Package) -> str:
+    """Return where a parameter is declared or read, for people who look at a package."""
+    at, owner = created.location, created.owner
+    home = home_of(owner, package) if owner is not None else package
+    return f"{at.path}:{at.line}" + (f" of {home.name}" if home is not package else "")
+
+
+def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter]]]:
+    """Yield the nodes that nothing else declares parameters for, each with those it declares.
+
+    Unlike `declared_by` it tells nothing of nodes that others inherit from.
+    """
+    passed_on: dict[NodeFacts, frozenset[ast.ClassDef]] = {}
+    for facts in rclpy_files(package):
+        bases = _bases(facts)
+        for node in facts.classes:
+            declared = None if node.node in bases else _declared(node, passed_on)
+            if declared is not None:
+                yield node, declared
+
+
+def _declared(
+    node: NodeClass, passed_on: dict[NodeFacts, frozenset[ast.ClassDef]]
+) -> list[Parameter] | None:
+    """Return what a class and its bases declare; ``None`` if others may declare more.
+
+    What `_passed_on` says of their files is kept, to be asked once.
+    """
+    found: list[Parameter] = []
+    owner: NodeClass | None = node
+    while owner is not None:
+        if owner.declares_automatically or owner.is_lifecycle or len(owner.node.bases) != 1:
+            return None
+        if any(not isinstance(one.name, str) for one in owner.parameters):
+            return None
+        if owner.facts not in passed_on:
+            passed_on[owner.facts] = _passed_on(owner.facts)
+        if owner.node in passed_on[owner.facts]:
+            return None
+        found += owner.parameters
+        owner = owner.base
+    return None if _declares_on_others(node.facts) else found
+
+
+def _bases(facts: NodeFacts) -> frozenset[ast.ClassDef | None]:
+    """Return the classes of a file that others there inherit from."""
+    return frozenset(
+        facts.evaluator.named_class(base)
+        for other in facts.module.walk(ast.ClassDef)
+        for base in other.bases
+    )
+
+
+def _declares_on_others(facts: NodeFacts) -> bool:
+    """Tell whether the file declares parameters on an object that is not known."""
+    return any(one.owner is None for one in facts.parameters)
+
+
+def _passed_on(facts: NodeFacts) -> frozenset[ast.ClassDef]:
+    """Return the classes that give themselves to something that may declare parameters.
+
+    All of them where the file asks nodes what they have.
+    """
+    if "has_parameter" in facts.module.source.text:
+        return frozenset(facts.module.walk(ast.ClassDef))
+    found: set[ast.ClassDef] = set()
+    for call in facts.module.walk(ast.Call):
+        given = [*call.args, *(word.value for word in call.keywords)]
+        classes = {class_ for one in given if (class_ := facts.evaluator.self_class(one))}
+        if classes:
+            name = facts.module.qualified_name(call.func) or ""
+            is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
+            if not name.startswith(_KNOWN) and not is_super and name != "super":
+                found |= classes
+    return frozenset(found)
+
+
+def _from_outside(package: Package) -> dict[NodeOwner, list[Parameter]]:
+    """Return what other files declare on nodes: ``node = Talker(); node.declare_parameter()``."""
+
+    def find() -> dict[NodeOwner, list[Parameter]]:
+        found: dict[NodeOwner, list[Parameter]] = {}
+        for facts in rclpy_files(package):
+            for parameter in facts.parameters:
+                owner = parameter.owner
+                if owner is not None and owner.facts is not facts:
+                    found.setdefault(owner, []).append(parameter)
+        return found
+
+    return package.remember("parameters_from_outside", find)
+
+
+def own_nodes(package: Package) -> tuple[list[NodeOwner], bool]:
+    """Return the nodes in the Python code of a package, and whether there are no others."""
+
+    def find() -> tuple[list[NodeOwner], bool]:
+        found = [node for facts in rclpy_files(package) for node in facts.nodes]
+        compiled = any(
+            path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
+        )
+        return found, not compiled and all(isinstance(node.node_name, str) for node in found)
+
+    return package.remember("own_nodes", find)
+
+
+def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
+    """Return the type that overrides must have; an empty list has none that anyone expects.
+
+    Args:
+        parameter: The parameter.
+        may_be_dynamic: Whether a descriptor that is not known may leave the type open.
+    """
+    descriptor = parameter.descriptor
+    if descriptor.is_dynamic if descriptor is not None else may_be_dynamic:
+        return None
+    if "ignore_override" in parameter.arguments or parameter.type in {"byte_array", "not_set"}:
+        return None
+    return parameter.type
+
+
+def _escapes(owner: NodeOwner) -> bool:
+    """Tell whether the node is handed to code that may declare more."""
+    if not isinstance(owner, NodeClass):
+        return _is_handed_on(owner, owner.facts.module.tree, owner.name)
+    others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
+    return bool(others) or _is_handed_on(owner, owner.node, "self")
+
+
+def _is_handed_on(owner: NodeOwner, scope: ast.AST, name: str) -> bool:
+    module = owner.facts.module
+    for use in module.index.names(name):
+        parent = module.parent(use)
+        call = module.parent(parent) if isinstance(parent, ast.keyword) else parent
+        if not isinstance(call, ast.Call) or use is call.func:
+            continue
+        names = module.qualified_names(call.func)
+        is_harmless = bool(names) and all(known.startswith(_HARMLESS) for known in names)
+        if not is_harmless and not _is_base_init(call) and module.is_inside(call, scope):
+            return True
+    return False
+
+
+def _is_base_init(call: ast.Call) -> bool:
+    return isinstance(call.func, ast.Attribute) and call.func.attr in {"__init__", "add_node"}

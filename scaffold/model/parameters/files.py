@@ -1,0 +1,292 @@
+"""Parameter files: which nodes they are for, and what they give them.
+
+The rules are those of rcl's parser, which is not PyYAML: a word is a boolean, a number or text
+as rcl_yaml_param_parser sees it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.formats import yaml as yaml_tree
+from scaffold.formats.yaml import Alias, Mapping, Scalar, Sequence, YamlNode
+from scaffold.record import NamedTuple
+from scaffold.source import ParseError, ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+KEY = "ros__parameters"
+ENDINGS = (".yaml", ".yml")
+_NEAR = r"(?i)(?:ros[_\- .]*)?param(?:eter)?s?"
+_MENTION = r"(?im)^[ \t]*[\"']?ros[_\- .]*param(?:eter)?s?[\"']?[ \t]*:"
+_WORDS = ("y", "yes", "true", "on", "n", "no", "false", "off")
+BOOLEANS = frozenset({form for word in _WORDS for form in (word, word.capitalize(), word.upper())})
+"""The words that rcl takes for booleans."""
+_LONGEST_NUMBER = 100
+_INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
+_DOUBLE = (
+    r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:inf|infinity|nan)|\.(?:inf|Inf|INF))"
+    r"|\.(?:nan|NaN|NAN)|[+-]?0[xX](?:[0-9a-fA-F]+(?:\.[0-9a-fA-F]*)?|\.[0-9a-fA-F]+)[pP][+-]?\d{1,4}"
+)
+
+
+class Entry(NamedTuple):
+    """One parameter."""
+
+    name: str
+    """With the mappings around it: ``limits.speed``."""
+    key: Scalar
+    value: YamlNode
+
+    @property
+    def location(self) -> Location:
+        """The place of the key."""
+        return self.key.location
+
+
+class Section(NamedTuple):
+    """The parameters under one ``ros__parameters``."""
+
+    node: str
+    """The keys above, joined: ``/robot1/talker``, ``/**``."""
+    key: Scalar
+    """The key above ``ros__parameters``."""
+    entries: list[Entry]
+
+    @property
+    def is_pattern(self) -> bool:
+        """Whether it is for nodes of any name."""
+        return self.name in {"*", "**"}
+
+    @property
+    def name(self) -> str:
+        """The name of the node alone."""
+        return self.node.rpartition("/")[2]
+
+    def fits(self, full_name: str) -> bool:
+        """Tell whether it is for a node, ``/robot1/talker``."""
+        expression = ""
+        for part in self.node.strip("/").split("/"):
+            expression += {"**": r"(?:/\w+)*", "*": r"/\w+"}.get(part, f"/{re.escape(part)}")
+        return re.fullmatch(expression, full_name) is not None
+
+
+class Misplaced(NamedTuple):
+    """A value that stands under no ``ros__parameters``."""
+
+    key: Scalar
+    near: Scalar | None
+    """The key above it that is meant to be ``ros__parameters``."""
+    depth: int
+    """How many keys stand above that one."""
+
+
+class Refused(NamedTuple):
+    """Something that is YAML, and that rcl does not take."""
+
+    location: Location
+    message: str
+
+
+class ParameterFile:
+    """A parameter file that could be read."""
+
+    def __init__(self, path: str, roots: list[YamlNode]) -> None:
+        self.path = path
+        self.sections: list[Section] = []
+        self.misplaced: list[Misplaced] = []
+        self.refused: list[Refused] = []
+        for root in roots:
+            if isinstance(root, Mapping):
+                self._read(root, (), None)
+
+    def _read(self, mapping: Mapping, above: tuple[Scalar, ...], near: Scalar | None) -> None:
+        for key, value in mapping.pairs:
+            if key.text == KEY and near is None:
+                self._read_section(key, value, above)
+            elif isinstance(value, Mapping):
+                is_near = near is None and re.fullmatch(_NEAR, key.text) and not _has_key(value)
+                self._read(value, (*above, key), key if is_near else near)
+            else:
+                depth = above.index(near) if near is not None else len(above)
+                self.misplaced.append(Misplaced(key, near, depth))
+
+    def _read_section(self, key: Scalar, value: YamlNode, above: tuple[Scalar, ...]) -> None:
+        if not above:
+            self.refused.append(Refused(key.location, f"no node name stands above {KEY}"))
+        elif isinstance(value, Mapping):
+            node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
+            section = Section(node, above[-1], list(_entries(value, "")))
+            self.sections.append(section)
+            for entry in section.entries:
+                self.refused.extend(_refused(entry.name, entry.key, entry.value))
+        elif isinstance(value, Scalar):
+            self.refused.append(Refused(key.location, f"{KEY} holds no parameters"))
+
+
+def _has_key(mapping: Mapping) -> bool:
+    """Tell whether a mapping is the node that its key names, even if that is ``parameters``."""
+    return any(key.text == KEY for key, _ in mapping.pairs)
+
+
+def parameter_file(package: Package, path: str) -> ParameterFile | None:
+    """Return a parameter file; ``None`` if it cannot be read as YAML."""
+    return _read(package, path)[0]
+
+
+def mistake(package: Package, path: str) -> ParseError | None:
+    """Return why a file cannot be read as YAML."""
+    return _read(package, path)[1]
+
+
+def _read(package: Package, path: str) -> tuple[ParameterFile | None, ParseError | None]:
+    def read() -> tuple[ParameterFile | None, ParseError | None]:
+        try:
+            return ParameterFile(path, yaml_tree.parse(package.source(path))), None
+        except ParseError as error:
+            return None, error
+        except ViewError:
+            return None, None
+
+    return package.remember(("parameter_file", path), read)
+
+
+def parameter_paths(package: Package) -> list[str]:
+    """Return the files that are meant to be parameter files: they say so, or nearly."""
+
+    def find() -> list[str]:
+        return [
+            path
+            for path in package.files
+            if path.endswith(ENDINGS) and _is_candidate(package, path)
+        ]
+
+    return package.remember("parameter_paths", find)
+
+
+def _is_candidate(package: Package, path: str) -> bool:
+    if not {"test", "tests"}.isdisjoint(path.split("/")) or path.startswith("."):
+        return False
+    try:
+        data = package.tree.read(path, yaml_tree.MAX_LENGTH)
+    except OSError:
+        return False
+    if b"aram" not in data.lower():
+        return False
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return False
+    return KEY in text or re.search(_MENTION, text) is not None
+
+
+def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
+    pending = [(prefix, mapping.pairs)]
+    for start, pairs in pending:  # grows on the way
+        for key, value in pairs:
+            name = f"{start}.{key.text}" if start else key.text
+            if isinstance(value, Mapping):
+                pending.append((name, value.pairs))
+            else:
+                yield Entry(name, key, value)
+
+
+def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
+    """Yield what rcl does not take in a value: nothing, aliases, lists in lists."""
+    for item in value.items if isinstance(value, Sequence) else (value,):
+        if is_empty(item):
+            at = key.location if item is value else item.location
+            yield Refused(at, f"{name} has no value; write ~ or '' for an empty string")
+        elif isinstance(item, Alias):
+            yield Refused(item.location, f"{name} is the alias *{item.name}; rcl has no aliases")
+        elif isinstance(item, Sequence) and item is not value:
+            yield Refused(item.location, f"{name} is a list of lists; rcl has none")
+            return
+
+
+# -- types
+
+
+def scalar_type(node: Scalar) -> str | None:
+    """Return the type that rcl gives a value; ``None`` when launch replaces it first."""
+    if "$(" in node.text or is_empty(node):
+        return None
+    if not node.is_plain or node.tag == "tag:yaml.org,2002:str":
+        return "string"
+    return text_type(node.text)
+
+
+def is_empty(node: YamlNode) -> bool:
+    """Tell whether nothing is written where a value should be."""
+    return isinstance(node, Scalar) and node.is_plain and node.start == node.end
+
+
+def text_type(text: str) -> str:
+    """Return the type that a word without quotes has."""
+    if text in BOOLEANS:
+        return "bool"
+    if len(text) > _LONGEST_NUMBER:
+        return "string"
+    if re.fullmatch(_INTEGER, text) and abs(_integer(text)) < 2**63:
+        return "integer"
+    is_double = re.fullmatch(_DOUBLE, text) is not None and not _overflows(text)
+    return "double" if is_double else "string"
+
+
+def number_of(node: YamlNode) -> float | None:
+    """Return the number that a value is for rcl; an integer stays one."""
+    kind = scalar_type(node) if isinstance(node, Scalar) else None
+    return number_in(node.text, kind) if kind and isinstance(node, Scalar) else None
+
+
+def number_in(text: str, kind: str) -> float | None:
+    """Return the number that a word of a type is; ``None`` for other types, and odd notations."""
+    if kind == "integer":
+        return _integer(text)
+    try:
+        return float(text) if kind == "double" else None
+    except ValueError:
+        return None
+
+
+def value_type(node: YamlNode) -> str | None:
+    """Return the type of a value as rcl sees it: ``double``, ``string_array`` ..."""
+    if isinstance(node, Scalar):
+        return scalar_type(node)
+    if isinstance(node, Sequence):
+        kinds = {scalar_type(item) if isinstance(item, Scalar) else None for item in node.items}
+        kind = kinds.pop() if len(kinds) == 1 else None
+        return f"{kind}_array" if kind else None
+    return None
+
+
+def mixed(node: YamlNode) -> tuple[Scalar, str, Scalar, str] | None:
+    """Return the first two items of a list that are of different types, with their types."""
+    if not isinstance(node, Sequence):
+        return None
+    first: tuple[Scalar, str] | None = None
+    for item in node.items:
+        kind = scalar_type(item) if isinstance(item, Scalar) else None
+        if kind is None or not isinstance(item, Scalar):
+            return None
+        if first is None:
+            first = item, kind
+        elif first[1] != kind:
+            return (*first, item, kind)
+    return None
+
+
+def _overflows(text: str) -> bool:
+    is_decimal = text[-1].isdigit() and "x" not in text.lower()
+    return is_decimal and abs(float(text)) == float("inf")
+
+
+def _integer(text: str) -> int:
+    sign = -1 if text.startswith("-") else 1
+    digits = text.lstrip("+-")
+    base = 16 if digits[:2].lower() == "0x" else 8 if digits.startswith("0") else 10
+    return sign * int(digits, base)

@@ -1,0 +1,60 @@
+"""Of which type a parameter is, when several nodes may be given it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.parameters.declared import ALWAYS, Declared, home_of, place_of
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.entities import Parameter
+
+
+def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple[str | None, str]:
+    """Return the type that all nodes agree on, and the name with where it is declared.
+
+    Args:
+        package: The package that is looked at.
+        known: What the nodes declare that are given the parameter.
+        name: The name of the parameter.
+    """
+    if name in ALWAYS:
+        return "bool", f"{name}, which every node has,"
+    nodes = [one for one in known if name in one.types]
+    types = {one.types[name] for one in nodes}
+    if len(types) != 1:
+        return None, name
+    return types.pop(), f"{name} ({place_of(nodes[0].places[name], package)})"
+
+
+def narrow_default(
+    package: Package, known: Sequence[Declared], name: str, given: str
+) -> Parameter | None:
+    """Return the parameter whose default, not the file, has a type that nobody means.
+
+    Such as ``1`` for a period, or a number in quotes. Those of other packages are judged there.
+    """
+    if name in ALWAYS:
+        return None
+    for one in known:
+        parameter = one.places.get(name)
+        default = parameter.default if parameter else None
+        owner = parameter.owner if parameter else None
+        if owner is None or home_of(owner, package) is not package:
+            continue
+        if given == "double" and (type(default) is int or _is_number(default)):
+            return parameter
+        if given == "integer" and _is_number(default):
+            return parameter
+    return None
+
+
+def a_type(kind: str) -> str:
+    """Return the name of a type with its article."""
+    return f"{'an' if kind.startswith('i') else 'a'} {kind}"
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, str) and value.lstrip("+-").replace(".", "", 1).isdecimal()

@@ -1,0 +1,1 @@
+"""What the programs of a package do when they run."""

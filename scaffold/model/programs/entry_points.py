@@ -1,0 +1,178 @@
+"""What the Python programs of a package run: their functions, the nodes they make."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.file import node_facts
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.nodes import NodeOwner
+
+_MAX_FILES = 200
+
+
+class Start(NamedTuple):
+    """Where a program of a package begins."""
+
+    program: str
+    path: str
+    function: str | None
+    """The entry function; without one, the file is run as a script."""
+
+
+class Run(NamedTuple):
+    """What a program runs in its own file."""
+
+    facts: NodeFacts
+    functions: Sequence[FunctionNode]
+    """From the entry on, what that calls included."""
+    calls: Sequence[ast.Call]
+    """The calls in them; of a script, its own calls first."""
+
+    def nodes(self) -> Iterator[tuple[ast.Call, NodeOwner]]:
+        """Yield the nodes that are certainly made, and the calls that make them."""
+        for call in self.calls:
+            owner = None if self.facts.is_conditional(call) else self.facts.owner_of(call)
+            if owner is not None:
+                yield call, owner
+
+
+def starts_of(package: Package) -> Sequence[Start]:
+    """Return where the programs that are Python begin."""
+    return package.remember("program_starts", lambda: list(_starts(package)))
+
+
+def run_of(package: Package, start: Start) -> Run:
+    """Return what a program runs; raises ViewError if its file cannot be parsed."""
+    return package.remember(("program_run", start), lambda: _run(package, start))
+
+
+def files_of(package: Package, path: str) -> Sequence[NodeFacts]:
+    """Return a file and what it imports of its package, over any number of steps.
+
+    The ``__init__.py`` of the packages around them are imported along with them.
+    """
+    return package.remember(("program_files", path), lambda: _files(package, path))
+
+
+# -- where programs begin
+
+
+def _starts(package: Package) -> Iterator[Start]:
+    try:
+        if package.build_type == "ament_python":
+            yield from _console_scripts(package)
+        elif package.build_type == "ament_cmake":
+            yield from _programs(package)
+    except ViewError:
+        return
+
+
+def _console_scripts(package: Package) -> Iterator[Start]:
+    for entry in package.setup_py.console_scripts:
+        path = _file_of(package, entry.module)
+        if path is not None and not entry.malformed:
+            yield Start(entry.name, path, entry.function)
+
+
+def _file_of(package: Package, module: str) -> str | None:
+    stem = module.replace(".", "/")
+    paths = (f"{top}{stem}{end}" for top in ("", "src/") for end in (".py", "/__init__.py"))
+    return next((path for path in paths if package.has(path)), None)
+
+
+def _programs(package: Package) -> Iterator[Start]:
+    for install in package.cmake.installs:
+        if install.kind != "PROGRAMS" or package.cmake.guarded_by_testing(install.command):
+            continue
+        for item in install.items:
+            path = item.path
+            if path is None or path not in package.python_files:
+                continue
+            # A node is meant for `ros2 run` wherever it is installed.
+            if install.destination == f"lib/{package.name}" or node_facts(package, path).nodes:
+                yield Start(install.rename or path.rpartition("/")[2], path, None)
+
+
+# -- what they run
+
+
+def _run(package: Package, start: Start) -> Run:
+    facts = node_facts(package, start.path)
+    outside = _calls_outside(facts) if start.function is None else []
+    functions = _functions(facts, start.function, outside)
+    calls = [call for function in functions for call in facts.calls_in(function)]
+    return Run(facts, functions, [*outside, *calls])
+
+
+def _functions(
+    facts: NodeFacts, entry: str | None, outside: Iterable[ast.Call]
+) -> list[FunctionNode]:
+    """Return the functions that run, from the entry on, in the same file."""
+    if entry is not None:
+        found = facts.module.functions.get(entry)
+        begin = [found.node] if found else []
+    else:
+        called = [facts.callback(call.func).function for call in outside]
+        begin = [one for one in called if one is not None and not isinstance(one, ast.Lambda)]
+    reached: dict[FunctionNode | ast.Lambda, None] = {}
+    for one in begin:
+        reached.update(dict.fromkeys(facts.reached(one, reached)))
+    return [one for one in reached if not isinstance(one, ast.Lambda)]
+
+
+def _calls_outside(facts: NodeFacts) -> list[ast.Call]:
+    """Return the calls that importing or running the file makes itself."""
+    module = facts.module
+    return [
+        call
+        for call in module.walk(ast.Call)
+        if module.enclosing_function(call) is None and module.enclosing_class(call) is None
+    ]
+
+
+# -- files of the package
+
+
+def _files(package: Package, path: str) -> list[NodeFacts]:
+    found: dict[str, NodeFacts] = {}
+    pending = [path]
+    while pending and len(found) < _MAX_FILES:
+        current = pending.pop()
+        if current in found or not package.has(current):
+            continue
+        try:
+            found[current] = node_facts(package, current)
+        except ViewError:
+            continue
+        pending += _imported(package, current)
+    return list(found.values())
+
+
+def _imported(package: Package, path: str) -> Iterator[str]:
+    """Yield the files that the imports of a file may mean."""
+    directory = path.rpartition("/")[0]
+    yield f"{directory}/__init__.py"
+    for one in package.module(path).imports:
+        bases = ["", "src", directory]
+        if one.level:
+            parts = directory.split("/") if directory else []
+            bases = ["/".join(parts[: len(parts) - one.level + 1])]
+        names = one.module.strip(".").split(".") if one.module.strip(".") else []
+        for base in dict.fromkeys(bases):
+            at = [part for part in base.split("/") if part]
+            for name in names:
+                at.append(name)
+                yield "/".join([*at, "__init__.py"])
+            yield "/".join(at) + ".py"
+            for imported in one.names:
+                yield "/".join([*at, imported.name]) + ".py"
+                yield "/".join([*at, imported.name, "__init__.py"])

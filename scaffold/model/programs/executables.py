@@ -1,0 +1,174 @@
+"""The programs that ``ros2 run`` finds in a package, and the nodes that they are."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.catalog import keys_of_module
+from scaffold.model.cmake.ament import programs
+from scaffold.model.rclpy.file import node_facts
+from scaffold.model.rclpy.nodes import NodeObject
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.nodes import NodeOwner
+
+_PLAIN_COMMANDS = frozenset(
+    """
+    add_compile_options add_definitions add_dependencies add_executable add_library
+    ament_add_gmock ament_add_gtest ament_add_pytest_test
+    ament_environment_hooks ament_export_dependencies ament_export_include_directories
+    ament_export_interfaces ament_export_libraries ament_export_targets
+    ament_index_register_resource
+    ament_lint_auto_find_test_dependencies ament_package ament_python_install_package
+    ament_target_dependencies cmake_minimum_required cmake_policy else elseif endforeach endif
+    find_package foreach if include_directories install list message option
+    pluginlib_export_plugin_description_file
+    project rclcpp_components_register_node rclcpp_components_register_nodes return
+    rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
+    set_property set_target_properties string target_compile_definitions target_compile_features
+    target_compile_options target_include_directories target_link_libraries
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
+)
+"""Commands that make no programs, or such whose names are plain to see."""
+
+
+class Programs(NamedTuple):
+    """The programs of a package."""
+
+    sources: dict[str, str]
+    """The Python file of a program by its name; empty for one of another language."""
+    complete: bool
+    """Whether these are all."""
+
+
+def programs_of(package: Package) -> Programs:
+    """Return the programs that a package installs in ``lib/<package>``."""
+    return package.remember("package_programs", lambda: _programs(package))
+
+
+def nodes_of(package: Package, program: str) -> list[NodeOwner]:
+    """Return the nodes that a Python program may be; one when that is sure."""
+    path = programs_of(package).sources.get(program)
+    if not path:
+        return []
+    try:
+        facts = node_facts(package, path)
+    except ViewError:
+        return []
+    found = list(facts.nodes)
+    for name in _imported(package, path):
+        found.extend(node_facts(package, name).nodes)
+    found.extend(_made_by_others(package, path))
+    return found
+
+
+def _made_by_others(package: Package, path: str) -> Iterator[NodeOwner]:
+    """Yield the nodes that functions of other packages make, as far as a file imports those."""
+    for one in package.module(path).imports:
+        if one.level or one.root == package.name or keys_of_module(one.root):
+            continue
+        other = package.workspace.get(one.root)
+        stem = one.module.replace(".", "/")
+        for name in (f"{stem}.py", f"src/{stem}.py"):
+            if other is None or not other.has(name):
+                continue
+            with contextlib.suppress(ViewError):
+                nodes = node_facts(other, name).nodes
+                yield from (node for node in nodes if isinstance(node, NodeObject))
+
+
+def _imported(package: Package, path: str) -> Iterator[str]:
+    """Yield the files of the package that a file imports from."""
+    roots = ("", "src/", f"{path.rpartition('/')[0]}/")
+    for one in package.module(path).imports:
+        if one.level or one.in_function:
+            base = path.rpartition("/")[0] if one.level == 1 else ""
+            stem = "/".join(part for part in (base, *one.module.split(".")) if part)
+            names = [stem] if base else []
+        else:
+            names = [root + one.module.replace(".", "/") for root in dict.fromkeys(roots)]
+        for stem in names:
+            if package.has(f"{stem}.py") and f"{stem}.py" != path:
+                try:
+                    node_facts(package, f"{stem}.py")
+                except ViewError:
+                    continue
+                yield f"{stem}.py"
+                break
+
+
+def _programs(package: Package) -> Programs:
+    read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
+    try:
+        return read(package) if read else Programs({}, complete=False)
+    except ViewError:
+        return Programs({}, complete=False)
+
+
+def _by_setup(package: Package) -> Programs:
+    setup = package.setup_py
+    if setup.call is None:
+        return Programs({}, complete=False)
+    complete = setup.entry_points_complete and not setup.has_unknown_keywords
+    complete = complete and setup.data_files_complete and setup.keyword("scripts") is None
+    sources: dict[str, str] = {}
+    for entry in setup.entry_points:
+        if entry.group in {"console_scripts", "gui_scripts"}:
+            complete = complete and entry.malformed is None
+            sources[entry.name] = _file_of(package, entry.module)
+    for data in setup.data_files:
+        if str(data.destination).startswith("lib"):
+            complete = False
+    if package.has("setup.cfg") and "entry_points" in package.source("setup.cfg").text:
+        complete = False
+        sources.update(_configured(package))
+    return Programs(sources, complete)
+
+
+def _configured(package: Package) -> dict[str, str]:
+    """Return the programs that setup.cfg declares."""
+    option = package.setup_cfg.option("options.entry_points", "console_scripts")
+    lines = [line.text.partition("=") for line in option.lines] if option is not None else []
+    return {
+        name.strip(): _file_of(package, target.partition(":")[0].strip())
+        for name, glue, target in lines
+        if glue
+    }
+
+
+def _file_of(package: Package, module: str) -> str:
+    """Return the file of a module; empty if there is none."""
+    base = module.replace(".", "/")
+    paths = [f"{base}.py", f"{base}/__init__.py", f"src/{base}.py"]
+    return next(filter(package.has, paths), "")
+
+
+def _by_cmake(package: Package) -> Programs:
+    cmake = package.cmake
+    complete = all(command.name in _PLAIN_COMMANDS for command in cmake.commands)
+    sources: dict[str, str] = {}
+    for program in programs(package):
+        destination = (program.destination or "").rstrip("/")
+        if destination == f"lib/{package.name}":
+            is_python = program.path in package.python_files
+            sources[program.name] = program.path if is_python else ""
+    for install in cmake.installs:
+        if install.kind == "TARGETS":
+            complete = complete and all(item.value is not None for item in install.items)
+            sources.update({item.value: "" for item in install.items if item.value})
+        elif any(item.path is None for item in install.items):
+            complete = False
+        elif install.destination is None or install.kind == "DIRECTORY":
+            lib = install.destination is None or install.destination.startswith("lib")
+            complete = complete and not lib
+    for command in cmake.find("rclcpp_components_register_node"):
+        names = cmake.expand_list(command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"}), command)
+        complete = complete and names is not None
+        sources.update(dict.fromkeys(names or (), ""))
+    renames = any("OUTPUT_NAME" in command.values for command in cmake.commands)
+    return Programs(sources, complete and not renames)

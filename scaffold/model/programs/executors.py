@@ -1,0 +1,72 @@
+"""What programs do with executors, and what they do behind a shutdown of rclpy."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.entities import RclpyCall
+    from scaffold.model.rclpy.file import NodeFacts
+
+_FAR = 200
+"""Statements in between: what they do is not looked at."""
+
+
+class Shutdowns:
+    """The shutdowns of a file that are statements, by the block that they stand in."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._module = facts.module
+        self._blocks: dict[tuple[ast.AST, str], dict[int, RclpyCall]] = {}
+        for call in facts.shutdown_calls:
+            place = self._place(call.call)
+            if place is not None:
+                holder, block, number = place
+                self._blocks.setdefault((holder, block), {})[number] = call
+
+    def before(self, call: ast.Call) -> RclpyCall | None:
+        """Return the last one ahead of a call in its block, unless rclpy may have begun anew."""
+        place = self._place(call)
+        if place is None:
+            return None
+        holder, block, number = place
+        there = self._blocks.get((holder, block), {})
+        for at in range(number - 1, max(number - _FAR, 0) - 1, -1) if there else ():
+            if at in there:
+                return there[at]
+            if "init" in ast.unparse(getattr(holder, block)[at]):
+                return None
+        return None
+
+    def _place(self, call: ast.Call) -> tuple[ast.AST, str, int] | None:
+        """Return what holds a call that is a statement, in which block, and at which place."""
+        statement = self._module.parent(call)
+        holder = self._module.parent(statement) if isinstance(statement, ast.Expr) else None
+        if statement is None or holder is None:
+            return None
+        return holder, *self._module.index.place(statement)
+
+
+def used_of_executor(facts: NodeFacts, call: ast.Call) -> dict[str, ast.AST] | None:
+    """Return what is used of an executor held in a local variable and given to nobody."""
+    name = facts.module.qualified_name(call.func) or ""
+    parent = facts.module.parent(call)
+    if not name.startswith("rclpy.executors.") or not name.endswith("Executor"):
+        return None
+    if not isinstance(parent, ast.Assign) or not isinstance(parent.targets[0], ast.Name):
+        return None
+    variable = parent.targets[0]
+    scope = facts.module.index.lookup(variable.id, variable)
+    found: dict[str, ast.AST] = {}
+    for other in facts.module.index.names(variable.id):
+        if other is variable:
+            continue
+        around = facts.module.parent(other)
+        if not scope or not isinstance(around, ast.Attribute):
+            return None
+        looked_up = facts.module.index.lookup(other.id, other)
+        if looked_up is None or looked_up[0] is not scope[0]:
+            return None
+        found[around.attr] = around
+    return found

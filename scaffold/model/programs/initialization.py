@@ -1,0 +1,60 @@
+"""Whether rclpy is initialized before a program makes its first node."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.programs.entry_points import Run
+    from scaffold.model.rclpy.file import NodeFacts
+
+_HARMLESS = frozenset({"rclpy", *dir(builtins)})
+
+
+def late_init(facts: NodeFacts, made: ast.Call) -> ast.Call | None:
+    """Return the only initialization of a file, if it comes too late in the same function."""
+    mentions = [*facts.module.index.attributes("init"), *facts.module.index.names("init")]
+    if len(facts.init_calls) != 1 or len(mentions) != 1:
+        return None
+    call = facts.init_calls[0].call
+    is_certain = not facts.is_conditional(call) and not facts.is_conditional(made)
+    is_same = facts.function_of(call) is facts.function_of(made)
+    return call if is_certain and is_same and call.lineno > made.lineno else None
+
+
+def may_init(facts: NodeFacts) -> bool:
+    """Tell whether a file may initialize rclpy, or makes a context of its own."""
+    index = facts.module.index
+    for name in ("init", "Context"):
+        if index.attributes(name) or index.names(name):
+            return True
+    return any(
+        name.name in {"init", "Context"} or (name.name == "*" and not _is_standard(one.root))
+        for one in facts.module.imports
+        for name in one.names
+    )
+
+
+def calls_others(package: Package, run: Run, made: ast.Call) -> bool:
+    """Tell whether code of others runs before the node is made, which may initialize rclpy."""
+    module = run.facts.module
+    function = run.facts.function_of(made)
+    own = {part for path in package.python_files for part in path.split("/")}
+    for call in run.calls:
+        is_later = run.facts.function_of(call) is function and call.lineno > made.lineno
+        if call is made or is_later or module.enclosing_class(call) is not None:
+            continue
+        for name in module.qualified_names(call.func):
+            root = name.partition(".")[0]
+            is_own = root in own or f"{root}.py" in own
+            if root and root not in _HARMLESS and not is_own and not _is_standard(root):
+                return True
+    return False
+
+
+def _is_standard(root: str) -> bool:
+    return root in sys.stdlib_module_names

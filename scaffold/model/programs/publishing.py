@@ -1,0 +1,426 @@
+"""Whether a publisher publishes at all, and how often."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from enum import Enum
+
+from scaffold.model.python.attributes import Store
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.python.values import Unknown
+from scaffold.model.rclpy.entities import Callback, Entity, Publisher, Timer
+from scaffold.model.rclpy.file import NodeFacts
+
+_HARMLESS = frozenset(
+    {
+        "topic",
+        "topic_name",
+        "get_subscription_count",
+        "msg_type",
+        "qos_profile",
+        "handle",
+        "destroy",
+    }
+    | {"is_ready", "is_canceled", "time_since_last_call", "time_until_next_call"}
+    | {"timer_period_ns", "clock", "callback_group"}
+)
+"""What can be asked of a publisher or timer without any effect."""
+
+_MAX_CALLS = 4
+"""Functions between a timer and what publishes, and mentions of each."""
+
+
+class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
+    """Something else may happen as well."""
+
+
+def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] | None:
+    """Return the calls that publish; ``None`` when others get hold of the publisher."""
+    try:
+        return list(_uses(facts, publisher, "publish"))
+    except _Doubt:
+        return None
+
+
+def publish_rates(
+    facts: NodeFacts, publisher: Publisher, *, may_leave: bool = False
+) -> Sequence[float] | None:
+    """Return the rates in Hz that add up to how often a publisher publishes, one per message.
+
+    Known if all that publishes are callbacks of timers, directly or through other functions of the
+    file, under no condition, and nothing stops or changes the timers. Else ``None``; without any
+    rate, it publishes at the start or never.
+
+    Args:
+        facts: The file.
+        publisher: What publishes.
+        may_leave: Whether callbacks may return or raise before they publish.
+    """
+    if publisher.is_conditional or publisher.is_lifecycle:
+        return None
+    try:
+        return [
+            _rate(facts, timer)
+            for call in _uses(facts, publisher, "publish")
+            for timer in _timers_behind(facts, call, 0, may_leave=may_leave)
+        ]
+    except _Doubt:
+        return None
+
+
+def ticks_always(facts: NodeFacts, timer: Timer) -> bool:
+    """Tell whether a timer certainly ticks, from the start of its node to the end."""
+    try:
+        _expect_ticking(facts, timer)
+    except _Doubt:
+        return False
+    return True
+
+
+def _rate(facts: NodeFacts, timer: Timer) -> float:
+    if isinstance(timer.period, Unknown) or timer.period <= 0:
+        raise _Doubt
+    _expect_ticking(facts, timer)
+    return 1 / timer.period
+
+
+def _expect_ticking(facts: NodeFacts, timer: Timer) -> None:
+    autostart = timer.argument("autostart")
+    if timer.is_conditional or timer.has_unknown_arguments:
+        raise _Doubt
+    if autostart and autostart.value is not True:
+        raise _Doubt
+    if timer.argument("clock") or _may_be_held_up(facts, timer):
+        raise _Doubt
+    if not _runs_once(facts, timer.function):
+        raise _Doubt
+    if timer.attribute or timer.variable:
+        list(_uses(facts, timer, ""))
+
+
+def _may_be_held_up(facts: NodeFacts, timer: Timer) -> bool:
+    """Tell whether a timer is in a callback group that may do anything."""
+    group = timer.argument("callback_group")
+    if group is None:
+        return False
+    made = facts.evaluator.single_value(group.node)
+    names = facts.module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
+    return not any(name.startswith("rclpy.callback_groups.") for name in names)
+
+
+def _runs_once(facts: NodeFacts, function: FunctionNode | None) -> bool:
+    """Tell whether a function is run once per node: constructor, its helper, or main."""
+    for _ in range(_MAX_CALLS):
+        if function is None or function.name == "__init__":
+            return True
+        is_method = isinstance(facts.module.parent(function), ast.ClassDef)
+        references = list(_references(facts, function))
+        if not is_method:
+            return len(references) <= 1
+        if len(references) != 1 or not _is_certain_call(facts, references[0]):
+            return False
+        function = facts.module.enclosing_function(references[0])
+    return False
+
+
+# -- who uses what
+
+
+def _uses(facts: NodeFacts, entity: Entity, method: str) -> Iterator[ast.Call]:
+    """Yield the calls of a method of something stored; doubt when it goes elsewhere."""
+    module = facts.module
+    for node in _stored_references(facts, entity):
+        parent = module.parent(node)
+        above = module.parent(parent) if parent else None
+        if isinstance(parent, ast.Attribute):
+            is_called = isinstance(above, ast.Call) and above.func is parent
+            if is_called and parent.attr == method and isinstance(above, ast.Call):
+                yield above
+            elif parent.attr not in _HARMLESS:
+                raise _Doubt
+        elif not isinstance(parent, ast.If | ast.Compare | ast.BoolOp | ast.Expr):
+            raise _Doubt
+
+
+def _stored_references(facts: NodeFacts, entity: Entity) -> Iterator[ast.expr]:
+    """Yield where the attribute and the variable that something is stored in are read."""
+    if not entity.attribute and not entity.variable:
+        raise _Doubt
+    if entity.attribute:
+        yield from _attribute_references(facts, entity, entity.attribute)
+    if entity.variable:
+        for node in facts.module.index.names(entity.variable):
+            if not isinstance(node.ctx, ast.Load):
+                continue
+            found = facts.module.index.lookup(node.id, node)
+            bindings = found[1] if found else ()
+            if any(binding.value is entity.call for binding in bindings):
+                if len(bindings) > 1:
+                    raise _Doubt
+                yield node
+
+
+def _attribute_references(
+    facts: NodeFacts, entity: Entity, attribute: str
+) -> Iterator[ast.Attribute]:
+    function = entity.function
+    class_ = facts.module.enclosing_class(function) if function else None
+    if class_ is None:
+        raise _Doubt
+    family = facts.related_classes(class_)
+    for store in facts.evaluator.stores(attribute):
+        other = store.class_ is None or store.class_ in family
+        if other and store.value is not entity.call and not _is_placeholder(store, entity):
+            raise _Doubt
+    for node in facts.module.index.attributes(attribute):
+        if isinstance(node.ctx, ast.Load):
+            holder = facts.evaluator.self_class(node.value)
+            if holder is None or holder in family:
+                yield node
+
+
+def _is_placeholder(store: Store, entity: Entity) -> bool:
+    """Tell whether an attribute gets None until what belongs there is made further down."""
+    is_none = isinstance(store.value, ast.Constant) and store.value.value is None
+    return is_none and store.node.lineno < entity.call.lineno
+
+
+def _timers_behind(
+    facts: NodeFacts, call: ast.AST, depth: int, *, may_leave: bool
+) -> Iterator[Timer]:
+    """Yield a timer for every way to come to a call; doubt for any other way."""
+    module = facts.module
+    function = facts.function_of(call)
+    if depth > _MAX_CALLS or function is None:
+        raise _Doubt
+    if _is_conditional(facts, call, function) or not (may_leave or _gets_to(facts, call, function)):
+        raise _Doubt
+    if not isinstance(function, ast.Lambda) and function.name == "__init__":
+        return  # once, at the start
+    references = list(_references(facts, function))
+    if not references or len(references) > _MAX_CALLS:
+        raise _Doubt
+    for reference in references:
+        timer = _timer_with(facts, reference)
+        if timer is not None:
+            yield timer
+            continue
+        parent = module.parent(reference)
+        if not isinstance(parent, ast.Call) or parent.func is not reference:
+            raise _Doubt
+        yield from _timers_behind(facts, parent, depth + 1, may_leave=may_leave)
+
+
+def _timer_with(facts: NodeFacts, reference: ast.expr) -> Timer | None:
+    for timer in facts.timers:
+        callback = timer.callback
+        if callback and not callback.is_called and _innermost(callback) is reference:
+            return timer
+    return None
+
+
+def _innermost(callback: Callback) -> ast.expr:
+    """Return the function inside ``partial(partial(function, ...), ...)``."""
+    node = callback.node
+    while isinstance(node, ast.Call) and node.args:
+        node = node.args[0]
+    return node
+
+
+def _references(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
+    """Yield where a function is mentioned; doubt when another one has the same name."""
+    if isinstance(function, ast.Lambda):
+        yield function
+    elif isinstance(facts.module.parent(function), ast.ClassDef):
+        yield from _method_references(facts, function)
+    else:
+        yield from _function_references(facts, function)
+
+
+def _method_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+    index, class_ = facts.module.index, facts.module.enclosing_class(function)
+    family = facts.related_classes(class_) if class_ else ()
+    name = function.name
+    same = [found for member in family for found in index.bindings(member).get(name, ())]
+    if len(same) != 1:
+        raise _Doubt
+    for node in index.attributes(name):
+        holder = facts.evaluator.self_class(node.value)
+        if holder is None or holder in family:
+            yield node
+
+
+def _function_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+    for name in facts.module.index.names(function.name):
+        if isinstance(name.ctx, ast.Load):
+            found = facts.module.index.lookup(name.id, name)
+            bindings = found[1] if found else ()
+            if any(binding.node is function for binding in bindings):
+                if len(bindings) > 1:
+                    raise _Doubt
+                yield name
+
+
+def _is_certain_call(facts: NodeFacts, reference: ast.expr) -> bool:
+    parent = facts.module.parent(reference)
+    function = facts.function_of(reference)
+    return (
+        isinstance(parent, ast.Call)
+        and parent.func is reference
+        and function is not None
+        and _is_certain(facts, parent, function)
+    )
+
+
+def _is_certain(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether a node is run exactly once whenever its function is."""
+    return not _is_conditional(facts, node, function) and _gets_to(facts, node, function)
+
+
+def _is_conditional(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether a node is inside of something that may skip or repeat it."""
+    child = node
+    for parent in facts.module.parents(node):
+        if parent is function:
+            break
+        match parent:
+            case ast.If() | ast.For() | ast.While() | ast.AsyncFor() | ast.IfExp():
+                return True
+            case ast.ExceptHandler() | ast.match_case() | ast.comprehension() | ast.Assert():
+                return True
+            case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+                return True
+            case ast.BoolOp(values=[first, *_]) if child is not first:
+                return True
+            case ast.Try(body=[first, *_], handlers=[_, *_]) if child is not first:
+                return True
+        child = parent
+    return False
+
+
+def _gets_to(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether nothing leaves a function before a node of it."""
+    return not any(
+        facts.function_of(leaving) is function and _is_before(leaving, node)
+        for kind in (ast.Return, ast.Raise, ast.Yield)
+        for leaving in facts.module.walk(kind)
+    )
+
+
+def _is_before(first: ast.AST, second: ast.AST) -> bool:
+    return getattr(first, "lineno", 0) < getattr(second, "lineno", 0)
+
+
+_MAX_DEPTH = 5
+_CONDITIONS = (
+    ast.If | ast.IfExp | ast.For | ast.AsyncFor | ast.ExceptHandler | ast.match_case | ast.Lambda
+)
+_COMPREHENSIONS = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
+
+
+class Reach(Enum):
+    """Whether a place in the source is run."""
+
+    ALWAYS = "always"
+    PERHAPS = "perhaps"
+    NEVER = "never"
+
+
+def _most(found: Iterable[Reach]) -> Reach:
+    """Return the most that is said of several places."""
+    reached = set(found)
+    order = (Reach.ALWAYS, Reach.PERHAPS)
+    return next((one for one in order if one in reached), Reach.NEVER)
+
+
+class PublishReach:
+    """Which calls that publish are reached in one file.
+
+    Args:
+        facts: The file.
+        starts: Its functions that run from the start, ``main`` and what that calls.
+        alone: Whether no other file calls into this one.
+    """
+
+    def __init__(self, facts: NodeFacts, starts: Collection[FunctionNode], *, alone: bool) -> None:
+        self._facts = facts
+        self._module = facts.module
+        self._starts = starts
+        self._alone = alone
+
+    def of(self, publisher: Publisher) -> Reach:
+        """Return whether a publisher publishes at all."""
+        calls = publish_calls(self._facts, publisher)
+        if calls is None:
+            return Reach.PERHAPS
+        return _most(self._reach_of_call(call, _MAX_DEPTH) for call in calls)
+
+    def _reach_of_call(self, call: ast.Call, depth: int) -> Reach:
+        for parent in self._module.parents(call):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+                break
+            if isinstance(parent, _CONDITIONS | _COMPREHENSIONS):
+                if parent is self._module.main_guard_node:
+                    continue
+                return Reach.PERHAPS
+        function = self._module.enclosing_function(call)
+        if function is None:
+            return Reach.ALWAYS
+        if self._is_behind_spin(function, call):
+            return Reach.PERHAPS
+        leaving = self._leaving(function, call)
+        if any(self._module.parent(node) is function for node in leaving):
+            return Reach.NEVER
+        return Reach.PERHAPS if leaving else self._reach_of_function(function, depth)
+
+    def _reach_of_function(self, function: FunctionNode, depth: int) -> Reach:
+        if function in self._starts or function.name == "__init__":
+            return Reach.ALWAYS
+        if not depth:
+            return Reach.PERHAPS
+        calls = list(self._calls_of(function))
+        reached = {self._reach_of_call(call, depth - 1) for call in calls}
+        passed = 0
+        for entity, callback in self._facts.callbacks:
+            if callback.function is function:
+                passed += 1
+                ticks = isinstance(entity, Timer) and ticks_always(self._facts, entity)
+                reached.add(Reach.ALWAYS if ticks else Reach.PERHAPS)
+        if not self._alone or self._mentions(function) > len(calls) + passed:
+            reached.add(Reach.PERHAPS)
+        return _most(reached)
+
+    def _is_behind_spin(self, function: FunctionNode, call: ast.Call) -> bool:
+        """Tell whether a function spins for as long as it is watched before it makes a call."""
+        return any(
+            spin.name.rpartition(".")[2] == "spin"
+            and spin.function is function
+            and spin.call.lineno < call.lineno
+            for spin in self._facts.spin_calls
+        )
+
+    def _mentions(self, function: FunctionNode) -> int:
+        """Count where the name of a function is used in any way."""
+        return sum(node.attr == function.name for node in self._module.walk(ast.Attribute)) + sum(
+            node.id == function.name for node in self._module.walk(ast.Name)
+        )
+
+    def _calls_of(self, function: FunctionNode) -> Iterator[ast.Call]:
+        for call in self._module.walk(ast.Call):
+            if self._facts.callback(call.func).function is function:
+                yield call
+
+    def _leaving(self, function: FunctionNode, call: ast.Call) -> list[ast.AST]:
+        """Return the statements that may leave a function before it makes a call."""
+        nodes: list[ast.Return | ast.Raise | ast.Yield | ast.Await] = [
+            *self._module.walk(ast.Return),
+            *self._module.walk(ast.Raise),
+            *self._module.walk(ast.Yield),
+            *self._module.walk(ast.Await),
+        ]
+        return [
+            node
+            for node in nodes
+            if node.lineno <= call.lineno and self._module.enclosing_function(node) is function
+        ]

@@ -1,0 +1,1 @@
+"""Python files: names, scopes, and values that are certain."""

@@ -1,0 +1,161 @@
+"""What attributes of ``self`` are worth, from where they are assigned."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.evaluator import MOST_ASSIGNMENTS, Evaluator
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
+
+
+class Store(NamedTuple):
+    """One place where an attribute gets a value."""
+
+    node: ast.Attribute
+    class_: ast.ClassDef | None
+    """The class whose ``self`` it is an attribute of."""
+    value: ast.expr | None
+
+
+class SelfEvaluator(Evaluator):
+    """An evaluator that knows where attributes of objects are assigned.
+
+    Args:
+        module: The file.
+        related: Gives a class together with its bases and subclasses in the file.
+    """
+
+    def __init__(
+        self, module: PythonModule, related: Callable[[ast.ClassDef], Sequence[ast.ClassDef]]
+    ) -> None:
+        super().__init__(module)
+        self.related = related
+        self._stores: dict[str, list[Store]] | None = None
+        self._classes: dict[ast.Name, ast.ClassDef | None] = {}
+
+    def self_class(self, node: ast.expr) -> ast.ClassDef | None:
+        """Return the class whose instance a name such as ``self`` is."""
+        if not isinstance(node, ast.Name):
+            return None
+        if node not in self._classes:
+            self._classes[node] = self._class_of(node)
+        return self._classes[node]
+
+    def _class_of(self, node: ast.Name) -> ast.ClassDef | None:
+        found = self.module.index.lookup(node.id, node)
+        if found is None or [binding.kind for binding in found[1]] != ["parameter"]:
+            return None
+        function, parameter = found[0], found[1][0].node
+        class_ = self.module.parent(function)
+        if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+            return None
+        if not isinstance(class_, ast.ClassDef) or _is_static(function):
+            return None
+        first = [*function.args.posonlyargs, *function.args.args][:1]
+        return class_ if first == [parameter] else None
+
+    def stores(self, name: str) -> Sequence[Store]:
+        """Return the places where an attribute of this name gets a value, on any object."""
+        if self._stores is None:
+            self._stores = {}
+            for node in self.module.walk(ast.Attribute):
+                if not isinstance(node.ctx, ast.Load):
+                    store = Store(node, self.self_class(node.value), self._stored(node))
+                    self._stores.setdefault(node.attr, []).append(store)
+        return self._stores.get(name, ())
+
+    def _stored(self, node: ast.Attribute) -> ast.expr | None:
+        parent = self.module.parent(node)
+        match parent:
+            case ast.Assign() | ast.AnnAssign() | ast.NamedExpr():
+                return parent.value
+            case ast.Tuple() | ast.List():
+                above = self.module.parent(parent)
+                values = above.value if isinstance(above, ast.Assign) else None
+                if isinstance(values, ast.Tuple) and len(values.elts) == len(parent.elts):
+                    return values.elts[parent.elts.index(node)]
+        return None
+
+    def attribute_values(self, node: ast.Attribute) -> Sequence[ast.expr] | None:
+        """Return all expressions that ``self.name`` may be worth; ``None`` if more is possible."""
+        class_ = self.self_class(node.value) or self.named_class(node.value)
+        if class_ is None:
+            return None
+        stores = self.stores(node.attr)
+        if len(stores) > MOST_ASSIGNMENTS:
+            return None
+        family = self.related(class_)
+        values: list[ast.expr] = []
+        for store in stores:
+            if store.class_ is not None and store.class_ not in family:
+                continue
+            if store.class_ is None or store.value is None or self._is_only_default(store.node):
+                return None
+            values.append(store.value)
+        for member in family:
+            for binding in self.module.index.bindings(member).get(node.attr, ()):
+                if binding.kind == "annotation":
+                    continue
+                if binding.value is None:
+                    return None
+                values.append(binding.value)
+        return values
+
+    def _is_only_default(self, target: ast.Attribute) -> bool:
+        """Tell whether others may set an attribute: ``if not hasattr(self, 'rate'):``."""
+        for parent in self.module.parents(target):
+            if isinstance(parent, ast.If):
+                for call in self.module.below(parent.test, ast.Call):
+                    match call:
+                        case ast.Call(
+                            func=ast.Name("hasattr"), args=[_, ast.Constant(value=name)]
+                        ) if name == target.attr:
+                            return True
+        return False
+
+    def named_class(self, node: ast.expr) -> ast.ClassDef | None:
+        """Return the class of the file that an expression names."""
+        if isinstance(node, ast.Name):
+            found = self.module.index.lookup(node.id, node)
+            if found and len(found[1]) == 1 and isinstance(found[1][0].node, ast.ClassDef):
+                return found[1][0].node
+        return None
+
+    def single_value(self, node: ast.expr) -> ast.expr:
+        """Follow names and attributes of ``self`` with one assignment to what is assigned.
+
+        ``None`` does not count: who uses the object waits for the other assignment.
+        """
+        for _ in range(10):
+            values: Iterable[ast.expr | None] | None = None
+            if isinstance(node, ast.Name):
+                found = self.module.index.lookup(node.id, node)
+                values = (
+                    binding.value
+                    for binding in (found[1] if found else ())
+                    if binding.kind != "annotation"
+                )
+            elif isinstance(node, ast.Attribute):
+                values = self.attribute_values(node)
+            made = list(islice((value for value in values or () if not _is_none(value)), 2))
+            if len(made) != 1 or made[0] is None:
+                return node
+            node = made[0]
+        return node
+
+
+def _is_none(node: ast.expr | None) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _is_static(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    return any(
+        isinstance(decorator, ast.Name) and decorator.id in {"staticmethod", "classmethod"}
+        for decorator in function.decorator_list
+    )

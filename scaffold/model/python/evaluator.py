@@ -1,0 +1,541 @@
+"""What an expression is worth, without running it: a value where that is sure, else UNKNOWN."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import (
+    COMPARISONS,
+    FUNCTIONS,
+    NAMED_VALUES,
+    UNKNOWN,
+    Glob,
+    PathValue,
+    Unknown,
+    binary,
+    format_text,
+    held_small,
+    is_known,
+    join_paths,
+    path_method,
+    same,
+    text_method,
+)
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.scopes import Binding
+
+
+class Element(NamedTuple):
+    """An item of a list, and where it is written."""
+
+    node: ast.expr
+    value: object
+    conditional: bool = False
+    """Added under a condition or in a loop."""
+
+
+class Elements(NamedTuple):
+    """The items of a list as far as they are known."""
+
+    items: tuple[Element, ...]
+    complete: bool
+    """Whether these are all."""
+
+
+MAX_DEPTH = 60
+"""Expressions inside expressions, through names too."""
+MOST_ASSIGNMENTS = 200
+"""Of one name; a name with more has no value that anybody knows."""
+MAX_STEPS = 20_000
+"""Expressions visited for one value: names that stand for each other multiply."""
+MOST_STEPS = 300_000
+"""Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
+FEW_STEPS = 100
+
+_CHANGING = frozenset(
+    {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
+    | {"update", "setdefault", "add", "discard", "popitem"}
+)
+
+
+class Evaluator:
+    """Evaluates the expressions of one module.
+
+    A name is worth what it is assigned, if all its assignments agree; a list grows by the
+    ``append`` and ``extend`` calls that follow in the same block. Subclasses add what
+    attributes and calls are worth.
+    """
+
+    def __init__(self, module: PythonModule) -> None:
+        self.module = module
+        self._depth = 0
+        self._steps = self._spent = 0
+        self._most = MAX_STEPS
+        self._is_cut = False
+        self._running: set[ast.AST] = set()
+        self._memo: dict[ast.AST, tuple[object, frozenset[str]]] = {}
+        self._local: dict[tuple[ast.AST, str], object] = {}
+        self._notes: frozenset[str] = frozenset()
+        self._methods: Mapping[type[ast.expr], Callable[..., object]] = {
+            ast.Name: self._name,
+            ast.Attribute: self._attribute,
+            ast.JoinedStr: self._f_string,
+            ast.BinOp: self._binary,
+            ast.UnaryOp: self._unary,
+            ast.BoolOp: self._bool,
+            ast.Compare: self._comparison,
+            ast.IfExp: self._conditional,
+            ast.List: self._sequence,
+            ast.Tuple: self._sequence,
+            ast.Set: self._sequence,
+            ast.Dict: self._dict,
+            ast.Subscript: self._subscript,
+            ast.NamedExpr: self._walrus,
+            ast.ListComp: self._comprehension,
+            ast.GeneratorExp: self._comprehension,
+            ast.Call: self._call,
+        }
+
+    # -- what callers use
+
+    def evaluate(self, node: ast.expr | None) -> object:
+        """Return the value of an expression; ``UNKNOWN`` for none."""
+        if node is None:
+            return UNKNOWN
+        if isinstance(node, ast.Constant):
+            return UNKNOWN if node.value is ... else node.value
+        if not self._local and node in self._memo:
+            value, notes = self._memo[node]
+            self._notes |= notes
+            return value
+        method = self._methods.get(type(node))
+        if method is None:
+            return UNKNOWN
+        if self._depth == 0:
+            self._start()
+        self._steps += 1
+        if node in self._running or self._depth >= MAX_DEPTH or self._steps > self._most:
+            self._is_cut = True
+            return UNKNOWN
+        return self._visit(node, method)
+
+    def _start(self) -> None:
+        """Begin with a value of its own."""
+        self._spent += self._steps
+        self._most = MAX_STEPS if self._spent < MOST_STEPS else FEW_STEPS
+        self._steps = 0
+
+    def _visit(self, node: ast.expr, method: Callable[..., object]) -> object:
+        """Evaluate a node, and remember its value unless it was cut short or depends on names."""
+        self._running.add(node)
+        self._depth += 1
+        outer, self._notes = self._notes, frozenset()
+        try:
+            value = held_small(method(node))
+        finally:
+            self._depth -= 1
+            self._running.discard(node)
+            notes, self._notes = self._notes, outer | self._notes
+        if not self._local and not self._is_cut:
+            self._memo[node] = value, notes
+        if self._depth == 0:
+            self._is_cut = False
+        return value
+
+    def text(self, node: ast.expr | None) -> str | Unknown:
+        """Return the value of an expression if it is a string."""
+        value = self.evaluate(node)
+        return value if isinstance(value, str) else UNKNOWN
+
+    def number(self, node: ast.expr | None) -> float | Unknown:
+        """Return the value of an expression if it is a number (a bool is none)."""
+        value = self.evaluate(node)
+        return value if isinstance(value, int | float) and type(value) is not bool else UNKNOWN
+
+    def elements(self, node: ast.expr) -> Elements:
+        """Return the items of a list or tuple, each with the place where it is written."""
+        if self._depth == 0:
+            self._start()
+        self._depth += 1
+        items: list[Element] = []
+        try:
+            complete = all([*self._collect(node, items, 0)])
+        finally:
+            self._depth -= 1
+        if self._depth == 0:
+            self._is_cut = False
+        return Elements(tuple(items), complete)
+
+    def trace(self, node: ast.expr | None) -> tuple[object, frozenset[str]]:
+        """Return a value, and the notes made on the way by subclasses: where it comes from."""
+        outer, self._notes = self._notes, frozenset()
+        value = self.evaluate(node)
+        notes, self._notes = self._notes, outer
+        return value, notes
+
+    # -- for subclasses
+
+    def note(self, text: str) -> None:
+        """Remember something about the value that is being evaluated."""
+        self._notes |= {text}
+
+    def cut(self) -> None:
+        """Say that the value being evaluated is not the last word, so it is not remembered."""
+        self._is_cut = True
+
+    def argument(self, node: ast.arg) -> object:
+        """Return the value of a function's parameter in the function."""
+        del node
+        return UNKNOWN
+
+    def attribute(self, node: ast.Attribute) -> object:
+        """Return the value of an attribute that is none of the known constants."""
+        del node
+        return UNKNOWN
+
+    def call(self, node: ast.Call) -> object:
+        """Return the value of a call of none of the known functions."""
+        del node
+        return UNKNOWN
+
+    # -- lists
+
+    def _collect(self, node: ast.expr, items: list[Element], depth: int) -> Iterator[bool]:
+        """Append the items of a list; yield false for every part that is not known."""
+        self._steps += 1
+        if depth > MAX_DEPTH or self._steps > self._most:
+            self._is_cut = True
+            yield False
+            return
+        match node:
+            case ast.List(elts=parts) | ast.Tuple(elts=parts):
+                for part in parts:
+                    if isinstance(part, ast.Starred):
+                        yield from self._collect(part.value, items, depth + 1)
+                    else:
+                        items.append(Element(part, self.evaluate(part)))
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                yield from self._collect(left, items, depth + 1)
+                yield from self._collect(right, items, depth + 1)
+            case ast.Name() if self._list_literal(node) is not None:
+                yield from self._collect_named(node, items, depth)
+            case _:
+                value = self.evaluate(node)
+                if isinstance(value, list | tuple):
+                    items.extend(Element(node, item) for item in value)
+                yield isinstance(value, list | tuple)
+
+    def _list_literal(self, node: ast.Name) -> ast.expr | None:
+        """Return what a name is first assigned, if that looks like a list and nothing shadows."""
+        found = self.module.index.lookup(node.id, node)
+        if found is None:
+            return None
+        assigned = [binding for binding in found[1] if binding.kind != "annotation"]
+        if any(binding.kind not in {"assignment", "augmented"} for binding in assigned):
+            return None
+        values = [binding.value for binding in assigned if binding.kind == "assignment"]
+        literal = values[0] if len(values) == 1 else None
+        return literal if literal is not None and _looks_like_list(literal) else None
+
+    def _collect_named(self, node: ast.Name, items: list[Element], depth: int) -> Iterator[bool]:
+        literal = self._list_literal(node)
+        if literal is None:
+            return
+        yield from self._collect(literal, items, depth + 1)
+        statement = self._statement(literal)
+        for change in self._changes_of(node):
+            straight = self._is_straight(statement, change)
+            if straight and change.lineno > node.lineno:
+                continue
+            before = len(items)
+            yield from self._collect_change(change, items, depth)
+            if not straight:
+                items[before:] = [item._replace(conditional=True) for item in items[before:]]
+                yield False
+
+    def _collect_change(self, change: ast.Name, items: list[Element], depth: int) -> Iterator[bool]:
+        parent = self.module.parent(change)
+        call = self.module.parent(parent) if parent else None
+        match parent, call:
+            case ast.AugAssign(op=ast.Add(), value=value), _:
+                yield from self._collect(value, items, depth + 1)
+            case ast.Attribute(attr="append"), ast.Call(args=[value], keywords=[]):
+                items.append(Element(value, self.evaluate(value)))
+            case ast.Attribute(attr="extend"), ast.Call(args=[value], keywords=[]):
+                yield from self._collect(value, items, depth + 1)
+            case _:
+                yield False
+
+    def _changes_of(self, node: ast.Name) -> Sequence[ast.Name]:
+        """Return where the list that a name stands for is changed."""
+        changes = [name for name in self.module.index.names(node.id) if self._is_change(name)]
+        if not changes:
+            return ()
+        scope = self.module.index.lookup(node.id, node)
+        return [
+            name
+            for name in changes
+            if (found := self.module.index.lookup(name.id, name)) and scope and found[0] is scope[0]
+        ]
+
+    def _is_change(self, name: ast.Name) -> bool:
+        parent = self.module.parent(name)
+        match parent:
+            case ast.AugAssign(target=target):
+                return target is name
+            case ast.Attribute(attr=attr) if attr in _CHANGING:
+                above = self.module.parent(parent)
+                return isinstance(above, ast.Call) and above.func is parent
+            case ast.Subscript(value=value, ctx=ast.Store() | ast.Del()):
+                return value is name
+            case _:
+                return False
+
+    def _statement(self, node: ast.AST) -> ast.stmt | None:
+        for parent in (node, *self.module.parents(node)):
+            if isinstance(parent, ast.stmt):
+                return parent
+        return None
+
+    def _is_straight(self, first: ast.stmt | None, change: ast.Name) -> bool:
+        """Tell whether a change stands in the same block as the first assignment, below it."""
+        second = self._statement(change)
+        if first is None or second is None or second.lineno < first.lineno:
+            return False
+        return self.module.parent(first) is self.module.parent(second) and not isinstance(
+            second, ast.For | ast.While | ast.If | ast.With | ast.Try
+        )
+
+    # -- expressions
+
+    def _name(self, node: ast.Name) -> object:
+        found = self.module.index.lookup(node.id, node)
+        if found is None:
+            return UNKNOWN
+        scope, bindings = found
+        if (scope, node.id) in self._local:
+            return self._local[scope, node.id]
+        if self._list_literal(node) is not None:
+            items = self.elements(node)
+            return [item.value for item in items.items] if items.complete else UNKNOWN
+        return self._agreed(node, bindings)
+
+    def _agreed(self, node: ast.Name, bindings: Sequence[Binding]) -> object:
+        """Return the value that all assignments of a name agree on."""
+        if any(binding.kind == "import" for binding in bindings):
+            return self._imported(node)
+        assigned = [binding for binding in bindings if binding.kind != "annotation"]
+        if len(assigned) == 1 and isinstance(assigned[0].node, ast.arg):
+            return self.argument(assigned[0].node)
+        if not 0 < len(assigned) <= MOST_ASSIGNMENTS or any(
+            binding.kind != "assignment" for binding in assigned
+        ):
+            return UNKNOWN
+        values = [self.evaluate(binding.value) for binding in assigned]
+        if any(value is UNKNOWN or not same(value, values[0]) for value in values):
+            return UNKNOWN
+        if isinstance(values[0], list | dict | set) and self._changes_of(node):
+            return UNKNOWN
+        return values[0]
+
+    def _imported(self, node: ast.expr) -> object:
+        return NAMED_VALUES.get(self.module.qualified_name(node) or "", UNKNOWN)
+
+    def _attribute(self, node: ast.Attribute) -> object:
+        value = self._imported(node)
+        return self.attribute(node) if value is UNKNOWN else value
+
+    def _f_string(self, node: ast.JoinedStr) -> object:
+        parts: list[str] = []
+        for part in node.values:
+            if isinstance(part, ast.FormattedValue):
+                text = self._formatted(part)
+                if text is None:
+                    return UNKNOWN
+                parts.append(text)
+            elif isinstance(part, ast.Constant):
+                parts.append(str(part.value))
+        return "".join(parts)
+
+    def _formatted(self, node: ast.FormattedValue) -> str | None:
+        value = self.evaluate(node.value)
+        if not isinstance(value, str | int | float):
+            return value.text if isinstance(value, PathValue) and not node.format_spec else None
+        convert: dict[int, Callable[[object], str]] = {115: str, 114: repr, 97: ascii}
+        if node.conversion in convert:
+            value = convert[node.conversion](value)
+        spec = self.evaluate(node.format_spec) if node.format_spec else ""
+        return None if spec is UNKNOWN else format_text(f"{{:{spec}}}", (value,), {})
+
+    def _binary(self, node: ast.BinOp) -> object:
+        left, right = self.evaluate(node.left), self.evaluate(node.right)
+        if left is UNKNOWN or right is UNKNOWN:
+            return UNKNOWN
+        return binary(type(node.op), left, right)
+
+    def _unary(self, node: ast.UnaryOp) -> object:
+        value = self.evaluate(node.operand)
+        if isinstance(node.op, ast.Not):
+            return (not value) if is_known(value) else UNKNOWN
+        if not isinstance(value, int | float) or isinstance(node.op, ast.Invert):
+            return UNKNOWN
+        return -value if isinstance(node.op, ast.USub) else +value
+
+    def _bool(self, node: ast.BoolOp) -> object:
+        wanted = isinstance(node.op, ast.Or)
+        value: object = UNKNOWN
+        for part in node.values:
+            value = self.evaluate(part)
+            if not is_known(value):
+                return UNKNOWN
+            if bool(value) is wanted:
+                return value
+        return value
+
+    def _comparison(self, node: ast.Compare) -> object:
+        left, right = self.evaluate(node.left), self.evaluate(node.comparators[0])
+        compare = COMPARISONS.get(type(node.ops[0]))
+        if len(node.ops) > 1 or compare is None or not is_known(left) or not is_known(right):
+            return UNKNOWN
+        return compare(left, right)
+
+    def _conditional(self, node: ast.IfExp) -> object:
+        test = self.evaluate(node.test)
+        if is_known(test):
+            return self.evaluate(node.body if test else node.orelse)
+        first, second = self.evaluate(node.body), self.evaluate(node.orelse)
+        return first if same(first, second) else UNKNOWN
+
+    def _sequence(self, node: ast.List | ast.Tuple | ast.Set) -> object:
+        values: list[object] = []
+        for part in node.elts:
+            if not isinstance(part, ast.Starred):
+                values.append(self.evaluate(part))
+                continue
+            inner = self.evaluate(part.value)
+            if not isinstance(inner, list | tuple):
+                return UNKNOWN
+            values.extend(inner)
+        return tuple(values) if isinstance(node, ast.Tuple) else values
+
+    def _dict(self, node: ast.Dict) -> object:
+        found: dict[object, object] = {}
+        for key, value in zip(node.keys, node.values, strict=True):
+            if key is None:
+                inner = self.evaluate(value)
+                if not isinstance(inner, dict):
+                    return UNKNOWN
+                found.update(inner)
+                continue
+            known = self.evaluate(key)
+            if not isinstance(known, str | int | float):
+                return UNKNOWN
+            found[known] = self.evaluate(value)
+        return found
+
+    def _subscript(self, node: ast.Subscript) -> object:
+        holder, key = self.evaluate(node.value), self.evaluate(node.slice)
+        if isinstance(holder, dict) and isinstance(key, str | int | float):
+            return holder.get(key, UNKNOWN)
+        if isinstance(holder, str | tuple | list) and type(key) is int:
+            if any(isinstance(item, Glob) for item in holder):
+                return UNKNOWN
+            return holder[key] if -len(holder) <= key < len(holder) else UNKNOWN
+        return UNKNOWN
+
+    def _walrus(self, node: ast.NamedExpr) -> object:
+        return self.evaluate(node.value)
+
+    def _comprehension(self, node: ast.ListComp | ast.GeneratorExp) -> object:
+        if len(node.generators) != 1 or node.generators[0].is_async:
+            return UNKNOWN
+        generator = node.generators[0]
+        values = self.evaluate(generator.iter)
+        if not isinstance(values, list | tuple) or not isinstance(generator.target, ast.Name):
+            return UNKNOWN
+        found: list[object] = []
+        for value in values:
+            with self._bound(node, {generator.target.id: value}):
+                tests = [self.evaluate(test) for test in generator.ifs]
+                item = self.evaluate(node.elt)
+            if isinstance(item, Glob):
+                filtered = item.filtered or bool(tests)
+                found.append(Glob(item.pattern, recursive=item.recursive, filtered=filtered))
+            elif not all(map(is_known, tests)) or item is UNKNOWN:
+                return UNKNOWN
+            elif all(tests):
+                found.append(item)
+        return found
+
+    @contextmanager
+    def _bound(self, scope: ast.AST, values: Mapping[str, object]) -> Iterator[None]:
+        """Give names of a scope values for a while."""
+        outer = self._local
+        self._local = {**outer, **{(scope, name): value for name, value in values.items()}}
+        try:
+            yield
+        finally:
+            self._local = outer
+
+    # -- calls
+
+    def _call(self, node: ast.Call) -> object:
+        name = self.module.qualified_name(node.func)
+        if (
+            name is not None
+            and name in FUNCTIONS
+            and not any(isinstance(arg, ast.Starred) for arg in node.args)
+        ):
+            args = [self.evaluate(arg) for arg in node.args]
+            keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
+            return FUNCTIONS[name](args, keywords)
+        if name == "os.path.join":
+            return self._joined(node)
+        if isinstance(node.func, ast.Attribute) and name is None:
+            value = self._method(node, node.func)
+            if value is not UNKNOWN:
+                return value
+        return self.call(node)
+
+    def _joined(self, node: ast.Call) -> object:
+        parts: list[object] = []
+        for arg in node.args:
+            if isinstance(arg, ast.Starred):
+                inner = self.evaluate(arg.value)
+                parts.extend(inner if isinstance(inner, list | tuple) else [UNKNOWN])
+            else:
+                parts.append(self.evaluate(arg))
+        texts = [part.text if isinstance(part, PathValue) else part for part in parts]
+        known = [text for text in texts if isinstance(text, str)]
+        return join_paths(known) if known and len(known) == len(texts) else UNKNOWN
+
+    def _method(self, node: ast.Call, func: ast.Attribute) -> object:
+        holder = self.evaluate(func.value)
+        args = [self.evaluate(arg) for arg in node.args]
+        keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
+        if not all(map(is_known, (*args, *keywords.values()))) and func.attr != "join":
+            return UNKNOWN
+        match holder:
+            case str():
+                return text_method(holder, func.attr, args, keywords)
+            case PathValue() | Glob():
+                return path_method(holder, func.attr, args, keywords)
+            case dict() if func.attr == "get" and args and isinstance(args[0], str):
+                return holder.get(*args[:2])
+            case _:
+                return UNKNOWN
+
+
+def _looks_like_list(node: ast.expr) -> bool:
+    """Tell whether an expression is a list literal, or one with something added."""
+    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        if _looks_like_list(node.right):
+            return True
+        node = node.left
+    return isinstance(node, ast.List | ast.ListComp)

@@ -1,0 +1,89 @@
+"""Whether an exception goes unnoticed: the code expects it, asks first, or never runs."""
+
+from __future__ import annotations
+
+import ast
+
+from scaffold.model.python.module import PythonModule, last_names
+
+_ALL = frozenset({"Exception", "BaseException"})
+
+
+def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
+    """Tell whether an exception raised at a node is caught in its function, or never raised.
+
+    Args:
+        module: The file.
+        node: Where it is raised.
+        exception: The last part of its name, such as ``AttributeError``.
+    """
+    child = node
+    for parent in module.parents(node):
+        if child in module.passed_over or _is_never_evaluated(module, child, parent):
+            return True
+        if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
+            for handler in parent.handlers:
+                if handler.type is None or {exception, *_ALL} & last_names(handler.type):
+                    return True
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            return False
+        child = parent
+    return False
+
+
+def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
+    """Tell whether a node is an annotation in a file where those stay text."""
+    match parent:
+        case ast.arg(annotation=written) | ast.AnnAssign(annotation=written):
+            is_annotation = written is node
+        case ast.FunctionDef(returns=written) | ast.AsyncFunctionDef(returns=written):
+            is_annotation = written is node
+        case _:
+            return False
+    return is_annotation and any(
+        one.module == "__future__" and any(name.name == "annotations" for name in one.names)
+        for one in module.imports
+    )
+
+
+def is_asked_about(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
+    """Tell whether a node runs only if a condition on a value holds: ``if self.topic:``.
+
+    Args:
+        module: The file.
+        node: What runs.
+        value: The expression; a condition asks about it when it holds the same words.
+    """
+    words = ast.unparse(value)
+    child = node
+    for parent in module.parents(node):
+        if (
+            isinstance(parent, ast.If | ast.IfExp | ast.While)
+            and child is not parent.test
+            and words in module.words_of(parent.test)
+        ):
+            return True
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            return False
+        child = parent
+    return False
+
+
+def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a node runs with ROS 1 only: ``if ROS_VERSION == 1:``."""
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.If) and child is not parent.test:
+            version = _asks_for_version(parent.test)
+            is_body = module.index.place(child)[0] == "body"
+            if version is not None and version == ("1" if is_body else "2"):
+                return True
+        child = parent
+    return False
+
+
+def _asks_for_version(test: ast.expr) -> str | None:
+    match test:
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=value)]):
+            return str(value) if "ROS_VERSION" in ast.unparse(left) else None
+    return None

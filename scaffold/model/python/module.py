@@ -1,0 +1,492 @@
+"""A Python file as data: its imports, its top-level names, and the place of every node."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_jazzy
+from scaffold.model.python.scopes import FunctionNode, Node, SyntaxIndex
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ParseError, Source
+
+MAX_DEPTH = 300
+"""Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
+
+_IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
+_EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
+"""What an exception is expected with: ``with pytest.raises(ImportError):``."""
+_PLATFORM_NAMES = ("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform.")
+_LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+_MODULE_ATTRIBUTES = frozenset(
+    {"__name__", "__file__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__"}
+    | {"__dict__", "__cached__"}
+)
+
+
+class ImportedName(NamedTuple):
+    """One name of a ``from`` import; ``*`` for all."""
+
+    name: str
+    asname: str | None
+    location: Location
+
+
+class Import(NamedTuple):
+    """One imported module; ``import a, b`` makes two."""
+
+    module: str
+    """The dotted name as written; empty for ``from . import x``."""
+    level: int
+    """Leading dots."""
+    names: tuple[ImportedName, ...]
+    """What a ``from`` import takes; empty for ``import module``."""
+    asname: str | None
+    location: Location
+    """The statement, or for ``import a, b`` the one name."""
+    node: ast.Import | ast.ImportFrom
+    top_level: bool
+    """Stands directly in the module, under no condition."""
+    in_function: bool
+    guarded: bool
+    """May fail or be skipped: ``try`` with ImportError, TYPE_CHECKING, platform, version."""
+    type_checking: bool
+    """For type checkers alone; not run."""
+    conditional: bool
+    """Under any other ``if``."""
+    in_tests: bool
+    """The file is a test."""
+
+    @property
+    def root(self) -> str:
+        """The top-level package; empty for a relative import."""
+        return "" if self.level else self.module.partition(".")[0]
+
+
+class Function(NamedTuple):
+    """A function at the top of a module; its location is its name."""
+
+    name: str
+    node: FunctionNode
+    location: Location
+
+
+class Class(NamedTuple):
+    """A class at the top of a module; its location is its name."""
+
+    name: str
+    node: ast.ClassDef
+    location: Location
+
+
+class PythonModule:
+    """A parsed Python file; it is never imported or run."""
+
+    def __init__(self, source: Source, tree: ast.Module, index: SyntaxIndex) -> None:
+        self.source = source
+        self.path = source.path
+        self.tree = tree
+        self.index = index
+        self._positions = Positions(source)
+        self._names: dict[ast.AST, frozenset[str]] = {}
+        """The full names of expressions that were asked about."""
+        self._words: dict[ast.expr, frozenset[str]] = {}
+        self._mentions: dict[str, bool] = {}
+
+    @classmethod
+    def parse(cls, source: Source) -> PythonModule:
+        """Parse a file.
+
+        Raises:
+            ParseError: it is not Python, or too large or nested too deeply to be read.
+            NewerSyntaxError: only a newer Python than the running one can parse it.
+        """
+        positions = Positions(source)
+        tree = parse_tree(source, positions)
+        index = SyntaxIndex(tree)
+        if not index.build(MAX_DEPTH):
+            raise ParseError(Location.start_of(source.path), "nested too deeply")
+        module = cls(source, tree, index)
+        module._refuse_later_syntax()
+        return module
+
+    @classmethod
+    def parse_bytes(cls, path: str, data: bytes) -> PythonModule:
+        """Decode a file as its coding cookie says and parse it; raises like ``parse``."""
+        return cls.parse(decode(path, data))
+
+    def _refuse_later_syntax(self) -> None:
+        """Give the verdict of the target's Python when a later one runs this tool."""
+        type_var: type[ast.AST] | None = getattr(ast, "TypeVar", None)
+        for node in self.walk(type_var) if type_var else ():
+            if getattr(node, "default_value", None) is not None:
+                raise ParseError(self.location(node), past_jazzy((3, 13)))
+
+    # -- nodes and places
+
+    def walk(self, kind: type[Node]) -> Sequence[Node]:
+        """Return all nodes of exactly this type, in the order of the text."""
+        return self.index.all_of(kind)
+
+    def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
+        """Yield a node and those below it that are of some types, one type after the other."""
+        return self.index.below(node, *kinds)
+
+    @cached_property
+    def function_nodes(self) -> Sequence[FunctionNode]:
+        """All functions and methods, nested ones too, in the order of the text."""
+        nodes: list[FunctionNode] = [
+            *self.walk(ast.FunctionDef),
+            *self.walk(ast.AsyncFunctionDef),
+        ]
+        return sorted(nodes, key=lambda node: (node.lineno, node.col_offset))
+
+    def parent(self, node: ast.AST) -> ast.AST | None:
+        """Return the node around another."""
+        return self.index.parent(node)
+
+    def parents(self, node: ast.AST) -> Iterator[ast.AST]:
+        """Yield the nodes around another, from the inside out."""
+        return self.index.parents(node)
+
+    def is_inside(self, node: ast.AST, scope: ast.AST) -> bool:
+        """Tell whether a node is somewhere below another."""
+        return any(parent is scope for parent in self.parents(node))
+
+    def enclosing_function(self, node: ast.AST) -> FunctionNode | None:
+        """Return the function around a node, lambdas aside."""
+        for parent in self.parents(node):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+                return parent
+        return None
+
+    def enclosing_class(self, node: ast.AST) -> ast.ClassDef | None:
+        """Return the innermost class around a node."""
+        for parent in self.parents(node):
+            if isinstance(parent, ast.ClassDef):
+                return parent
+        return None
+
+    def span(self, node: ast.AST) -> tuple[int, int]:
+        """Return the offsets of a node's first character and of what follows it.
+
+        Inside an f-string it is the whole string: before Python 3.12 no one knew better.
+        """
+        for parent in (node, *self.parents(node)):
+            if isinstance(parent, ast.JoinedStr):
+                node = parent
+        while not hasattr(node, "lineno"):
+            above = self.parent(node)
+            if above is None:
+                return 0, len(self.source.text)
+            node = above
+        start = self._positions.offset(node.lineno, getattr(node, "col_offset", 0))
+        end_line = getattr(node, "end_lineno", None) or node.lineno
+        end = self._positions.offset(end_line, getattr(node, "end_col_offset", None) or 0)
+        return start, max(start, end)
+
+    def location(self, node: ast.AST) -> Location:
+        """Return the place of a node, with columns in characters."""
+        return self.source.location(*self.span(node))
+
+    def name_location(self, node: FunctionNode | ast.ClassDef) -> Location:
+        """Return the place of the name behind ``def`` or ``class``."""
+        start, _ = self.span(node)
+        at = self.source.text.find(node.name, self.source.text.find(" ", start))
+        if isinstance(node, ast.AsyncFunctionDef):
+            at = self.source.text.find(node.name, self.source.text.find("def", start + 5) + 3)
+        if at < 0:  # the parser normalizes names, so the text may spell it otherwise
+            return self.source.location(start, start)
+        return self.source.location(at, at + len(node.name))
+
+    def text(self, node: ast.AST) -> str:
+        """Return a node as written."""
+        start, end = self.span(node)
+        return self.source.text[start:end]
+
+    def words_of(self, condition: ast.expr) -> frozenset[str]:
+        """Return the names and attributes in a condition, written out: ``self.topic``."""
+        if condition not in self._words:
+            self._words[condition] = frozenset(
+                ast.unparse(one)
+                for one in ast.walk(condition)
+                if isinstance(one, ast.Name | ast.Attribute)
+            )
+        return self._words[condition]
+
+    def mentions(self, *texts: str) -> bool:
+        """Tell whether any of some texts stands in the file; it is searched for each once."""
+        known = self._mentions
+        for text in texts:
+            if text not in known:
+                known[text] = text in self.source.text
+        return any(known[text] for text in texts)
+
+    # -- the file
+
+    @property
+    def has_bom(self) -> bool:
+        """Whether the file starts with a byte order mark."""
+        return self.source.text.startswith(BOM)
+
+    @cached_property
+    def shebang(self) -> tuple[str, Location] | None:
+        """The first line if it starts with ``#!``, without its ending."""
+        start = 1 if self.has_bom else 0
+        if not self.source.text.startswith("#!", start):
+            return None
+        line = self.source.lines[0][start:]
+        return line, self.source.location(start, start + len(line))
+
+    @property
+    def is_script(self) -> bool:
+        """Whether the file has a shebang."""
+        return self.shebang is not None
+
+    @cached_property
+    def docstring(self) -> str | None:
+        """The module's docstring as its value."""
+        return ast.get_docstring(self.tree, clean=False)
+
+    @cached_property
+    def in_tests(self) -> bool:
+        """Whether the file is a test, by its name or directory."""
+        *directories, name = self.path.split("/")
+        return (
+            not {"test", "tests"}.isdisjoint(directories)
+            or name == "conftest.py"
+            or (name.endswith(".py") and name.startswith("test_"))
+            or name.endswith(("_test.py", ".test.py"))
+        )
+
+    @cached_property
+    def main_guard(self) -> Location | None:
+        """The place of ``if __name__ == '__main__'``."""
+        node = self.main_guard_node
+        return self.location(node.test) if node else None
+
+    @property
+    def has_main_guard(self) -> bool:
+        """Whether there is an ``if __name__ == '__main__'``."""
+        return self.main_guard is not None
+
+    @cached_property
+    def main_guard_node(self) -> ast.If | None:
+        """The statement ``if __name__ == '__main__'``."""
+        for statement in self.tree.body:
+            if isinstance(statement, ast.If) and _is_main_test(statement.test):
+                return statement
+        return None
+
+    @cached_property
+    def passed_over(self) -> frozenset[ast.AST]:
+        """The statements that stand behind one that leaves their block, such as a ``return``."""
+        first: dict[tuple[ast.AST, str], int] = {}
+        for kind in _LEAVING:
+            for node in self.walk(kind):
+                parent = self.parent(node)
+                field, number = self.index.place(node)
+                if parent is not None and field in {"body", "orelse"}:
+                    first[parent, field] = min(number, first.get((parent, field), number))
+        return frozenset(
+            statement
+            for (parent, field), number in first.items()
+            for statement in getattr(parent, field)[number + 1 :]
+        )
+
+    # -- names
+
+    @cached_property
+    def functions(self) -> Mapping[str, Function]:
+        """The functions defined at the top, the last of a name."""
+        found = {}
+        for name, bindings in self.index.bindings(self.tree).items():
+            for binding in bindings:
+                if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
+                    found[name] = Function(name, binding.node, self.name_location(binding.node))
+        return found
+
+    @cached_property
+    def classes(self) -> Mapping[str, Class]:
+        """The classes defined at the top, the last of a name."""
+        found = {}
+        for name, bindings in self.index.bindings(self.tree).items():
+            for binding in bindings:
+                if isinstance(binding.node, ast.ClassDef):
+                    found[name] = Class(name, binding.node, self.name_location(binding.node))
+        return found
+
+    def defines(self, name: str) -> bool | None:
+        """Tell whether an attribute of this name can be had from the module.
+
+        ``None`` when nobody can say: a star import, a module ``__getattr__``, ``globals()``.
+        """
+        bindings = self.index.bindings(self.tree)
+        kinds = {binding.kind for binding in bindings.get(name, ())} - {"annotation"}
+        if kinds - {"deletion"} or name in _MODULE_ATTRIBUTES:
+            return None if "deletion" in kinds else True
+        if "*" in bindings or "__getattr__" in bindings or self._writes_globals:
+            return None
+        return False
+
+    @cached_property
+    def _writes_globals(self) -> bool:
+        return any(
+            isinstance(call.func, ast.Name)
+            and call.func.id in {"globals", "exec", "vars", "setattr", "__import__"}
+            for call in self.walk(ast.Call)
+        )
+
+    def qualified_name(self, node: ast.AST) -> str | None:
+        """Return the full dotted name of an expression, through the imports in its scope.
+
+        ``Node`` becomes ``rclpy.node.Node``; a name that nothing binds is a builtin and stays
+        as it is; relative imports keep their dots. ``None`` for what the module makes itself
+        and for what cannot be told.
+        """
+        names = self.qualified_names(node)
+        return next(iter(names)) if len(names) == 1 else None
+
+    def qualified_names(self, node: ast.AST) -> frozenset[str]:
+        """Return all full names that an expression may have: imports in ``try`` give several.
+
+        Empty for what the module makes itself and for what cannot be told.
+        """
+        found = self._names.get(node)
+        if found is None:
+            found = self._names[node] = self._find_names(node)
+        return found
+
+    def _find_names(self, node: ast.AST) -> frozenset[str]:
+        parts = ""
+        while isinstance(node, ast.Attribute):
+            parts = f".{node.attr}{parts}"
+            node = node.value
+        if not isinstance(node, ast.Name):
+            return frozenset()
+        roots = self._imported_as(node)
+        if not parts:
+            return roots
+        return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)
+
+    def _imported_as(self, node: ast.Name) -> frozenset[str]:
+        found = self.index.lookup(node.id, node)
+        if found is None:
+            # A star import may bring a function called open or sum, but no new KeyboardInterrupt.
+            is_star = "*" in self.index.bindings(self.tree) and node.id.islower()
+            is_builtin = hasattr(builtins, node.id) and not is_star
+            return frozenset({node.id} if is_builtin else ())
+        if any(binding.kind != "import" for binding in found[1]):
+            return frozenset()
+        return frozenset(binding.target for binding in found[1])
+
+    # -- import statements
+
+    @cached_property
+    def imports(self) -> Sequence[Import]:
+        """All imports, in the order of the text."""
+        found: list[Import] = []
+        nodes: list[ast.Import | ast.ImportFrom] = [
+            *self.walk(ast.Import),
+            *self.walk(ast.ImportFrom),
+        ]
+        for node in sorted(nodes, key=lambda node: (node.lineno, node.col_offset)):
+            context = self._context(node)
+            if isinstance(node, ast.ImportFrom):
+                names = tuple(
+                    ImportedName(alias.name, alias.asname, self.location(alias))
+                    for alias in node.names
+                )
+                at = self.location(node)
+                found.append(Import(node.module or "", node.level, names, None, at, node, *context))
+                continue
+            for alias in node.names:
+                at = self.location(node if len(node.names) == 1 else alias)
+                found.append(Import(alias.name, 0, (), alias.asname, at, node, *context))
+        return found
+
+    @cached_property
+    def imports_by_root(self) -> Mapping[str, Sequence[Import]]:
+        """The absolute imports by top-level package."""
+        found: dict[str, list[Import]] = {}
+        for import_ in self.imports:
+            if import_.root:
+                found.setdefault(import_.root, []).append(import_)
+        return found
+
+    def _context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool, bool]:
+        """Return top_level, in_function, guarded, type_checking, conditional, in_tests."""
+        in_function = guarded = type_checking = conditional = False
+        child: ast.AST = node
+        for parent in self.parents(node):
+            match parent:
+                case ast.FunctionDef() | ast.AsyncFunctionDef():
+                    in_function = True
+                case ast.Try() if _catches_import_errors(parent):
+                    guarded = guarded or self.index.place(child)[0] != "finalbody"
+                case ast.With(items=items):
+                    guarded = guarded or any(_suppresses_import_errors(i) for i in items)
+                case ast.If() if not _is_main_test(parent.test):
+                    if "TYPE_CHECKING" in self.text(parent.test):
+                        guarded = True
+                        in_body = self.index.place(child)[0] == "body"
+                        type_checking = type_checking or in_body
+                    elif self._asks_platform(parent.test):
+                        guarded = True
+                    else:
+                        conditional = True
+            child = parent
+        top_level = self.parent(node) is self.tree
+        return top_level, in_function, guarded, type_checking, conditional, self.in_tests
+
+    def _asks_platform(self, test: ast.expr) -> bool:
+        for node in ast.walk(test):
+            if isinstance(node, ast.Name | ast.Attribute):
+                name = self.qualified_name(node)
+                if name and name.startswith(_PLATFORM_NAMES):
+                    return True
+        return False
+
+
+def _is_main_test(test: ast.expr) -> bool:
+    match test:
+        case ast.Compare(
+            left=ast.Name(id="__name__"), ops=[ast.Eq()], comparators=[ast.Constant("__main__")]
+        ):
+            return True
+        case ast.Compare(
+            left=ast.Constant("__main__"), ops=[ast.Eq()], comparators=[ast.Name(id="__name__")]
+        ):
+            return True
+        case ast.BoolOp(op=ast.And(), values=values):
+            return any(_is_main_test(value) for value in values)
+        case _:
+            return False
+
+
+def _catches_import_errors(node: ast.Try) -> bool:
+    return any(
+        handler.type is None or not _IMPORT_ERRORS.isdisjoint(last_names(handler.type))
+        for handler in node.handlers
+    )
+
+
+def _suppresses_import_errors(item: ast.withitem) -> bool:
+    match item.context_expr:
+        case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
+            return any(not _IMPORT_ERRORS.isdisjoint(last_names(arg)) for arg in args)
+        case _:
+            return False
+
+
+def last_names(node: ast.expr) -> set[str]:
+    """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
+    found: set[str] = set()
+    for part in ast.walk(node):
+        if isinstance(part, ast.Name):
+            found.add(part.id)
+        elif isinstance(part, ast.Attribute):
+            found.add(part.attr)
+    return found

@@ -1,0 +1,103 @@
+"""What a function returns, and whether it may come to its end without doing so."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+
+_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
+
+
+def returned(function: FunctionNode) -> Sequence[ast.Return]:
+    """Return the ``return`` statements of a function, those of functions inside left out."""
+    return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
+
+
+def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr | None:
+    """Return what the name that is returned was last set to, if no branch or loop is in between."""
+    name = statement.value.id if isinstance(statement.value, ast.Name) else None
+    if name is None or statement not in function.body:
+        return None
+    for earlier in reversed(function.body[: function.body.index(statement)]):
+        match earlier:
+            case ast.Assign(targets=[ast.Name(id=target)], value=value) if target == name:
+                return value
+        if any(_sets(node, name) for node in ast.walk(earlier)):
+            return None
+    return None
+
+
+def is_generator(function: FunctionNode) -> bool:
+    """Tell whether a call of the function gives a generator."""
+    return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
+
+
+def may_end(function: FunctionNode) -> bool:
+    """Tell whether the end of the function may be reached, so that it returns ``None``."""
+    return _passes(function.body)
+
+
+def may_end_with_items(function: FunctionNode) -> bool:
+    """Tell whether the end may be reached although the last argument, a list, is not empty."""
+    *before, last = function.body
+    names = [one.arg for one in function.args.args[-1:]]
+    match last:
+        case ast.For(iter=ast.Name(id=name), body=body, orelse=[]) if name in names:
+            leaves = any(isinstance(node, ast.Break | ast.Continue) for node in ast.walk(last))
+            return _passes(before) and (leaves or _passes(body))
+    return may_end(function)
+
+
+def _own_nodes(function: FunctionNode) -> Iterator[ast.AST]:
+    pending: list[ast.AST] = list(function.body)
+    while pending:
+        node = pending.pop()
+        yield node
+        if not isinstance(node, _SCOPES):
+            pending.extend(ast.iter_child_nodes(node))
+
+
+def _passes(body: Sequence[ast.stmt]) -> bool:
+    """Tell whether what stands behind some statements may be reached."""
+    return all(_passes_one(statement) for statement in body)
+
+
+def _passes_one(statement: ast.stmt) -> bool:
+    passes = True
+    match statement:
+        case ast.Return() | ast.Raise() | ast.Continue() | ast.Break():
+            passes = False
+        case ast.If(body=body, orelse=orelse):
+            passes = _passes(body) or _passes(orelse)
+        case ast.With(body=body) | ast.AsyncWith(body=body):
+            passes = _passes(body)
+        case ast.While(test=ast.Constant(value=value)) if value:
+            passes = any(isinstance(node, ast.Break) for node in ast.walk(statement))
+        case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=final):
+            caught = () if _is_safe(body[0]) else handlers
+            runs = _passes([*body, *orelse]) or any(_passes(one.body) for one in caught)
+            passes = runs and _passes(final)
+        case ast.Match(cases=cases):
+            is_total = any(isinstance(one.pattern, ast.MatchAs) and not one.guard for one in cases)
+            passes = not is_total or any(_passes(one.body) for one in cases)
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
+            passes = False
+    return passes
+
+
+def _sets(node: ast.AST, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name and not isinstance(node.ctx, ast.Load)
+
+
+def _is_safe(statement: ast.stmt) -> bool:
+    """Tell whether a statement returns what cannot fail: ``return CancelResponse.ACCEPT``."""
+    match statement:
+        case ast.Return(value=None | ast.Constant() | ast.Name()):
+            return True
+        case ast.Return(value=ast.Attribute(value=ast.Name())):
+            return True
+    return False

@@ -1,0 +1,1 @@
+"""What the rclpy code of one file says."""

@@ -1,0 +1,200 @@
+"""The names that rclpy has on Jazzy, and of which of its classes an object is."""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Mapping
+from functools import cache
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.parameters.objects import is_listed_parameter
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.file import NodeFacts
+
+NODE = "rclpy.node.Node"
+PARAMETER = "rclpy.parameter.Parameter"
+PLACES: Mapping[str, str] = {
+    "Node": "rclpy.node",
+    "LifecycleNode": "rclpy.lifecycle",
+    "QoSProfile": "rclpy.qos",
+    "qos_profile_sensor_data": "rclpy.qos",
+    "ReliabilityPolicy": "rclpy.qos",
+    "DurabilityPolicy": "rclpy.qos",
+    "ActionServer": "rclpy.action",
+    "ActionClient": "rclpy.action",
+    "MultiThreadedExecutor": "rclpy.executors",
+    "SingleThreadedExecutor": "rclpy.executors",
+    "ExternalShutdownException": "rclpy.executors",
+    "ReentrantCallbackGroup": "rclpy.callback_groups",
+    "MutuallyExclusiveCallbackGroup": "rclpy.callback_groups",
+    "Duration": "rclpy.duration",
+    "Time": "rclpy.time",
+}
+"""Where names are that are often looked for in ``rclpy`` itself."""
+_TABLE = os.path.join(
+    os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))),
+    "data",
+    "jazzy_names.txt",
+)
+_MADE: Mapping[str, str] = {
+    "create_publisher": "rclpy.publisher.Publisher",
+    "create_subscription": "rclpy.subscription.Subscription",
+    "create_service": "rclpy.service.Service",
+    "create_client": "rclpy.client.Client",
+    "create_timer": "rclpy.timer.Timer",
+    "create_rate": "rclpy.timer.Rate",
+    "get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
+    "get_clock": "rclpy.clock.Clock",
+    "get_parameter": PARAMETER,
+    "get_parameter_or": PARAMETER,
+    "declare_parameter": PARAMETER,
+}
+"""What the methods of a node give."""
+_GIVEN: Mapping[str, str] = {
+    "rclpy.clock.Clock.now": "rclpy.time.Time",
+    "rclpy.client.Client.call_async": "rclpy.task.Future",
+    "rclpy.action.client.ActionClient.send_goal_async": "rclpy.task.Future",
+    "rclpy.action.client.ClientGoalHandle.get_result_async": "rclpy.task.Future",
+    "rclpy.action.client.ClientGoalHandle.cancel_goal_async": "rclpy.task.Future",
+    "rclpy.logging.get_logger": "rclpy.impl.rcutils_logger.RcutilsLogger",
+}
+_RESULTS: Mapping[str, str] = {
+    "rclpy.action.client.ActionClient.send_goal_async": "rclpy.action.client.ClientGoalHandle",
+}
+"""What the future that a method gives holds in the end."""
+GOAL_HANDLE = "rclpy.action.server.ServerGoalHandle"
+_GOAL_CALLBACKS = ("execute_callback", "handle_accepted_callback", "cancel_callback")
+_DEEPEST = 20
+
+
+@cache
+def known_names() -> Mapping[str, frozenset[str]]:
+    """Return what modules and classes have, by their full names; methods end in ``()``."""
+    with open(_TABLE, encoding="utf-8") as file:
+        pairs = [line.partition(": ") for line in file]
+    return {owner: frozenset(names.split()) for owner, _, names in pairs}
+
+
+def has(owner: str, name: str) -> bool:
+    """Tell whether a module or class of the table has a name."""
+    names = known_names()[owner]
+    return name in names or f"{name}()" in names or name.startswith("__")
+
+
+def is_method(owner: str, name: str) -> bool:
+    """Tell whether a name of a class is a method."""
+    return f"{name}()" in known_names().get(owner, ())
+
+
+@cache
+def _places() -> Mapping[str, str]:
+    """Return where classes stand that a package takes from its modules, by the shorter name."""
+    found: dict[str, str] = {}
+    for place in known_names():
+        module, _, name = place.rpartition(".")
+        package = module.rpartition(".")[0]
+        if name[:1].isupper() and name in known_names().get(package, ()):
+            found[f"{package}.{name}"] = place
+    return found
+
+
+def first_unknown(dotted: str) -> tuple[str, str] | None:
+    """Return the module or class of the table that lacks the next part of a dotted name."""
+    owner, *parts = dotted.split(".")
+    for part in parts:
+        owner = _places().get(owner, owner)
+        if owner not in known_names():
+            return None
+        if not has(owner, part):
+            return owner, part
+        owner = f"{owner}.{part}"
+    return None
+
+
+def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
+    """Return the class of rclpy, as the table calls it, that an expression is an object of."""
+    value = facts.evaluator.single_value(node)
+    if not isinstance(value, ast.Call) or depth > _DEEPEST:
+        return _class_of_argument(facts, value)
+    name = facts.module.qualified_name(value.func) or ""
+    name = _places().get(name, name)
+    if name in _GIVEN:
+        return _GIVEN[name]
+    if name in known_names() and name.rpartition(".")[2][:1].isupper():
+        return name
+    if not isinstance(value.func, ast.Attribute):
+        return None
+    return _class_made(facts, value, value.func, depth)
+
+
+def _class_made(facts: NodeFacts, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
+    """Return the class of what a method gives."""
+    owner = facts.owner_of(func.value)
+    if owner is not None:
+        is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
+        return None if is_own or owner.is_lifecycle else _MADE.get(func.attr)
+    if func.attr == "result" and not call.args:
+        return _class_of_result(facts, func.value, depth)
+    inner = class_of(facts, func.value, depth + 1)
+    return _GIVEN.get(f"{inner}.{func.attr}")
+
+
+def _class_of_result(facts: NodeFacts, node: ast.expr, depth: int) -> str | None:
+    """Return the class of what a future holds: the handle of a goal that was sent."""
+    future = future_given(facts, node)
+    made = facts.evaluator.single_value(node if future is None else future)
+    if isinstance(made, ast.Call) and isinstance(made.func, ast.Attribute):
+        inner = class_of(facts, made.func.value, depth + 1)
+        return _RESULTS.get(f"{inner}.{made.func.attr}")
+    return None
+
+
+def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
+    """Return the class of what a callback is given: a future that is done, a goal handle."""
+    argument = facts.parameter_of(node)
+    if argument is not None and _is_goal_handle(facts, argument):
+        return GOAL_HANDLE
+    if is_listed_parameter(facts, node):
+        return PARAMETER
+    future = future_given(facts, node)
+    return class_of(facts, future) if future is not None else None
+
+
+def _is_goal_handle(facts: NodeFacts, argument: ast.arg) -> bool:
+    """Tell whether an action server calls a function with the handle of a goal for this."""
+    for server in facts.action_servers:
+        for name in _GOAL_CALLBACKS:
+            given = server.argument(name)
+            callback = facts.callback(given.node) if given else None
+            if callback is None or callback.is_partial or callback.is_called:
+                continue
+            if _first_argument(callback.function, is_bound=callback.is_bound) is argument:
+                return True
+    return False
+
+
+def future_given(facts: NodeFacts, node: ast.expr) -> ast.expr | None:
+    """Return the future that is done when a callback is called with what a name stands for."""
+    argument = facts.parameter_of(node)
+    if argument is None:
+        return None
+    for attribute in facts.module.index.attributes("add_done_callback"):
+        match facts.module.parent(attribute):
+            case ast.Call(func=func, args=[given]) if func is attribute:
+                callback = facts.callback(given)
+                given_to = _first_argument(callback.function, is_bound=callback.is_bound)
+                if given_to is argument and not callback.is_partial:
+                    return attribute.value
+    return None
+
+
+def _first_argument(
+    function: FunctionNode | ast.Lambda | None, *, is_bound: bool
+) -> ast.arg | None:
+    if function is None:
+        return None
+    arguments = [*function.args.posonlyargs, *function.args.args][1 if is_bound else 0 :]
+    return arguments[0] if arguments else None

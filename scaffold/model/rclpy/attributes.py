@@ -1,0 +1,106 @@
+"""What nodes have of their own, and what they read of themselves."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.api import NODE, has
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.nodes import NodeClass
+
+
+def used_by_classes(facts: NodeFacts) -> dict[ast.ClassDef, list[ast.Attribute]]:
+    """Return what classes read of themselves, but for what the file sets on whatever object."""
+    module = facts.module
+    read: list[ast.Attribute] = []
+    stored: set[str] = set()
+    for attribute in module.walk(ast.Attribute):
+        if isinstance(attribute.ctx, ast.Load) or isinstance(
+            module.parent(attribute), ast.AugAssign
+        ):
+            read.append(attribute)
+        else:
+            stored.add(attribute.attr)
+    found: dict[ast.ClassDef, list[ast.Attribute]] = {}
+    for attribute in read:
+        if attribute.attr not in stored and not has(NODE, attribute.attr):
+            class_ = _owner(facts, attribute)
+            if class_ is not None:
+                found.setdefault(class_, []).append(attribute)
+    return found
+
+
+def _owner(facts: NodeFacts, attribute: ast.Attribute) -> ast.ClassDef | None:
+    """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
+    class_ = facts.evaluator.self_class(attribute.value)
+    if class_ is None and isinstance(attribute.value, ast.Name):
+        made = facts.evaluator.single_value(attribute.value)
+        if isinstance(made, ast.Call):
+            class_ = facts.evaluator.named_class(made.func)
+    return class_
+
+
+def defined_by(node: NodeClass) -> set[str]:
+    """Return what a class and its bases define, in methods and on ``self``."""
+    found: set[str] = set()
+    owner: NodeClass | None = node
+    while owner is not None:
+        found |= set(owner.facts.module.index.bindings(owner.node))
+        for attribute in owner.facts.module.below(owner.node, ast.Attribute):
+            if isinstance(attribute.ctx, ast.Load):
+                continue
+            parent = owner.facts.module.parent(attribute)
+            if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
+                found.add(attribute.attr)
+        owner = owner.base
+    return found
+
+
+def is_read_in_full(node: NodeClass) -> bool:
+    """Tell whether a class and its bases are read in full, and make no names at run time."""
+    owner: NodeClass | None = node
+    while owner is not None:
+        bindings = owner.facts.module.index.bindings(owner.node)
+        if len(owner.node.bases) != 1 or owner.node.keywords or owner.node.decorator_list:
+            return False
+        if owner.is_lifecycle or "__getattr__" in bindings or "__getattribute__" in bindings:
+            return False
+        if owner.facts.module.mentions("setattr(", "__dict__", "vars(self"):
+            return False
+        owner = owner.base
+    return True
+
+
+def names_of_bases(package: Package) -> frozenset[str]:
+    """Return the classes of the package that others inherit from: those may define the rest."""
+
+    def find() -> frozenset[str]:
+        return frozenset(
+            base.attr if isinstance(base, ast.Attribute) else base.id
+            for module in package.modules()
+            for class_ in module.walk(ast.ClassDef)
+            for base in class_.bases
+            if isinstance(base, ast.Attribute | ast.Name)
+        )
+
+    return package.remember("names_of_bases", find)
+
+
+def given_from_outside(package: Package) -> frozenset[str]:
+    """Return the attributes that code of the package sets on other objects than ``self``."""
+
+    def find() -> frozenset[str]:
+        return frozenset(
+            node.attr
+            for module in package.modules()
+            for node in module.walk(ast.Attribute)
+            if isinstance(node.ctx, ast.Store)
+            and isinstance(node.value, ast.Name)
+            and node.value.id != "self"
+        )
+
+    return package.remember("given_from_outside", find)

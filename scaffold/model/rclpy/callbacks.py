@@ -1,0 +1,124 @@
+"""Which functions are callbacks, and what they call in turn."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Container, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.entities import Callback
+from scaffold.model.rclpy.nodes import NodeClass
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.file import NodeFacts
+
+
+def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
+    """Return what an expression stands for as a callback."""
+    module = facts.module
+    if isinstance(node, ast.Call):
+        if module.qualified_name(node.func) == "functools.partial" and node.args:
+            inner = resolve(facts, node.args[0])
+            return inner._replace(node=node, is_partial=True)
+        inner = resolve(facts, node.func)
+        is_called = inner.function is not None and not _returns_function(inner.function)
+        return inner._replace(node=node, is_called=is_called, function=None)
+    if isinstance(node, ast.Lambda):
+        return Callback(node, None, node, module, is_called=False, is_bound=False)
+    if isinstance(node, ast.Attribute):
+        owner = facts.owner_of(node.value)
+        method = owner.method(node.attr) if isinstance(owner, NodeClass) else None
+        if method is None:
+            class_ = facts.evaluator.self_class(node.value)
+            method = _method_of(facts, class_, node.attr) if class_ else None
+        is_bound = method is not None and not _is_static_method(method)
+        return Callback(node, node.attr, method, module, is_called=False, is_bound=is_bound)
+    if isinstance(node, ast.Name):
+        found = facts.module.index.lookup(node.id, node)
+        nodes = [binding.node for binding in found[1]] if found else []
+        function = nodes[0] if len(nodes) == 1 else None
+        if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+            function = None
+        return Callback(node, node.id, function, module, is_called=False, is_bound=False)
+    return Callback(node, None, None, module, is_called=False, is_bound=False)
+
+
+def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNode | None:
+    for member in facts.related_classes(class_):
+        for binding in facts.module.index.bindings(member).get(name, ()):
+            if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
+                return binding.node
+    return None
+
+
+def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+    """Return the function whose body a node stands in."""
+    child = node
+    for parent in facts.module.parents(node):
+        if isinstance(parent, ast.Lambda):
+            return parent
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef) and isinstance(
+            child, ast.stmt
+        ):
+            return parent
+        child = parent
+    return None
+
+
+def reached(
+    facts: NodeFacts, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+) -> Sequence[FunctionNode | ast.Lambda]:
+    """Return a function and what it calls in the same file: methods of self, functions.
+
+    Args:
+        facts: The file.
+        function: The function.
+        known: Functions that are of no interest any more, nor is what they call.
+    """
+    found: dict[FunctionNode | ast.Lambda, None] = {}
+    pending = [function] if function not in known else []
+    while pending:
+        found.update(dict.fromkeys(pending))
+        called = [
+            resolve(facts, call.func).function
+            for current in pending
+            for call in facts.calls_in(current)
+        ]
+        pending = [
+            one for one in dict.fromkeys(called) if one and one not in found and one not in known
+        ]
+    return [*found]
+
+
+def _is_static_method(function: FunctionNode) -> bool:
+    return any(
+        isinstance(decorator, ast.Name) and decorator.id == "staticmethod"
+        for decorator in function.decorator_list
+    )
+
+
+def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether calling a function may give another function: it returns something."""
+    if isinstance(function, ast.Lambda):
+        return True
+    return any(
+        isinstance(node, ast.Return) and node.value is not None for node in ast.walk(function)
+    )
+
+
+def numbers_taken(callback: Callback) -> range | None:
+    """Return the numbers of positional arguments that a callback takes; ``None``: not known."""
+    function = callback.function
+    if function is None or callback.is_called or callback.is_partial:
+        return None
+    if not isinstance(function, ast.Lambda) and function.decorator_list:
+        return None
+    arguments = function.args
+    if arguments.vararg is not None or any(
+        default is None for default in arguments.kw_defaults if arguments.kwonlyargs
+    ):
+        return None
+    names = [*arguments.posonlyargs, *arguments.args]
+    most = len(names) - int(callback.is_bound)
+    return range(most - len(arguments.defaults), most + 1)

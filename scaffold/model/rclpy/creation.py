@@ -1,0 +1,227 @@
+"""From the calls that create something on a node to entities."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Argument,
+    Callback,
+    Client,
+    Created,
+    Endpoint,
+    Entity,
+    Parameter,
+    ParameterRead,
+    Publisher,
+    Service,
+    Subscription,
+    Timer,
+)
+from scaffold.model.rclpy.evaluator import NOTE
+from scaffold.model.rclpy.parameters.declarations import SIGNATURES as DECLARATIONS
+from scaffold.model.rclpy.parameters.declarations import Declaration
+from scaffold.model.rclpy.parameters.descriptors import descriptor_of
+from scaffold.model.rclpy.qos import qos_of
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import NodeFacts
+
+_QOS = ("msg_type", "topic", "qos_profile")
+_SIGNATURES: Mapping[str, tuple[str, ...]] = {
+    "create_publisher": _QOS,
+    "create_lifecycle_publisher": _QOS,
+    "create_subscription": ("msg_type", "topic", "callback", "qos_profile"),
+    "create_service": ("srv_type", "srv_name", "callback"),
+    "create_client": ("srv_type", "srv_name"),
+    "create_timer": ("timer_period_sec", "callback", "callback_group", "clock", "autostart"),
+    **DECLARATIONS,
+    "get_parameter": ("name",),
+    "get_parameter_or": ("name", "alternative_value"),
+    "has_parameter": ("name",),
+    "get_parameter_type": ("name",),
+    "ActionServer": ("node", "action_type", "action_name", "execute_callback"),
+    "ActionClient": ("node", "action_type", "action_name"),
+}
+NODE_METHODS = tuple(name for name in _SIGNATURES if name.islower())
+"""The methods of a node that create or read something."""
+_READS = frozenset({"get_parameter", "get_parameter_or", "has_parameter", "get_parameter_type"})
+_ENDPOINTS: Mapping[str, type[Endpoint]] = {
+    "create_publisher": Publisher,
+    "create_lifecycle_publisher": Publisher,
+    "create_subscription": Subscription,
+    "create_service": Service,
+    "create_client": Client,
+    "ActionServer": ActionServer,
+    "ActionClient": ActionClient,
+}
+_ACTIONS = {
+    f"rclpy.action.{module}{kind}": kind
+    for kind in ("ActionServer", "ActionClient")
+    for module in ("", "server.", "client.")
+}
+
+
+class Creation:
+    """Reads what the calls of a file create."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+
+    def entities(self) -> Iterator[Entity]:
+        """Yield everything created, in the order of the text."""
+        for call in self._facts.module.walk(ast.Call):
+            method = self._creating_method(call)
+            if method is not None:
+                yield from self._created_by(call, method)
+
+    def _creating_method(self, call: ast.Call) -> str | None:
+        func = self._facts.method_of(call)
+        if func is not None and func.attr in NODE_METHODS:
+            if self._facts.is_node_class(func.value):
+                return None  # Node.create_publisher(self, ...): an override passes on its own
+            is_node = self._facts.owner_of(func.value) is not None
+            return func.attr if is_node or self._may_be_of_rclpy(func) else None
+        for name in self._facts.module.qualified_names(call.func):
+            if name in _ACTIONS:
+                return _ACTIONS[name]
+        return None
+
+    def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
+        """Tell whether a method of what is not known to be a node may be rclpy's."""
+        if not self._facts.uses_rclpy:
+            return False
+        class_ = self._facts.evaluator.self_class(func.value)
+        return class_ is None or not self._facts.defines(class_, func.attr)
+
+    def _created_by(self, call: ast.Call, method: str) -> Iterator[Entity]:
+        created = self._created(call, method)
+        evaluator = self._facts.evaluator
+        if method in _ENDPOINTS:
+            yield self._endpoint(created, method)
+        elif method == "create_timer":
+            period = created.arguments.get("timer_period_sec")
+            value, notes = evaluator.trace(period.node if period else None)
+            is_number = isinstance(value, int | float) and type(value) is not bool
+            yield Timer(
+                created,
+                period=value if isinstance(value, int | float) and is_number else UNKNOWN,
+                from_parameters=_parameters_in(notes) if is_number else frozenset(),
+                callback=self._callback_argument(created, "callback"),
+            )
+        elif method in _READS:
+            name = created.arguments.get("name")
+            text = evaluator.text(name.node) if name else UNKNOWN
+            yield ParameterRead(created, method=method, name=text)
+        else:
+            yield from self._declared(created, method)
+
+    def _endpoint(self, created: Created, method: str) -> Endpoint:
+        kind = _ENDPOINTS[method]
+        type_ = created.arguments.get(kind.type_parameter)
+        name = created.arguments.get(kind.name_parameter)
+        text, notes = self._facts.evaluator.trace(name.node if name else None)
+        qos = created.arguments.get("qos_profile")
+        parameters = _parameters_in(notes) if isinstance(text, str) else ()
+        made = kind(
+            created,
+            interface=self._facts.interface(type_.node) if type_ else None,
+            name=text if isinstance(text, str) else UNKNOWN,
+            from_parameter=next(iter(parameters)) if len(parameters) == 1 else None,
+            qos=qos_of(self._facts.evaluator, qos.node) if qos else None,
+            callback=self._callback_argument(
+                created, "execute_callback" if kind is ActionServer else "callback"
+            ),
+        )
+        if isinstance(made, Publisher):
+            made.is_lifecycle = method == "create_lifecycle_publisher"
+        return made
+
+    def _created(self, call: ast.Call, method: str) -> Created:
+        arguments: dict[str, Argument] = {}
+        unknown = False
+        for parameter, arg in zip(_SIGNATURES[method], call.args, strict=False):
+            if isinstance(arg, ast.Starred):
+                unknown = True
+                break
+            arguments[parameter] = self._argument(parameter, arg)
+        for word in call.keywords:
+            if word.arg is None:
+                unknown = True
+            else:
+                arguments[word.arg] = self._argument(word.arg, word.value)
+        attribute, variable = self.target(call)
+        func = self._facts.method_of(call)
+        if func is not None and method not in _ACTIONS.values():
+            owner = self._facts.owner_of(func.value)
+        else:
+            owner = self._facts.owner_of(arguments["node"].node) if "node" in arguments else None
+        return Created(
+            call,
+            self._facts.module.location(call),
+            owner,
+            attribute,
+            variable,
+            self._facts.module.enclosing_function(call),
+            arguments,
+            unknown,
+            self._facts.is_conditional(call),
+        )
+
+    def _argument(self, name: str, node: ast.expr) -> Argument:
+        return Argument(
+            name, node, self._facts.evaluator.evaluate(node), self._facts.module.location(node)
+        )
+
+    def target(self, call: ast.Call) -> tuple[str | None, str | None]:
+        """Return the attribute of ``self`` and the variable that a call's result is stored in."""
+        attribute: str | None = None
+        variable: str | None = None
+        parent = self._facts.module.parent(call)
+        targets: Sequence[ast.expr] = ()
+        if isinstance(parent, ast.Assign):
+            targets = parent.targets
+        elif isinstance(parent, ast.AnnAssign | ast.NamedExpr):
+            targets = [parent.target]
+        for target in targets:
+            if isinstance(target, ast.Attribute) and self._facts.evaluator.self_class(target.value):
+                attribute = target.attr
+            elif isinstance(target, ast.Name):
+                variable = target.id
+        return attribute, variable
+
+    def _callback_argument(self, created: Created, name: str) -> Callback | None:
+        argument = created.arguments.get(name)
+        return self._facts.callback(argument.node) if argument else None
+
+    def _declared(self, created: Created, method: str) -> Iterator[Parameter]:
+        for one in self._facts.declarations.declarations_in(created.call, method):
+            yield self._parameter(created, one)
+
+    def _parameter(self, created: Created, given: Declaration) -> Parameter:
+        name, value = given.name, given.value
+        is_open = created.has_unknown_arguments
+        return Parameter(
+            created,
+            given,
+            name=self._facts.declarations.full_name(given.prefix, name),
+            name_location=self._facts.module.location(name) if name else created.location,
+            default=self._facts.evaluator.evaluate(value),
+            declared_type=self._type_named(value),
+            descriptor=None if is_open else descriptor_of(self._facts, given.descriptor),
+        )
+
+    def _type_named(self, node: ast.expr | None) -> str | None:
+        name = self._facts.module.qualified_name(node) if node else None
+        if name and name.startswith("rclpy.") and ".Parameter.Type." in name:
+            return name.rpartition(".")[2].lower()
+        return None
+
+
+def _parameters_in(notes: frozenset[str]) -> frozenset[str]:
+    return frozenset(note.removeprefix(NOTE) for note in notes if note.startswith(NOTE))

@@ -1,0 +1,308 @@
+"""What rclpy code creates, as data: publishers, timers, parameters ..., with places."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.parameters.declarations import Declaration
+    from scaffold.model.rclpy.parameters.descriptors import Descriptor
+    from scaffold.source import Location
+
+
+class Argument(NamedTuple):
+    """An argument of a call, by the name of its parameter."""
+
+    name: str
+    node: ast.expr
+    value: object
+    """Evaluated; ``UNKNOWN`` for what is no constant."""
+    location: Location
+
+
+class Callback(NamedTuple):
+    """What is passed as a callback."""
+
+    node: ast.expr
+    name: str | None
+    """The method's or function's name; ``None`` for a lambda or what is not known."""
+    function: FunctionNode | ast.Lambda | None
+    """Its definition, if that is in the same file."""
+    module: PythonModule
+    """The file that passes it."""
+    is_called: bool
+    """The function is called where it should be passed: ``self.on_timer()``."""
+    is_bound: bool
+    """A method, so ``self`` is not among the arguments that it is called with."""
+    is_partial: bool = False
+    """Wrapped in ``functools.partial``: some arguments are given already."""
+
+    @property
+    def location(self) -> Location:
+        """The place of what is passed."""
+        return self.module.location(self.node)
+
+
+class Qos(NamedTuple):
+    """The quality of service of a publisher or subscription; policies in capitals."""
+
+    location: Location
+    profile: str | None = None
+    """The predefined profile: ``sensor_data`` ..."""
+    depth: int | Unknown | None = UNKNOWN
+    """``None``: not given, though the history needs it."""
+    history: str | Unknown = UNKNOWN
+    reliability: str | Unknown = UNKNOWN
+    durability: str | Unknown = UNKNOWN
+
+
+class Created(NamedTuple):
+    """What every call that creates something has."""
+
+    call: ast.Call
+    location: Location
+    """The whole call."""
+    owner: NodeOwner | None
+    """The node it is created on, if that is known."""
+    attribute: str | None
+    """Stored in this attribute of ``self``."""
+    variable: str | None
+    """Stored in this variable."""
+    function: FunctionNode | None
+    """The function that creates it."""
+    arguments: Mapping[str, Argument]
+    """Given arguments by the name of the parameter."""
+    has_unknown_arguments: bool
+    """There is a ``*`` or ``**``: more arguments may be given."""
+    is_conditional: bool
+    """Created under a condition or in a loop."""
+
+
+class Entity:
+    """Something a node creates."""
+
+    def __init__(self, created: Created) -> None:
+        self.created = created
+        self.call = created.call
+        self.location = created.location
+        self.owner = created.owner
+        self.attribute = created.attribute
+        self.variable = created.variable
+        self.function = created.function
+        self.arguments = created.arguments
+        self.has_unknown_arguments = created.has_unknown_arguments
+        self.is_conditional = created.is_conditional
+
+    def argument(self, name: str) -> Argument | None:
+        """Return an argument by the name of its parameter."""
+        return self.arguments.get(name)
+
+
+class Endpoint(Entity):
+    """Something with a name and an interface type that other nodes can reach."""
+
+    type_parameter = "msg_type"
+    name_parameter = "topic"
+
+    def __init__(
+        self,
+        created: Created,
+        *,
+        interface: str | None,
+        name: str | Unknown,
+        from_parameter: str | None = None,
+        qos: Qos | None = None,
+        callback: Callback | None = None,
+    ) -> None:
+        super().__init__(created)
+        self.interface = interface
+        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        self.name = name
+        """As written: not expanded, not remapped."""
+        self.from_parameter = from_parameter
+        """The name is the default of this parameter."""
+        self.qos = qos
+        """``None`` when none is given."""
+        self.callback = callback
+
+    @property
+    def type_argument(self) -> Argument | None:
+        """The argument that is the interface type."""
+        return self.argument(self.type_parameter)
+
+    @property
+    def name_argument(self) -> Argument | None:
+        """The argument that is the name."""
+        return self.argument(self.name_parameter)
+
+
+class Publisher(Endpoint):
+    """``create_publisher``."""
+
+    is_lifecycle = False
+
+    @property
+    def message_type(self) -> str | None:
+        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        return self.interface
+
+    @property
+    def topic(self) -> str | Unknown:
+        """The topic as written."""
+        return self.name
+
+
+class Subscription(Endpoint):
+    """``create_subscription``."""
+
+    @property
+    def message_type(self) -> str | None:
+        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        return self.interface
+
+    @property
+    def topic(self) -> str | Unknown:
+        """The topic as written."""
+        return self.name
+
+
+class Service(Endpoint):
+    """``create_service``."""
+
+    type_parameter = "srv_type"
+    name_parameter = "srv_name"
+
+
+class Client(Endpoint):
+    """``create_client``."""
+
+    type_parameter = "srv_type"
+    name_parameter = "srv_name"
+
+
+class ActionServer(Endpoint):
+    """``ActionServer(...)``; the callback is the one that executes goals."""
+
+    type_parameter = "action_type"
+    name_parameter = "action_name"
+
+
+class ActionClient(Endpoint):
+    """``ActionClient(...)``."""
+
+    type_parameter = "action_type"
+    name_parameter = "action_name"
+
+
+class Timer(Entity):
+    """``create_timer``."""
+
+    def __init__(
+        self,
+        created: Created,
+        *,
+        period: float | Unknown,
+        from_parameters: frozenset[str],
+        callback: Callback | None,
+    ) -> None:
+        super().__init__(created)
+        self.period = period
+        """In seconds."""
+        self.from_parameters = from_parameters
+        """The period is computed from the defaults of these parameters."""
+        self.callback = callback
+
+
+class Parameter(Entity):
+    """``declare_parameter``, or one entry of ``declare_parameters``."""
+
+    def __init__(
+        self,
+        created: Created,
+        given: Declaration,
+        *,
+        name: str | Unknown,
+        name_location: Location,
+        default: object,
+        declared_type: str | None,
+        descriptor: Descriptor | None,
+    ) -> None:
+        super().__init__(created)
+        self.name = name
+        """With the namespace of ``declare_parameters`` in front."""
+        self.name_node = given.name
+        self.name_location = name_location
+        self.default = default
+        """Evaluated; ``UNKNOWN`` also when none is given."""
+        self.default_node = given.value
+        """``None`` when no default is given."""
+        self.declared_type = declared_type
+        """The type, if that is given in place of a default: ``Parameter.Type.DOUBLE``."""
+        self.descriptor_node = given.descriptor
+        """``None`` when no descriptor is given."""
+        self.descriptor = descriptor
+        """``None`` when it is not known what it says."""
+
+    @property
+    def type(self) -> str | None:
+        """The ROS type: ``double``, ``string_array`` ...; ``None`` if that cannot be told.
+
+        An empty list is a ``byte_array`` for rclpy.
+        """
+        return self.declared_type or parameter_type(self.default)
+
+
+class ParameterRead(Entity):
+    """``get_parameter``, ``get_parameter_or``, ``has_parameter`` ..."""
+
+    def __init__(self, created: Created, *, method: str, name: str | Unknown) -> None:
+        super().__init__(created)
+        self.method = method
+        self.name = name
+
+
+class RclpyCall(NamedTuple):
+    """A call that starts, runs or ends rclpy."""
+
+    name: str
+    """``init``, ``spin``, ``spin_once``, ``spin_until_future_complete``, ``shutdown``,
+    ``try_shutdown``; the methods of an executor have ``executor.`` in front."""
+    call: ast.Call
+    location: Location
+    function: FunctionNode | None
+    handlers: frozenset[str]
+    """Full names of the exceptions that are caught around it in the same function."""
+    in_finally: bool
+    asks_ok: bool
+    """Under ``if rclpy.ok():``."""
+    in_with: bool
+    """``with rclpy.init() ...:`` this call itself, or its body around another call."""
+    outer_handlers: frozenset[str] = frozenset()
+    """What is caught wherever the function that holds it is called in the file."""
+
+    @property
+    def catches_keyboard_interrupt(self) -> bool:
+        """Whether Ctrl-C does not end in a traceback."""
+        return not self.handlers.isdisjoint({"KeyboardInterrupt", "BaseException"})
+
+
+_SCALARS: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
+
+
+def parameter_type(value: object) -> str | None:
+    """Return the ROS type of a parameter value as rclpy sees it."""
+    if isinstance(value, list | tuple):
+        kinds = {_SCALARS.get(type(item)) for item in value}
+        if not kinds:
+            return "byte_array"
+        kind = kinds.pop()
+        return f"{kind}_array" if kind and not kinds else None
+    return _SCALARS.get(type(value))

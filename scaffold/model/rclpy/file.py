@@ -1,0 +1,475 @@
+"""What the rclpy code of a Python file says: nodes, what they create, how they are run."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy import callbacks as node_callbacks
+from scaffold.model.rclpy.creation import NODE_METHODS, Creation
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Callback,
+    Client,
+    Endpoint,
+    Entity,
+    Parameter,
+    ParameterRead,
+    Publisher,
+    RclpyCall,
+    Service,
+    Subscription,
+    Timer,
+)
+from scaffold.model.rclpy.evaluator import NodeEvaluator
+from scaffold.model.rclpy.init_and_spin import rclpy_calls
+from scaffold.model.rclpy.nodes import NodeClass, NodeObject, NodeOwner
+from scaffold.model.rclpy.parameters.declarations import Declarations
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+__all__ = [
+    "NODE_CLASSES",
+    "Modules",
+    "NodeClass",
+    "NodeFacts",
+    "NodeObject",
+    "NodeOwner",
+    "node_facts",
+    "rclpy_files",
+]
+
+View = TypeVar("View")
+
+NODE_CLASSES = frozenset(
+    {"rclpy.node.Node", "rclpy.Node", "rclpy.create_node"}
+    | {"rclpy.lifecycle.LifecycleNode", "rclpy.lifecycle.Node"}
+    | {"rclpy.lifecycle.node.LifecycleNode"}
+)
+
+MAX_BASES = 40
+"""Classes that inherit from each other; nobody has so many."""
+
+
+class Modules(Protocol):
+    """Where the other modules of a package come from; a ``Package`` is one."""
+
+    def has(self, path: str) -> bool:
+        """Tell whether a file exists."""
+
+    def module(self, path: str) -> PythonModule:
+        """Return a parsed Python file; raises ViewError."""
+
+    def remember(self, key: object, build: Callable[[], View]) -> View:
+        """Return what ``build`` makes; it is made once for a key."""
+
+
+def node_facts(modules: Modules, path: str) -> NodeFacts:
+    """Return what the rclpy code of a Python file says; raises ViewError."""
+    return modules.remember(("nodes", path), lambda: NodeFacts.of(modules.module(path), modules))
+
+
+def rclpy_files(package: Package) -> Iterator[NodeFacts]:
+    """Yield what the Python files that import rclpy say; tests try what nodes must not do."""
+    for module in package.modules():
+        if "rclpy" in module.imports_by_root and not module.in_tests:
+            yield node_facts(package, module.path)
+
+
+class NodeFacts:
+    """Everything that the rclpy code of one file says."""
+
+    def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
+        self.module = module
+        self.modules = modules
+        """Where other files come from: the package."""
+        self.declarations = Declarations(self)
+        self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
+        self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
+        """Kept by `parameters.objects`."""
+        self._creation = Creation(self)
+        self._base_depth = 0
+
+    @classmethod
+    def of(cls, module: PythonModule, modules: Modules | None = None) -> NodeFacts:
+        """Return the view of a parsed file; base classes are looked up in ``modules``."""
+        return cls(module, modules)
+
+    @cached_property
+    def uses_rclpy(self) -> bool:
+        """Whether the file imports rclpy."""
+        return "rclpy" in self.module.imports_by_root
+
+    # -- nodes
+
+    @cached_property
+    def classes(self) -> Sequence[NodeClass]:
+        """The node classes, in the order of the text."""
+        return [
+            found
+            for node in self.module.walk(ast.ClassDef)
+            if (found := self.node_class(node)) is not None
+        ]
+
+    @cached_property
+    def objects(self) -> Sequence[NodeObject]:
+        """The nodes without a class of their own, in the order of the text."""
+        found: list[NodeObject] = []
+        for call in self.module.walk(ast.Call):
+            if not self.is_node_class(call.func):
+                continue
+            attribute, variable = self._creation.target(call)
+            name = variable or attribute or ""
+            item = NodeObject(self, name, self.module.location(call.func), call)
+            item.is_lifecycle = _is_lifecycle(self.module.qualified_names(call.func))
+            found.append(item)
+        return found
+
+    @property
+    def nodes(self) -> Sequence[NodeOwner]:
+        """Node classes, then objects."""
+        return [*self.classes, *self.objects]
+
+    @cached_property
+    def _classes_by_node(self) -> dict[ast.ClassDef, NodeClass | None]:
+        return {}
+
+    def node_class(self, node: ast.ClassDef) -> NodeClass | None:
+        """Return the view of a class if it inherits from rclpy's Node."""
+        known = self._classes_by_node
+        if node not in known:
+            known[node] = None  # ends the recursion of a class that inherits from itself
+            self._base_depth += 1
+            known[node] = self._new_node_class(node) if self._base_depth <= MAX_BASES else None
+            self._base_depth -= 1
+        return known[node]
+
+    def is_node_class(self, node: ast.expr) -> bool:
+        """Tell whether an expression is a class of rclpy's nodes, or what makes one."""
+        return not NODE_CLASSES.isdisjoint(self.module.qualified_names(node))
+
+    def _new_node_class(self, node: ast.ClassDef) -> NodeClass | None:
+        for position, expression in enumerate(node.bases):
+            names = self.module.qualified_names(expression)
+            base = None
+            if NODE_CLASSES.isdisjoint(names):
+                base = self._base_class(expression, names)
+                if base is None or base.depth > MAX_BASES:
+                    continue
+            found = NodeClass(self, node, base)
+            found.base_index = position
+            found.is_lifecycle = base.is_lifecycle if base else _is_lifecycle(names)
+            return found
+        return None
+
+    def _base_class(self, expression: ast.expr, names: frozenset[str]) -> NodeClass | None:
+        if not names and isinstance(expression, ast.Name):
+            found = self.module.index.lookup(expression.id, expression)
+            nodes = [binding.node for binding in found[1]] if found else []
+            if len(nodes) == 1 and isinstance(nodes[0], ast.ClassDef):
+                return self.node_class(nodes[0])
+        for name in names:
+            module, _, class_name = name.rpartition(".")
+            facts = self._facts_of(module)
+            found_class = facts.module.classes.get(class_name) if facts else None
+            if facts and found_class:
+                return facts.node_class(found_class.node)
+        return None
+
+    def _facts_of(self, module: str) -> NodeFacts | None:
+        """Return the facts of another module of the package."""
+        if self.modules is None or not module:
+            return None
+        for path in _module_paths(self.module.path, module):
+            if path != self.module.path and self.modules.has(path):
+                try:
+                    return node_facts(self.modules, path)
+                except ViewError:
+                    return None
+        return None
+
+    def related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
+        """Return a class with the bases and descendants it has in the file."""
+        related = [node]
+        bases = self._local_bases
+        pending = [node]
+        while pending:
+            for base in bases.get(pending.pop(), ()):
+                if base not in related:
+                    related.append(base)
+                    pending.append(base)
+        below = [node]
+        for current in below:
+            for other in self.module.walk(ast.ClassDef):
+                if current in bases.get(other, ()) and other not in related:
+                    related.append(other)
+                    below.append(other)
+        return related
+
+    @cached_property
+    def _local_bases(self) -> Mapping[ast.ClassDef, Sequence[ast.ClassDef]]:
+        found: dict[ast.ClassDef, list[ast.ClassDef]] = {}
+        for node in self.module.walk(ast.ClassDef):
+            for expression in node.bases:
+                if isinstance(expression, ast.Name):
+                    bound = self.module.index.lookup(expression.id, expression)
+                    for binding in bound[1] if bound else ():
+                        if isinstance(binding.node, ast.ClassDef):
+                            found.setdefault(node, []).append(binding.node)
+        return found
+
+    def owner_of(self, node: ast.expr) -> NodeOwner | None:
+        """Return the node that an expression such as ``self`` stands for."""
+        class_ = self.evaluator.self_class(node)
+        if class_ is not None:
+            return self.node_class(class_)
+        call = self.evaluator.single_value(node)
+        if isinstance(call, ast.Call):
+            for item in self.objects:
+                if item.constructor_call is call:
+                    return item
+            return self._base_class(call.func, self.module.qualified_names(call.func))
+        return None
+
+    def method_of(self, call: ast.Call) -> ast.Attribute | None:
+        """Return the method that is called, also through ``declare = self.declare_parameter``."""
+        func: ast.expr | None = call.func
+        if isinstance(func, ast.Name) and func.id in self._method_variables:
+            func = self.evaluator.single_value(func)
+        return func if isinstance(func, ast.Attribute) else None
+
+    @cached_property
+    def _method_variables(self) -> frozenset[str]:
+        """The variables that a method of a node is stored in."""
+        return frozenset(
+            target.id
+            for method in NODE_METHODS
+            for node in self.module.index.attributes(method)
+            if isinstance(assignment := self.module.parent(node), ast.Assign)
+            for target in assignment.targets
+            if isinstance(target, ast.Name)
+        )
+
+    def defines(self, node: ast.ClassDef, method: str, depth: int = MAX_BASES) -> bool:
+        """Tell whether a class, or a base class in the package, has a method of its own."""
+        if method in self.module.index.bindings(node):
+            return True
+        for expression in node.bases if depth else ():
+            for facts, base in self._classes_named(expression):
+                if base is not node and facts.defines(base, method, depth - 1):
+                    return True
+        return False
+
+    def _classes_named(self, expression: ast.expr) -> Iterator[tuple[NodeFacts, ast.ClassDef]]:
+        """Yield the classes of the package that an expression may name."""
+        if isinstance(expression, ast.Name):
+            found = self.module.index.lookup(expression.id, expression)
+            for binding in found[1] if found else ():
+                if isinstance(binding.node, ast.ClassDef):
+                    yield self, binding.node
+        for name in self.module.qualified_names(expression):
+            module, _, class_name = name.rpartition(".")
+            facts = self._facts_of(module)
+            known = facts.module.classes.get(class_name) if facts else None
+            if facts and known:
+                yield facts, known.node
+
+    def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
+        """Return the function parameter that an expression is the name of."""
+        if isinstance(node, ast.Name):
+            found = self.module.index.lookup(node.id, node)
+            if found and len(found[1]) == 1 and isinstance(found[1][0].node, ast.arg):
+                return found[1][0].node
+        return None
+
+    # -- what is created
+
+    @cached_property
+    def entities(self) -> Sequence[Entity]:
+        """Everything created, in the order of the text."""
+        return list(self._creation.entities())
+
+    @cached_property
+    def publishers(self) -> Sequence[Publisher]:
+        """All publishers, also those of nodes that are not known."""
+        return [item for item in self.entities if isinstance(item, Publisher)]
+
+    @cached_property
+    def subscriptions(self) -> Sequence[Subscription]:
+        """All subscriptions."""
+        return [item for item in self.entities if isinstance(item, Subscription)]
+
+    @cached_property
+    def services(self) -> Sequence[Service]:
+        """All services."""
+        return [item for item in self.entities if isinstance(item, Service)]
+
+    @cached_property
+    def clients(self) -> Sequence[Client]:
+        """All service clients."""
+        return [item for item in self.entities if isinstance(item, Client)]
+
+    @cached_property
+    def action_servers(self) -> Sequence[ActionServer]:
+        """All action servers."""
+        return [item for item in self.entities if isinstance(item, ActionServer)]
+
+    @cached_property
+    def action_clients(self) -> Sequence[ActionClient]:
+        """All action clients."""
+        return [item for item in self.entities if isinstance(item, ActionClient)]
+
+    @cached_property
+    def endpoints(self) -> Sequence[Endpoint]:
+        """Publishers, subscriptions, services, clients, action servers and clients."""
+        return [item for item in self.entities if isinstance(item, Endpoint)]
+
+    @cached_property
+    def timers(self) -> Sequence[Timer]:
+        """All timers."""
+        return [item for item in self.entities if isinstance(item, Timer)]
+
+    @cached_property
+    def parameters(self) -> Sequence[Parameter]:
+        """All declared parameters."""
+        return [item for item in self.entities if isinstance(item, Parameter)]
+
+    @cached_property
+    def parameter_reads(self) -> Sequence[ParameterRead]:
+        """All places where parameters are read by name."""
+        return [item for item in self.entities if isinstance(item, ParameterRead)]
+
+    def interface(self, node: ast.expr) -> str | None:
+        """Return the interface type that an expression names: ``std_msgs/msg/String``."""
+        name = self.module.qualified_name(self.evaluator.single_value(node))
+        parts = name.split(".") if name else []
+        kinds = [part for part in parts[1:-1] if part in {"msg", "srv", "action"}]
+        if not kinds or not parts[0] or not parts[-1][:1].isupper():
+            return None
+        if self._facts_of(".".join(parts[:2])) is not None:
+            return None  # a module of the package that is called action, too
+        return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
+
+    def is_conditional(self, node: ast.AST) -> bool:
+        """Tell whether a node stands under a condition or in a loop of its function."""
+        for parent in self.module.parents(node):
+            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+                return isinstance(parent, ast.Lambda)
+            if isinstance(parent, ast.If | ast.For | ast.While | ast.AsyncFor | ast.IfExp):
+                return not (isinstance(parent, ast.If) and parent is self.module.main_guard_node)
+            if isinstance(parent, ast.ExceptHandler | ast.match_case | ast.comprehension):
+                return True
+            if isinstance(parent, ast.ListComp | ast.DictComp | ast.GeneratorExp | ast.SetComp):
+                return True
+        return False
+
+    # -- callbacks
+
+    def is_number(self, node: ast.Attribute) -> bool:
+        """Tell whether an attribute of ``self`` is a number wherever its class assigns to it."""
+        class_ = self.module.enclosing_class(node)
+        if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
+            return False
+        values: list[ast.expr] = []
+        for statement in self.module.below(class_, ast.Assign, ast.AugAssign, ast.Attribute):
+            match statement:
+                case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)]):
+                    values += [statement.value] if name == node.attr else []
+                case ast.AugAssign(target=ast.Attribute(value=ast.Name(id="self"), attr=name)):
+                    values += [statement.value] if name == node.attr else []
+                case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Del()):
+                    return False
+        known = [self.evaluator.evaluate(value) for value in values]
+        return bool(known) and all(type(value) in {int, float} for value in known)
+
+    def callback(self, node: ast.expr) -> Callback:
+        """Return what an expression stands for as a callback."""
+        return node_callbacks.resolve(self, node)
+
+    @cached_property
+    def callbacks(self) -> Sequence[tuple[Entity, Callback]]:
+        """What the executor calls: callbacks of timers, subscriptions, services and actions."""
+        return [
+            (entity, entity.callback)
+            for entity in self.entities
+            if isinstance(entity, Timer | Endpoint) and entity.callback is not None
+        ]
+
+    def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
+        """Return the calls in the body of a function, those of functions inside left out."""
+        return self._calls_by_function.get(function, ())
+
+    @cached_property
+    def _calls_by_function(self) -> Mapping[ast.AST | None, Sequence[ast.Call]]:
+        found: dict[ast.AST | None, list[ast.Call]] = {}
+        for call in self.module.walk(ast.Call):
+            found.setdefault(self.function_of(call), []).append(call)
+        return found
+
+    def function_of(self, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+        """Return the function whose body a node stands in."""
+        return node_callbacks.function_of(self, node)
+
+    def reached(
+        self, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+    ) -> Sequence[FunctionNode | ast.Lambda]:
+        """Return a function and what it calls in the same file, without what is known already."""
+        return node_callbacks.reached(self, function, known)
+
+    # -- parameters
+
+    def default_in(self, owner: NodeClass, name: str) -> object:
+        """Return the default of a parameter that a class declares."""
+        values = [item.default for item in owner.parameters if item.name == name]
+        return values[0] if len(values) == 1 else UNKNOWN
+
+    # -- how it is run
+
+    @cached_property
+    def init_calls(self) -> Sequence[RclpyCall]:
+        """The calls of ``rclpy.init``."""
+        return [call for call in self.rclpy_calls if call.name == "init"]
+
+    @cached_property
+    def spin_calls(self) -> Sequence[RclpyCall]:
+        """The calls that run callbacks: ``rclpy.spin...``, ``executor.spin...``."""
+        return [call for call in self.rclpy_calls if "spin" in call.name]
+
+    @cached_property
+    def shutdown_calls(self) -> Sequence[RclpyCall]:
+        """The calls of ``rclpy.shutdown`` and ``rclpy.try_shutdown``."""
+        return [call for call in self.rclpy_calls if call.name in {"shutdown", "try_shutdown"}]
+
+    @cached_property
+    def rclpy_calls(self) -> Sequence[RclpyCall]:
+        """The calls that start, run or end rclpy, in the order of the text."""
+        return list(rclpy_calls(self))
+
+
+def _is_lifecycle(names: frozenset[str]) -> bool:
+    return any("lifecycle" in name for name in names)
+
+
+def _module_paths(path: str, module: str) -> Iterator[str]:
+    """Yield the files that a module seen from a file may be in."""
+    directory = path.rpartition("/")[0]
+    if module.startswith("."):
+        name = module.lstrip(".")
+        for _ in range(len(module) - len(name) - 1):
+            directory = directory.rpartition("/")[0]
+        bases = [directory]
+    else:
+        name = module
+        bases = ["", "src", directory]
+    for base in dict.fromkeys(bases):
+        stem = "/".join(part for part in (base, *name.split(".")) if part)
+        yield f"{stem}.py"
+        yield f"{stem}/__init__.py"

@@ -1,0 +1,176 @@
+"""How rclpy is started, run and ended."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.entities import RclpyCall
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.file import NodeFacts
+
+_RUNS = frozenset({"init", "spin", "spin_once", "spin_until_future_complete"})
+_RUNS |= {"shutdown", "try_shutdown"}
+_EXECUTORS = frozenset(
+    f"rclpy.executors.{kind}Executor" for kind in ("SingleThreaded", "MultiThreaded")
+) | {"rclpy.experimental.EventsExecutor"}
+
+_MAX_CALLS = 20
+
+
+def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
+    """Yield the calls that start, run or end rclpy, in the order of the text."""
+    outside: _Outside | None = None
+    for call in facts.module.walk(ast.Call):
+        name = _run_name(facts, call)
+        if name is not None:
+            outside = outside or _Outside(facts)
+            yield _rclpy_call(facts, call, name, outside)
+
+
+def _run_name(facts: NodeFacts, call: ast.Call) -> str | None:
+    for name in facts.module.qualified_names(call.func):
+        root, _, function = name.rpartition(".")
+        if function in _RUNS and root in {"rclpy", "rclpy.utilities"}:
+            return function
+    func = call.func
+    if isinstance(func, ast.Attribute) and func.attr in _RUNS and _is_executor(facts, func.value):
+        return f"executor.{func.attr}"
+    return None
+
+
+def _is_executor(facts: NodeFacts, node: ast.expr) -> bool:
+    value = facts.evaluator.single_value(node)
+    if value is node and isinstance(node, ast.Name):
+        value = _entered(facts, node) or node
+    if not isinstance(value, ast.Call):
+        return False
+    return not _EXECUTORS.isdisjoint(facts.module.qualified_names(value.func))
+
+
+def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
+    """Return what ``with ... as name`` is entered with."""
+    found = facts.module.index.lookup(node.id, node)
+    for binding in found[1] if found else ():
+        parent = facts.module.parent(binding.node)
+        if isinstance(parent, ast.withitem):
+            return parent.context_expr
+    return None
+
+
+def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
+    in_finally = asks_ok = in_with = False
+    child: ast.AST = call
+    for parent in facts.module.parents(call):
+        match parent:
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
+                break
+            case ast.Try() if facts.module.index.place(child)[0] == "finalbody":
+                in_finally = True
+            case ast.If(test=test):
+                asks_ok = asks_ok or _asks_ok(facts, test)
+            case ast.With(items=items):
+                in_with = in_with or any(_enters_init(facts, item) for item in items)
+        child = parent
+    return RclpyCall(
+        name,
+        call,
+        facts.module.location(call),
+        facts.module.enclosing_function(call),
+        frozenset(_handlers_around(facts, call)),
+        in_finally,
+        asks_ok,
+        in_with,
+        outside.around(call),
+    )
+
+
+def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
+    """Return what is caught around a node in its function."""
+    handlers: set[str] = set()
+    child = node
+    for parent in facts.module.parents(node):
+        match parent:
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
+                break
+            case ast.Try() if facts.module.index.place(child)[0] == "body":
+                handlers.update(_caught(facts, parent))
+            case ast.With(items=items):
+                handlers.update(*(_suppressed(facts, item) for item in items))
+        child = parent
+    return handlers
+
+
+class _Outside:
+    """What is caught around the functions of a file, by all that call them there."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+        self._known: dict[FunctionNode, frozenset[str]] = {}
+        self._depth = 0
+        self._calls: dict[str, list[ast.Name]] = {}
+        for call in facts.module.walk(ast.Call):
+            if isinstance(call.func, ast.Name):
+                self._calls.setdefault(call.func.id, []).append(call.func)
+
+    def around(self, node: ast.AST) -> frozenset[str]:
+        """Return what all calls of a node's function catch."""
+        function = self._facts.module.enclosing_function(node)
+        if function is None or self._depth > _MAX_CALLS:
+            return frozenset()
+        if function not in self._known:
+            self._known[function] = frozenset()  # what calls itself promises nothing
+            self._depth += 1
+            caught = [
+                self.around(name) | _handlers_around(self._facts, name)
+                for name in self._calls.get(function.name, ())
+                if self._is_name_of(name, function)
+            ]
+            self._depth -= 1
+            self._known[function] = frozenset.intersection(*caught) if caught else frozenset()
+        return self._known[function]
+
+    def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
+        found = self._facts.module.index.lookup(name.id, name)
+        return found is not None and any(binding.node is function for binding in found[1])
+
+
+def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:
+    for handler in node.handlers:
+        if handler.type is None:
+            yield "BaseException"
+        else:
+            yield from _exceptions(facts, handler.type)
+
+
+def _exceptions(facts: NodeFacts, node: ast.expr) -> Iterator[str]:
+    node = facts.evaluator.single_value(node)
+    if isinstance(node, ast.Tuple):
+        for item in node.elts:
+            yield from _exceptions(facts, item)
+    else:
+        yield from facts.module.qualified_names(node)
+
+
+def _suppressed(facts: NodeFacts, item: ast.withitem) -> Iterator[str]:
+    call = item.context_expr
+    if not isinstance(call, ast.Call):
+        return
+    if facts.module.qualified_name(call.func) == "contextlib.suppress":
+        for arg in call.args:
+            yield from _exceptions(facts, arg)
+
+
+def _enters_init(facts: NodeFacts, item: ast.withitem) -> bool:
+    call = item.context_expr
+    return isinstance(call, ast.Call) and facts.module.qualified_name(call.func) == "rclpy.init"
+
+
+def _asks_ok(facts: NodeFacts, test: ast.expr) -> bool:
+    return any(
+        isinstance(node, ast.Call) and facts.module.qualified_name(node.func) == "rclpy.ok"
+        for node in ast.walk(test)
+    )

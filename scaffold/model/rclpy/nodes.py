@@ -1,0 +1,283 @@
+"""The nodes that a file makes: classes of their own, and objects."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.call_sites import given_argument
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Client,
+    Entity,
+    Parameter,
+    ParameterRead,
+    Publisher,
+    Service,
+    Subscription,
+    Timer,
+)
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.source import Location
+
+
+class NodeOwner:
+    """A node as the code makes it: of a class of its own, or an object."""
+
+    def __init__(self, facts: NodeFacts, name: str, location: Location) -> None:
+        self.facts = facts
+        self.name = name
+        """Of the class, or of the variable."""
+        self.location = location
+        self.is_lifecycle = False
+
+    def _own(self, kind: type[Entity]) -> list[Entity]:
+        return [item for item in self.facts.entities if item.owner is self and type(item) is kind]
+
+    @cached_property
+    def publishers(self) -> Sequence[Publisher]:
+        """What it publishes, those of base classes not included."""
+        return [item for item in self._own(Publisher) if isinstance(item, Publisher)]
+
+    @cached_property
+    def subscriptions(self) -> Sequence[Subscription]:
+        """What it subscribes to."""
+        return [item for item in self._own(Subscription) if isinstance(item, Subscription)]
+
+    @cached_property
+    def services(self) -> Sequence[Service]:
+        """The services it offers."""
+        return [item for item in self._own(Service) if isinstance(item, Service)]
+
+    @cached_property
+    def clients(self) -> Sequence[Client]:
+        """The services it calls."""
+        return [item for item in self._own(Client) if isinstance(item, Client)]
+
+    @cached_property
+    def action_servers(self) -> Sequence[ActionServer]:
+        """The actions it offers."""
+        return [item for item in self._own(ActionServer) if isinstance(item, ActionServer)]
+
+    @cached_property
+    def action_clients(self) -> Sequence[ActionClient]:
+        """The actions it calls."""
+        return [item for item in self._own(ActionClient) if isinstance(item, ActionClient)]
+
+    @cached_property
+    def timers(self) -> Sequence[Timer]:
+        """Its timers."""
+        return [item for item in self._own(Timer) if isinstance(item, Timer)]
+
+    @cached_property
+    def parameters(self) -> Sequence[Parameter]:
+        """The parameters it declares."""
+        return [item for item in self._own(Parameter) if isinstance(item, Parameter)]
+
+    @cached_property
+    def parameter_reads(self) -> Sequence[ParameterRead]:
+        """Where it reads parameters."""
+        return [item for item in self._own(ParameterRead) if isinstance(item, ParameterRead)]
+
+    # -- what its constructor is given
+
+    @cached_property
+    def constructor_call(self) -> ast.Call | None:
+        """The call that reaches the constructor of rclpy's Node."""
+        return None
+
+    @cached_property
+    def node_name_node(self) -> ast.expr | None:
+        """The expression that is the node's name."""
+        return self._constructor_argument("node_name", 0)
+
+    @cached_property
+    def node_name(self) -> str | Unknown:
+        """The name given to rclpy's Node; remapping may change it."""
+        return self.facts.evaluator.text(self.node_name_node)
+
+    @cached_property
+    def node_name_location(self) -> Location:
+        """The place of the node's name; without one, of the node."""
+        node = self.node_name_node
+        return self.facts.module.location(node) if node else self.location
+
+    @cached_property
+    def namespace(self) -> str | Unknown | None:
+        """The namespace given to rclpy's Node."""
+        node = self._constructor_argument("namespace", None)
+        return self.facts.evaluator.text(node) if node else None
+
+    @cached_property
+    def declares_automatically(self) -> bool:
+        """Whether parameters may be used that nobody declares here."""
+        for name in (
+            "allow_undeclared_parameters",
+            "automatically_declare_parameters_from_overrides",
+        ):
+            node = self._constructor_argument(name, None)
+            if node is not None and self.facts.evaluator.evaluate(node) is not False:
+                return True
+        call = self.constructor_call
+        return call is not None and any(word.arg is None for word in call.keywords)
+
+    def _constructor_argument(self, name: str, position: int | None) -> ast.expr | None:
+        call = self.constructor_call
+        if call is None:
+            return None
+        for word in call.keywords:
+            if word.arg == name:
+                return word.value
+        args = call.args
+        if position is not None and len(args) > position:
+            given = args[: position + 1]
+            return None if any(isinstance(arg, ast.Starred) for arg in given) else args[position]
+        return None
+
+
+class NodeObject(NodeOwner):
+    """A node without a class of its own: ``node = rclpy.create_node('talker')``."""
+
+    def __init__(self, facts: NodeFacts, name: str, location: Location, call: ast.Call) -> None:
+        super().__init__(facts, name, location)
+        self._call = call
+
+    @cached_property
+    def constructor_call(self) -> ast.Call | None:
+        """The call that makes it."""
+        return self._call
+
+
+class NodeClass(NodeOwner):
+    """A class that inherits from rclpy's Node; its location is its name."""
+
+    def __init__(self, facts: NodeFacts, node: ast.ClassDef, base: NodeClass | None) -> None:
+        super().__init__(facts, node.name, facts.module.name_location(node))
+        self.node = node
+        self.base = base
+        """The base class, if that is a node class of the same package."""
+        self.depth: int = base.depth + 1 if base else 1
+        """Classes between it and rclpy's Node."""
+        self.base_index = 0
+        """Which of the base classes makes it a node."""
+
+    @cached_property
+    def methods(self) -> Mapping[str, FunctionNode]:
+        """The methods it defines itself, the last of a name."""
+        found: dict[str, FunctionNode] = {}
+        for name, bindings in self.facts.module.index.bindings(self.node).items():
+            for binding in bindings:
+                if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
+                    found[name] = binding.node
+        return found
+
+    def method(self, name: str) -> FunctionNode | None:
+        """Return a method, also of a base class in the same file."""
+        owner: NodeClass | None = self
+        while owner is not None and owner.facts is self.facts:
+            if name in owner.methods:
+                return owner.methods[name]
+            owner = owner.base
+        return None
+
+    @cached_property
+    def constructor(self) -> FunctionNode | None:
+        """Its own ``__init__``."""
+        return self.methods.get("__init__")
+
+    @cached_property
+    def super_init(self) -> ast.Call | None:
+        """The call of ``super().__init__`` or ``Node.__init__`` in its constructor.
+
+        Else the first call of any ``__init__``: it may be a class that calls Node's.
+        """
+        if self.constructor is None:
+            return None
+        others: list[ast.Call] = []
+        for call in self.facts.calls_in(self.constructor):
+            if isinstance(call.func, ast.Attribute) and call.func.attr == "__init__":
+                if _is_super(call) or self._is_base(call.func.value):
+                    return call
+                others.append(call)
+        return others[0] if others else None
+
+    def _is_base(self, node: ast.expr) -> bool:
+        class_ = self.facts.evaluator.named_class(node)
+        is_own = self.base is not None and class_ is self.base.node
+        return is_own or self.facts.is_node_class(node)
+
+    @property
+    def calls_super_init(self) -> bool:
+        """Whether the base class's constructor is run; so without an own constructor."""
+        return self.constructor is None or self.super_init is not None
+
+    @cached_property
+    def is_made_later(self) -> bool:
+        """Whether another method than the constructor calls the one of the base class."""
+        for name, method in self.methods.items():
+            for call in self.facts.calls_in(method) if name != "__init__" else ():
+                match call.func:
+                    case ast.Attribute(attr="__init__", value=value):
+                        if _is_super(call) or self._is_base(value):
+                            return True
+        return False
+
+    @cached_property
+    def constructor_call(self) -> ast.Call | None:
+        """The call of the base class's constructor, without the ``self`` of ``Node.__init__``."""
+        call = self.super_init
+        if call is None:
+            return None
+        if _is_super(call):
+            return call if self._comes_first else None
+        return ast.Call(func=call.func, args=call.args[1:], keywords=call.keywords)
+
+    @property
+    def _comes_first(self) -> bool:
+        """Whether ``super().__init__`` is the constructor of the node, not of a mixin."""
+        for base in self.node.bases[: self.base_index]:
+            class_ = self.facts.evaluator.named_class(base)
+            if class_ is None or "__init__" in self.facts.module.index.bindings(class_):
+                return False
+        return True
+
+    @cached_property
+    def node_name(self) -> str | Unknown:
+        """The name given to rclpy's Node, by this class or by all that make objects of it."""
+        if self.constructor is None:
+            return self.base.node_name if self.base else UNKNOWN
+        node, facts = self.name_given(None, self.facts)
+        return facts.evaluator.text(node)
+
+    def name_given(
+        self, call: ast.Call | None, caller: NodeFacts
+    ) -> tuple[ast.expr | None, NodeFacts]:
+        """Return the expression that names the node when ``call`` reaches the constructor."""
+        constructor = self.constructor
+        if constructor is None:
+            if self.base is not None:
+                return self.base.name_given(call, caller)
+            return (call.args[0] if call and call.args else None), caller
+        node, facts = self.node_name_node, self.facts
+        inner = self.constructor_call
+        if self.base is not None:
+            node, facts = self.base.name_given(inner, self.facts) if inner else (None, facts)
+        parameter = facts.parameter_of(node) if facts is self.facts else None
+        if call is None or parameter is None:
+            return node, facts
+        return given_argument(constructor, call, parameter, is_method=True), caller
+
+
+def _is_super(call: ast.Call) -> bool:
+    match call.func:
+        case ast.Attribute(value=ast.Call(func=ast.Name(id="super"))):
+            return True
+        case _:
+            return False

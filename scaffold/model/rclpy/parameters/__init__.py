@@ -1,0 +1,1 @@
+"""Parameters in the rclpy code of one file."""

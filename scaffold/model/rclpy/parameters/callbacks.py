@@ -1,0 +1,77 @@
+"""What callbacks for parameters return, where that is not what rclpy needs."""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.returns import is_generator, may_end, returned
+from scaffold.model.rclpy.parameters.descriptors import message_made
+from scaffold.model.rclpy.parameters.objects import CALLBACKS
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import NodeFacts
+
+_PRE = CALLBACKS[-1]
+RESULT = "rcl_interfaces.msg.SetParametersResult"
+_MESSAGE = r"\w+\.(?:msg|srv|action)\.\w+"
+_REFUSED = "every change is refused"
+
+
+def wrong_value(method: str, facts: NodeFacts, value: ast.expr | None) -> str:
+    """Return what is wrong about what a callback returns that a method adds, else nothing."""
+    return (_wrong_list if method == _PRE else _wrong_result)(facts, value)
+
+
+def _wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
+    """Return what is wrong about a value in place of a SetParametersResult, else nothing."""
+    if value is None:
+        return f"nothing, not a SetParametersResult: {_REFUSED}"
+    fields = message_made(facts, value, RESULT)
+    if fields is not None:
+        is_refusal = "successful" not in fields
+        return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
+    value = _one_of_constants(facts, value) or facts.evaluator.single_value(value)
+    full = facts.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
+    what = ""
+    if isinstance(value, ast.Constant):
+        what = repr(value.value)
+    elif isinstance(value, ast.List | ast.Tuple | ast.Dict):
+        what = f"a {type(value).__name__.lower()}"
+    elif full == RESULT and not isinstance(value, ast.Call):
+        return "the class SetParametersResult: make one with successful=True"
+    elif full != RESULT and re.fullmatch(_MESSAGE, full) and full[0] != ".":
+        what = f"a {full.rpartition('.')[2]}"
+    elif isinstance(value, ast.Call) and _gives_nothing(facts, value):
+        what = f"what {facts.module.text(value.func)} gives, which is None"
+    return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
+
+
+def _one_of_constants(facts: NodeFacts, value: ast.expr) -> ast.Constant | None:
+    """Return one of the constants that a variable is set to, if it is set to nothing else."""
+    found = facts.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
+    values = [binding.value for binding in found[1]] if found else []
+    constants = [one for one in values if isinstance(one, ast.Constant)]
+    return constants[0] if constants and len(constants) == len(values) else None
+
+
+def _wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
+    """Return what is wrong about a value in place of a list of parameters, else nothing."""
+    made = facts.evaluator.single_value(value) if value is not None else None
+    if made is None or (isinstance(made, ast.Constant) and made.value in {None, True, False}):
+        return "nothing, not the list of parameters to set: TypeError"
+    full = facts.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+    return "a SetParametersResult, not the list of parameters: TypeError" if full == RESULT else ""
+
+
+def _gives_nothing(facts: NodeFacts, call: ast.Call) -> bool:
+    """Tell whether a function of the file ends without a value, always."""
+    function = facts.callback(call.func).function
+    if not isinstance(function, ast.FunctionDef) or function.decorator_list:
+        return False
+    if not may_end(function) or is_generator(function):
+        return False
+    class_ = facts.module.enclosing_class(function)
+    is_replaced = class_ is not None and len(facts.related_classes(class_)) > 1
+    return not is_replaced and not any(one.value is not None for one in returned(function))

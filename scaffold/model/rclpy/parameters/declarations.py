@@ -1,0 +1,154 @@
+"""Which parameters a file declares, and their defaults."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import UNKNOWN, Unknown, same
+from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.nodes import NodeOwner
+
+    _Declaration = tuple[NodeOwner | None, ast.expr | None]
+
+SIGNATURES = {
+    "declare_parameter": ("name", "value", "descriptor", "ignore_override"),
+    "declare_parameters": ("namespace", "parameters", "ignore_override"),
+}
+
+
+class Declaration(NamedTuple):
+    """What one parameter is declared with."""
+
+    prefix: str | Unknown
+    """The namespace of ``declare_parameters``."""
+    name: ast.expr | None
+    value: ast.expr | None
+    descriptor: ast.expr | None
+
+
+class Declarations:
+    """The parameters that a file declares."""
+
+    def __init__(self, facts: NodeFacts) -> None:
+        self._facts = facts
+        self._is_indexing = False
+
+    def declarations_in(self, call: ast.Call, method: str) -> Iterator[Declaration]:
+        """Yield the parameters that a call declares."""
+        given = dict(zip(SIGNATURES[method], call.args, strict=False))
+        given.update({word.arg: word.value for word in call.keywords if word.arg})
+        if method == "declare_parameter":
+            nodes = [given.get(word) for word in ("name", "value", "descriptor")]
+            for row in self._rows(nodes[0]):
+                yield Declaration("", *(_in_row(node, row) for node in nodes))
+            return
+        prefix = self._facts.evaluator.text(given["namespace"]) if "namespace" in given else ""
+        listed = given.get("parameters")
+        for item in self._facts.evaluator.elements(listed).items if listed else ():
+            if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
+                parts = item.node.elts
+                value, descriptor = (parts[at] if len(parts) > at else None for at in (1, 2))
+                yield Declaration(prefix, parts[0], value, descriptor)
+            else:
+                yield Declaration(UNKNOWN, None, None, None)
+
+    def _rows(self, node: ast.expr | None) -> Sequence[Mapping[str, ast.expr]]:
+        """Return what the variables of a loop stand for, turn by turn, if a name is one of them.
+
+        Such as ``name`` and ``default`` in ``for name, default in [('rate', 1.0), ...]:``.
+
+        Returns:
+            One turn without variables when it is no loop over what is written there.
+        """
+        index = self._facts.module.index
+        found = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        target = found[1][0].node if found and len(found[1]) == 1 else None
+        loop = index.parent(target) if target is not None else None
+        if isinstance(loop, ast.Tuple):
+            target, loop = loop, index.parent(loop)
+        if not isinstance(loop, ast.For | ast.comprehension) or loop.target is not target:
+            return [{}]
+        turns = self._turns(loop.iter)
+        if isinstance(target, ast.Name):
+            return [{target.id: turn} for turn in turns] or [{}]
+        rows: list[Mapping[str, ast.expr]] = []
+        for turn in turns:
+            names = target.elts if isinstance(target, ast.Tuple) else []
+            parts = turn.elts if isinstance(turn, ast.Tuple | ast.List) else []
+            if len(names) != len(parts):
+                return [{}]
+            pairs = zip(names, parts, strict=True)
+            rows.append({name.id: part for name, part in pairs if isinstance(name, ast.Name)})
+        return rows or [{}]
+
+    def _turns(self, node: ast.expr) -> Sequence[ast.expr]:
+        """Return the items of a list, or of the pairs of a dictionary; none if more is possible."""
+        match node:
+            case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):
+                found = [
+                    ast.copy_location(ast.Tuple(elts=[key, value], ctx=ast.Load()), key)
+                    for key, value in zip(pairs.keys, pairs.values, strict=True)
+                    if key is not None
+                ]
+                return found if len(found) == len(pairs.keys) else ()
+        items, is_complete = self._facts.evaluator.elements(node)
+        parent = self._facts.module.index.parent
+        is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
+        is_written = is_written and len({id(item.node) for item in items}) == len(items)
+        return [item.node for item in items] if is_complete and is_written else ()
+
+    def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
+        """Return a parameter's name with the namespace in front."""
+        text = self._facts.evaluator.text(name)
+        if text is UNKNOWN or prefix is UNKNOWN:
+            return UNKNOWN
+        return f"{prefix}.{text}" if prefix else text
+
+    def default_of(self, receiver: ast.expr, name: str) -> object:
+        """Return the default that all declarations of a parameter agree on."""
+        owner = self._facts.owner_of(receiver)
+        nodes = [
+            value
+            for declarer, value in self._declarations.get(name, ())
+            if declarer is owner or owner is None or declarer is None
+        ]
+        if not nodes and isinstance(owner, NodeClass) and owner.base is not None:
+            base = owner.base
+            return UNKNOWN if base.facts is self._facts else base.facts.default_in(base, name)
+        values = [self._facts.evaluator.evaluate(node) for node in nodes]
+        return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
+
+    @property
+    def _declarations(self) -> Mapping[str, Sequence[_Declaration]]:
+        """Owner and default of the declared parameters whose names are plain to see."""
+        if self._is_indexing:
+            self._facts.evaluator.cut()
+            return {}
+        return self._index
+
+    @cached_property
+    def _index(self) -> Mapping[str, Sequence[_Declaration]]:
+        self._is_indexing = True
+        found: dict[str, list[_Declaration]] = {}
+        for call in self._facts.module.walk(ast.Call):
+            func = self._facts.method_of(call)
+            if func is not None and func.attr in SIGNATURES:
+                owner = self._facts.owner_of(func.value)
+                for one in self.declarations_in(call, func.attr):
+                    text = self.full_name(one.prefix, one.name)
+                    if isinstance(text, str):
+                        found.setdefault(text, []).append((owner, one.value))
+        self._is_indexing = False
+        return found
+
+
+def _in_row(node: ast.expr | None, row: Mapping[str, ast.expr]) -> ast.expr | None:
+    """Return what an expression is in a turn of a loop."""
+    return row.get(node.id, node) if isinstance(node, ast.Name) else node

@@ -1,0 +1,225 @@
+"""What the descriptor of a parameter says: ranges, whether it may change, and its type too."""
+
+from __future__ import annotations
+
+import ast
+import math
+from typing import TYPE_CHECKING
+
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import Binding
+    from scaffold.model.rclpy.file import NodeFacts
+
+DESCRIPTOR = "rcl_interfaces.msg.ParameterDescriptor"
+_RANGES = {
+    "floating_point_range": ("double", "rcl_interfaces.msg.FloatingPointRange"),
+    "integer_range": ("integer", "rcl_interfaces.msg.IntegerRange"),
+}
+_TOLERANCE = 1e-6
+"""``Node.PARAM_REL_TOL`` of rclpy."""
+
+
+_KEEPING = ("append", "declare_parameter", "declare_parameters", "print", "set_descriptor")
+
+
+class Range(NamedTuple):
+    """The values that a number may have."""
+
+    type: str
+    """``double`` or ``integer``; other types are not compared with it."""
+    low: float
+    high: float
+    step: float
+
+    @property
+    def text(self) -> str:
+        """How people say it: ``0.0 to 1.0 in steps of 0.1``."""
+        steps = f" in steps of {self.step}" if self.step else ""
+        return f"{self.low} to {self.high}{steps}"
+
+    def allows(self, value: float) -> bool:
+        """Tell whether rclpy takes a number; the ends are always right."""
+        low, high = min(self.low, self.high), max(self.low, self.high)
+        if self.type == "integer":
+            on_step = not self.step or (value - low) % self.step == 0
+            return value in {low, high} or (low < value < high and on_step)
+        if _is_close(value, low) or _is_close(value, high):
+            return True
+        if not low < value < high:
+            return False
+        steps = round((value - low) / self.step) if self.step else 0
+        return not self.step or _is_close(low + steps * self.step, value)
+
+
+class Descriptor(NamedTuple):
+    """A descriptor that is made in the same function."""
+
+    is_dynamic: bool
+    is_read_only: bool
+    ranges: list[Range]
+
+
+_PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[])
+
+
+def descriptor_of(facts: NodeFacts, node: ast.expr | None) -> Descriptor | None:
+    """Return the descriptor that an expression makes; ``None`` when it is not known in full."""
+    if node is None or (isinstance(node, ast.Constant) and node.value is None):
+        return _PLAIN
+    fields = message_made(facts, node, DESCRIPTOR)
+    if fields is None:
+        return None
+    is_dynamic, is_read_only = (
+        _flag(facts, fields.get(name)) for name in ("dynamic_typing", "read_only")
+    )
+    if is_dynamic is None or is_read_only is None:
+        return None
+    ranges: list[Range] = []
+    for name in _RANGES:
+        if name in fields:
+            found = _range(facts, name, fields[name])
+            if found is None:
+                return None
+            ranges.append(found)
+    return Descriptor(is_dynamic, is_read_only, ranges)
+
+
+def message_made(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+    """Return what the fields of a message are set to where an expression uses it.
+
+    By keywords where it is made, and one by one below, in the same block; ``append`` on a field
+    makes a list of what is appended.
+
+    Returns:
+        The fields; ``None`` when it is no such message, or when more may be set.
+    """
+    if not isinstance(node, ast.Name):
+        return _keywords(facts, _kept(facts, node), kind)
+    first = _assigned_before(facts, node)
+    if first is None or first.value is None:
+        return _keywords(facts, _kept(facts, node), kind)
+    fields = _keywords(facts, first.value, kind)
+    if fields is None:
+        return None
+    for use in facts.module.index.names(node.id):
+        if isinstance(use.ctx, ast.Load) and _is_between(use, first.node, node):
+            same = facts.module.index.lookup(use.id, use)
+            if same is None or all(one is not first for one in same[1]):
+                continue
+            if not _take(facts, use, first, fields):
+                return None
+    return fields
+
+
+def _is_close(first: float, second: float) -> bool:
+    return math.isclose(first, second, rel_tol=_TOLERANCE)
+
+
+def _keywords(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+    if not isinstance(node, ast.Call) or kind not in facts.module.qualified_names(node.func):
+        return None
+    if node.args or any(word.arg is None for word in node.keywords):
+        return None
+    return {word.arg: word.value for word in node.keywords if word.arg is not None}
+
+
+def _kept(facts: NodeFacts, node: ast.expr) -> ast.expr:
+    """Return what a name or attribute is set to once, if nothing else is done with its parts."""
+    if isinstance(node, ast.Name):
+        uses: list[ast.AST] = [*facts.module.index.names(node.id)]
+    elif isinstance(node, ast.Attribute):
+        uses = [*facts.module.index.attributes(node.attr)]
+    else:
+        return node
+    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in uses):
+        return node
+    return facts.evaluator.single_value(node)
+
+
+def _assigned_before(facts: NodeFacts, node: ast.Name) -> Binding | None:
+    """Return the assignment that a name has its value from: all stand in one block with the use."""
+    found = facts.module.index.lookup(node.id, node)
+    block = _block(facts, node)
+    last: Binding | None = None
+    for binding in found[1] if found else ():
+        if binding.kind != "assignment" or _block(facts, binding.node) != block:
+            return None
+        if _line(binding.node) < node.lineno:
+            last = binding
+    return last
+
+
+def _block(facts: NodeFacts, node: ast.AST) -> tuple[ast.AST | None, str]:
+    """Return the block that the statement of a node stands in."""
+    module = facts.module
+    while not isinstance(node, ast.stmt):
+        parent = module.parent(node)
+        if parent is None:
+            return None, ""
+        node = parent
+    return module.parent(node), module.index.place(node)[0]
+
+
+def _line(node: ast.AST) -> int:
+    return getattr(node, "lineno", 0)
+
+
+def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
+    return use is not last and _line(first) < use.lineno <= last.lineno
+
+
+def _take(facts: NodeFacts, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
+    """Note what a use of the message sets; false when nobody knows."""
+    module = facts.module
+    parent = module.parent(use)
+    above = module.parent(parent) if parent is not None else None
+    is_straight = _block(facts, use) == _block(facts, first.node)
+    match parent, above:
+        case ast.Attribute(attr=name, ctx=ast.Store()), ast.Assign(targets=[_], value=value):
+            fields[name] = value
+            return is_straight
+        case ast.Attribute(attr=name), ast.Attribute(attr="append"):
+            call = module.parent(above)
+            if not isinstance(call, ast.Call) or len(call.args) != 1 or name in fields:
+                return False
+            fields[name] = ast.copy_location(ast.List(elts=[call.args[0]], ctx=ast.Load()), call)
+            return is_straight
+        case ast.Attribute(ctx=ast.Load()), _:
+            return not isinstance(above, ast.Attribute | ast.Subscript | ast.Call)
+    if isinstance(parent, ast.Tuple | ast.List):
+        return True
+    call = above if isinstance(parent, ast.keyword) else parent
+    return isinstance(call, ast.Call) and _keeps(call)
+
+
+def _keeps(call: ast.Call) -> bool:
+    """Tell whether a call leaves the fields of its arguments as they are."""
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
+    name = call.func.id if isinstance(call.func, ast.Name) else name
+    return name in _KEEPING or name[:1].isupper()
+
+
+def _flag(facts: NodeFacts, node: ast.expr | None) -> bool | None:
+    if node is None:
+        return False
+    value = facts.evaluator.evaluate(node)
+    return value if isinstance(value, bool) else None
+
+
+def _range(facts: NodeFacts, field: str, node: ast.expr) -> Range | None:
+    type_, kind = _RANGES[field]
+    items, is_complete = facts.evaluator.elements(node)
+    if len(items) != 1 or not is_complete:
+        return None
+    fields = message_made(facts, items[0].node, kind)
+    if fields is None:
+        return None
+    numbers: list[float] = []
+    for name in ("from_value", "to_value", "step"):
+        value = facts.evaluator.number(fields[name]) if name in fields else 0
+        if not isinstance(value, int | float):
+            return None
+        numbers.append(float(value) if type_ == "double" else value)
+    return Range(type_, *numbers)

@@ -1,0 +1,290 @@
+"""Which expressions are objects of rclpy's Parameter, and of which parameter of the node."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.rclpy.entities import parameter_type
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.entities import Entity
+    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.nodes import NodeOwner
+
+_PARAMETER = "rclpy.parameter.Parameter"
+FIELDS = frozenset(
+    {"bool_value", "integer_value", "double_value", "string_value", "byte_array_value"}
+    | {"bool_array_value", "integer_array_value", "double_array_value", "string_array_value"}
+)
+"""The fields of ParameterValue that hold values."""
+CALLBACKS = (
+    "add_on_set_parameters_callback",
+    "add_post_set_parameters_callback",
+    "add_pre_set_parameters_callback",
+)
+"""The methods of a node that take a function to call with a list of parameters."""
+_NAMED = ("describe_parameter", "get_parameter_type", "set_descriptor", "undeclare_parameter")
+_LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
+_GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
+
+
+def parameter_read(facts: NodeFacts, node: ast.expr) -> tuple[NodeOwner | None, str | Unknown]:
+    """Return the node and the name of the parameter that an expression is the object of.
+
+    Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
+
+    Returns:
+        Node and name; ``None`` and ``UNKNOWN`` when the expression is no such call.
+    """
+    made = facts.evaluator.single_value(node)
+    if isinstance(made, ast.Subscript):
+        return _listed(facts, made)
+    if not isinstance(made, ast.Call):
+        return None, UNKNOWN
+    func = facts.method_of(made)
+    if func is None or func.attr not in _GIVING:
+        return None, UNKNOWN
+    named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
+    return facts.owner_of(func.value), facts.evaluator.text(named[0]) if named else UNKNOWN
+
+
+def _listed(facts: NodeFacts, node: ast.Subscript) -> tuple[NodeOwner | None, str | Unknown]:
+    """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
+    call = facts.evaluator.single_value(node.value)
+    index = facts.evaluator.evaluate(node.slice)
+    match call:
+        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
+            names = facts.evaluator.evaluate(given)
+            if isinstance(names, list | tuple) and type(index) is int and index < len(names):
+                name = names[index]
+                return facts.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
+    return None, UNKNOWN
+
+
+def is_of_node(facts: NodeFacts, created: Entity) -> bool:
+    """Tell whether a method is called on a node, by what is known or by the name of the object."""
+    if created.owner is not None:
+        return True
+    func = facts.method_of(created.call)
+    receiver = func.value if func is not None else None
+    if isinstance(receiver, ast.Attribute):
+        return receiver.attr.lstrip("_") == "node"
+    return isinstance(receiver, ast.Name) and receiver.id.lstrip("_") == "node"
+
+
+def is_parameter_list(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is surely a list of rclpy's parameters."""
+    made = facts.evaluator.single_value(node)
+    match made:
+        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
+            return facts.owner_of(receiver) is not None
+    argument = facts.parameter_of(made)
+    return argument is not None and argument in callback_arguments(facts)
+
+
+def is_listed_parameter(facts: NodeFacts, node: ast.expr) -> bool:
+    """Tell whether an expression is an item of such a list: of a loop, or by its number."""
+    if isinstance(node, ast.Subscript):
+        is_number = type(facts.evaluator.evaluate(node.slice)) is int
+        return is_number and is_parameter_list(facts, node.value)
+    if not isinstance(node, ast.Name):
+        return False
+    found = facts.module.index.lookup(node.id, node)
+    loops = [facts.module.parent(binding.node) for binding in found[1]] if found else []
+    return bool(loops) and all(
+        isinstance(loop, ast.For | ast.comprehension)
+        and isinstance(loop.target, ast.Name)
+        and is_parameter_list(facts, loop.iter)
+        for loop in loops
+    )
+
+
+def callback_arguments(facts: NodeFacts) -> dict[ast.arg, FunctionNode | ast.Lambda]:
+    """Return what rclpy calls with a list of parameters: the argument, and its function."""
+    known = facts.parameter_callbacks
+    if known is not None:
+        return known
+    found: dict[ast.arg, FunctionNode | ast.Lambda] = {}
+    facts.parameter_callbacks = found
+    for method in CALLBACKS:
+        for attribute in facts.module.index.attributes(method):
+            call = facts.module.parent(attribute)
+            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
+                continue
+            callback = facts.callback(call.args[0])
+            if callback.function is None or callback.is_partial or callback.is_called:
+                continue
+            arguments = callback.function.args
+            names = [*arguments.posonlyargs, *arguments.args][int(callback.is_bound) :]
+            if names:
+                found[names[0]] = callback.function
+    return found
+
+
+def name_asked(facts: NodeFacts, node: ast.AST, variable: str) -> str | None:
+    """Return the name that a parameter has where a node runs: ``if parameter.name == 'rate':``."""
+    child = node
+    for parent in facts.module.parents(node):
+        tests: list[ast.expr] = []
+        if isinstance(parent, ast.BoolOp) and isinstance(parent.op, ast.And):
+            tests = [one for one in parent.values if one is not child]
+        elif isinstance(parent, ast.If) and facts.module.index.place(child)[0] == "body":
+            tests = [parent.test]
+            if isinstance(parent.test, ast.BoolOp) and isinstance(parent.test.op, ast.And):
+                tests = parent.test.values
+        for test in tests:
+            match test:
+                case ast.Compare(
+                    left=ast.Attribute(attr="name", value=ast.Name(id=name)),
+                    ops=[ast.Eq()],
+                    comparators=[ast.Constant(value=str() as text)],
+                ) if name == variable:
+                    return text
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.For):
+            return None
+        child = parent
+    return None
+
+
+class ParameterMade(NamedTuple):
+    """A ``Parameter(...)`` that is given to a node to be set."""
+
+    call: ast.Call
+    """Which sets it."""
+    node: ast.expr
+    name: str
+    type: str | None
+    """``double``, ``not_set`` ...; ``None`` when it is not known."""
+    value: object
+
+
+def parameters_set(facts: NodeFacts) -> Iterator[tuple[NodeOwner, ParameterMade]]:
+    """Yield the parameters that a file sets on nodes that are known, one by one."""
+    for method in ("set_parameters", "set_parameters_atomically"):
+        for attribute in facts.module.index.attributes(method):
+            call = facts.module.parent(attribute)
+            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
+                continue
+            owner = facts.owner_of(attribute.value)
+            for item in facts.evaluator.elements(call.args[0]).items if owner else ():
+                made = _parameter_made(facts, call, item.node)
+                if made is not None and owner is not None:
+                    yield owner, made
+
+
+def _parameter_made(facts: NodeFacts, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
+    """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
+    call = facts.evaluator.single_value(node)
+    if not isinstance(call, ast.Call):
+        return None
+    if facts.module.qualified_name(call.func) not in {"rclpy.Parameter", _PARAMETER}:
+        return None
+    given = dict(zip(("name", "type_", "value"), call.args, strict=False))
+    given.update({word.arg: word.value for word in call.keywords if word.arg is not None})
+    name = facts.evaluator.text(given.get("name"))
+    if not isinstance(name, str) or any(word.arg is None for word in call.keywords):
+        return None
+    value = facts.evaluator.evaluate(given["value"]) if "value" in given else None
+    kind = "not_set" if value is None else parameter_type(value)
+    if "type_" in given:
+        full = facts.module.qualified_name(given["type_"]) or ""
+        kind = full.rpartition(".Type.")[2].lower() if ".Type." in full else None
+    return ParameterMade(setting, node, name, kind, value)
+
+
+class NameUsed(NamedTuple):
+    """The name of a parameter that a node must have."""
+
+    owner: NodeOwner
+    call: ast.Call
+    node: ast.expr
+    name: str
+
+
+def names_used(facts: NodeFacts) -> Iterator[NameUsed]:
+    """Yield the parameters that a file describes, undeclares, sets, or gets as one of a list."""
+    for method in (*_NAMED, *_LISTED):
+        for attribute in facts.module.index.attributes(method):
+            call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
+            if owner is not None and isinstance(call, ast.Call) and call.func is attribute:
+                given = call.args[:1]
+                if method in _LISTED and given:
+                    given = [item.node for item in facts.evaluator.elements(given[0]).items]
+                yield from _texts(facts, owner, call, given)
+    for owner, made in parameters_set(facts):
+        yield NameUsed(owner, made.call, made.node, made.name)
+    for read in facts.parameter_reads:
+        name = read.argument("name")
+        if read.owner is not None and read.method == "get_parameter" and name is not None:
+            yield from _texts(facts, read.owner, read.call, _looped(facts, name.node))
+
+
+def names_used_by(package: Package, owner: NodeOwner) -> Sequence[NameUsed]:
+    """Return what `names_used` says of one node; a file is looked at once for all of its nodes."""
+
+    def by_owner() -> dict[NodeOwner, list[NameUsed]]:
+        found: dict[NodeOwner, list[NameUsed]] = {}
+        for used in names_used(owner.facts):
+            found.setdefault(used.owner, []).append(used)
+        return found
+
+    return package.remember(("names_used", owner.facts), by_owner).get(owner, ())
+
+
+def _texts(
+    facts: NodeFacts, owner: NodeOwner, call: ast.Call, nodes: list[ast.expr]
+) -> Iterator[NameUsed]:
+    for node in nodes:
+        name = facts.evaluator.text(node)
+        if isinstance(name, str):
+            yield NameUsed(owner, call, node, name)
+
+
+def _looped(facts: NodeFacts, node: ast.expr) -> list[ast.expr]:
+    """Return what a name stands for in a loop over a list that is written there."""
+    found = facts.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+    loops = [facts.module.parent(one.node) for one in found[1]] if found else []
+    if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
+        return []
+    loop = loops[0]
+    is_plain = isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.List | ast.Tuple)
+    return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
+
+
+def types_compared(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set[str]:
+    """Return the types that a function compares the type of one parameter with."""
+    function = facts.module.enclosing_function(attribute)
+    found: set[str] = set()
+    for other in facts.module.index.attributes("type_"):
+        if not isinstance(other.value, ast.Name):
+            continue
+        compared = facts.module.parent(other)
+        is_same = facts.module.enclosing_function(other) is function
+        is_same = is_same and name_asked(facts, other, other.value.id) == name
+        if is_same and isinstance(compared, ast.Compare):
+            full = facts.module.qualified_name(compared.comparators[0]) or ""
+            found.add(full.rpartition(".")[2].lower())
+    return found
+
+
+def names_compared(facts: NodeFacts, attribute: ast.Attribute) -> list[ast.expr]:
+    """Return what a name is compared with, one after the other."""
+    match facts.module.parent(attribute):
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
+            return [other]
+        case ast.Compare(
+            left=left,
+            ops=[ast.In()],
+            comparators=[ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items)],
+        ) if left is attribute:
+            return items
+        case ast.Match(cases=cases):
+            patterns = [one.pattern for one in cases]
+            return [one.value for one in patterns if isinstance(one, ast.MatchValue)]
+    return []

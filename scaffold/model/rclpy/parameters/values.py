@@ -1,0 +1,118 @@
+"""Where the object of a parameter stands in place of its value."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.api import PARAMETER, class_of
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.entities import Entity
+    from scaffold.model.rclpy.file import NodeFacts
+
+_BUILTINS = frozenset(
+    {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
+    | {"range", "round", "set", "sorted", "str", "sum", "tuple"}
+)
+_FUNCTIONS = ("math.", "os.path.", "time.sleep")
+_POSITIONS = {
+    "create_client": (1,),
+    "create_publisher": (1, 2),
+    "create_rate": (0,),
+    "create_service": (1,),
+    "create_subscription": (1, 3),
+    "create_timer": (0,),
+}
+"""Which arguments of a node's methods are names and numbers."""
+_MOST_USES = 200
+"""Of one name; each object that is stored in it asks for all."""
+
+
+def objects_used(facts: NodeFacts) -> Iterator[tuple[Entity, ast.AST]]:
+    """Yield the calls that give a Parameter whose value is meant, and the first such place."""
+    for one in _objects(facts):
+        use = _use(facts, one.call, one.variable, one.attribute)
+        if use is not None:
+            yield one, use
+
+
+def _use(
+    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+) -> ast.AST | None:
+    """Return a place where the object is calculated with."""
+    if stands_for_value(facts, call):
+        return call
+    if variable is None and attribute is None:
+        return None
+    uses = _uses(facts, call, variable, attribute)
+    stored = [use for use in uses if isinstance(use.ctx, ast.Store)]
+    if len(stored) > 1 or len(uses) > _MOST_USES:
+        return None
+    read = [use for use in uses if isinstance(use.ctx, ast.Load)]
+    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in read):
+        return None
+    return next((use for use in read if stands_for_value(facts, use)), None)
+
+
+def _uses(
+    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+) -> Sequence[ast.Name | ast.Attribute]:
+    """Return where what a call gives is stored and used, in its function or in its class."""
+    module = facts.module
+    class_ = module.enclosing_class(call) if attribute is not None else None
+    if attribute is not None and class_ is not None:
+        return [
+            one
+            for one in module.index.attributes(attribute)
+            if isinstance(one.value, ast.Name)
+            and one.value.id == "self"
+            and module.enclosing_class(one) is class_
+        ]
+    function = module.enclosing_function(call)
+    names = module.index.names(variable) if variable is not None else ()
+    return [one for one in names if function is None or function in module.parents(one)]
+
+
+def _objects(facts: NodeFacts) -> Iterator[Entity]:
+    """Yield the calls that give a Parameter."""
+    for read in facts.parameter_reads:
+        if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
+            yield read
+    for one in facts.parameters:
+        if one.owner is not None and "name" in one.arguments:
+            yield one
+
+
+def stands_for_value(facts: NodeFacts, node: ast.AST) -> bool:
+    """Tell whether a node stands where only the value makes sense."""
+    parent = facts.module.parent(node)
+    used = False
+    match parent:
+        case ast.BinOp(op=op, right=right):
+            used = not (isinstance(op, ast.Mod) and right is node)
+        case ast.Compare(left=left, ops=ops, comparators=others):
+            is_first = left is node and not isinstance(ops[0], ast.Is | ast.IsNot)
+            other = others[0] if left is node else left
+            is_same = class_of(facts, other) == PARAMETER
+            used = (is_first or node in others[:1]) and not is_same and not _is_none(other)
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
+            used = test is node
+        case ast.Subscript(value=value):
+            used = value is node
+        case ast.For(iter=iterated) | ast.comprehension(iter=iterated):
+            used = iterated is node
+        case ast.UnaryOp() | ast.BoolOp() | ast.FormattedValue():
+            used = True
+        case ast.Call(func=func) if node in parent.args:
+            name = facts.module.qualified_name(func) or ""
+            positions = _POSITIONS.get(func.attr, ()) if isinstance(func, ast.Attribute) else ()
+            is_builtin = isinstance(func, ast.Name) and func.id in _BUILTINS
+            used = is_builtin or name.startswith(_FUNCTIONS)
+            used = used or parent.args.index(node) in positions
+    return used
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None

@@ -1,0 +1,97 @@
+"""Which files of a package its setup.py installs."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.values import Glob
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from scaffold.model.package import Package
+
+
+def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
+    """Return the files that ``glob.glob`` would find, run beside setup.py."""
+    expression = _expression(posixpath.normpath(pattern.pattern), recursive=pattern.recursive)
+    return [path for path in files if re.fullmatch(expression, path)]
+
+
+def installed_data(package: Package) -> set[str] | None:
+    """Return the files that data_files install; ``None`` when nobody can say.
+
+    A ``glob`` with a condition may install less than this.
+    """
+    setup = package.setup_py
+    if setup.call is None or setup.has_unknown_keywords or not setup.data_files_complete:
+        return None
+    found: set[str] = set()
+    for data in setup.data_files:
+        for source in data.sources:
+            if isinstance(source, Glob):
+                found.update(matches(source, package.files))
+            elif isinstance(source, str):
+                found.add(posixpath.normpath(source))
+    return found
+
+
+def package_data(package: Package) -> list[Glob] | None:
+    """Return what is installed beside the modules; ``None`` when nobody can say."""
+    setup = package.setup_py
+    included = setup.keyword("include_package_data")
+    elsewhere = (
+        setup.call is None
+        or setup.has_unknown_keywords
+        or setup.keyword("package_dir") is not None
+        or (included is not None and included.value is not False)
+        or any("site-packages" in str(data.destination) for data in setup.data_files)
+        or _mentions(package, "setup.cfg", "package_data")
+        or _mentions(package, "pyproject.toml", "package-data")
+    )
+    word = setup.keyword("package_data")
+    value = word.value if word else {}
+    if elsewhere or not isinstance(value, dict):
+        return None
+    found: list[Glob] = []
+    for name, patterns in value.items():
+        if not isinstance(patterns, list | tuple):
+            return None
+        base = str(name).replace(".", "/").strip("*") or "**"
+        for pattern in patterns:
+            if not isinstance(pattern, str):
+                return None
+            found.append(Glob(f"{base}/{pattern}", recursive=True))
+    return found
+
+
+def _mentions(package: Package, path: str, word: str) -> bool:
+    return package.has(path) and word in package.source(path).text
+
+
+def _expression(pattern: str, *, recursive: bool) -> str:
+    """Translate a glob pattern; ``*`` does not match a leading dot or a slash."""
+    out = ""
+    at = 0
+    while at < len(pattern):
+        rest = pattern[at:]
+        if recursive and re.match(r"\*\*(/|$)", rest):
+            out += r"(?:[^./][^/]*/)*" if rest.startswith("**/") else r"(?:[^/]+/)*[^/]+"
+            at += 3
+        elif rest[0] == "*":
+            start = at == 0 or pattern[at - 1] == "/"
+            out += r"(?!\.)[^/]*" if start else r"[^/]*"
+            at += 1
+        elif rest[0] == "?":
+            out += r"[^/]"
+            at += 1
+        elif (group := re.match(r"\[(!?)([^\]]+)\]", rest)) is not None:
+            inner = group[2].replace("\\", r"\\")
+            out += f"[{'^' if group[1] else ''}{inner}]"
+            at += len(group[0])
+        else:
+            out += re.escape(rest[0])
+            at += 1
+    return out

@@ -1,0 +1,186 @@
+"""The tests of a package: which functions pytest and unittest call, and with which fixtures."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.scopes import FunctionNode
+
+LAUNCH = "generate_test_description"
+"""A file with this function is for launch_testing, which calls the tests in its own way."""
+
+_PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
+"""Words that stand for other ways to run tests."""
+
+
+class Fixture(NamedTuple):
+    """A function that pytest calls for an argument of a test."""
+
+    name: str
+    node: FunctionNode
+    module: PythonModule
+    scope: str
+    """``function`` unless another is given; empty when it is computed."""
+
+
+class TestFunction(NamedTuple):
+    """A function that is collected as a test."""
+
+    node: FunctionNode
+    class_: ast.ClassDef | None
+
+
+def test_modules(package: Package) -> list[PythonModule]:
+    """Return the files of tests that pytest collects."""
+    return [
+        module
+        for module in package.modules()
+        if module.in_tests and _is_collected(module.path.rpartition("/")[2])
+    ]
+
+
+def _is_collected(name: str) -> bool:
+    return name.startswith("test_") or name.endswith("_test.py")
+
+
+def is_test_case(module: PythonModule, class_: ast.ClassDef) -> bool:
+    """Tell whether a class is one of unittest's."""
+    names = [name for base in class_.bases for name in module.qualified_names(base)]
+    return any(name.startswith("unittest.") and name.endswith("TestCase") for name in names)
+
+
+def test_functions(module: PythonModule) -> Iterator[TestFunction]:
+    """Yield the functions and methods that are collected."""
+    for function in module.functions.values():
+        if function.name.startswith("test") and not fixture_decorator(module, function.node):
+            yield TestFunction(function.node, None)
+    for class_ in module.classes.values():
+        plain = class_.name.startswith("Test") and not class_.node.bases
+        if plain or is_test_case(module, class_.node):
+            for node in methods(class_.node):
+                if node.name.startswith("test"):
+                    yield TestFunction(node, class_.node)
+
+
+def methods(class_: ast.ClassDef) -> list[FunctionNode]:
+    """Return the methods that a class defines itself."""
+    return [
+        node for node in class_.body if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    ]
+
+
+def arguments(function: FunctionNode) -> list[str]:
+    """Return the names of the arguments without a default."""
+    given = [*function.args.posonlyargs, *function.args.args]
+    without = given[: len(given) - len(function.args.defaults)]
+    return [one.arg for one in [*without, *function.args.kwonlyargs]]
+
+
+def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr | None:
+    """Return what makes a function a fixture."""
+    for decorator in function.decorator_list:
+        node = decorator.func if isinstance(decorator, ast.Call) else decorator
+        if module.qualified_name(node) == "pytest.fixture":
+            return decorator
+    return None
+
+
+def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
+    """Return the fixtures of a file of tests and of the conftest.py files around it, by name."""
+    found: dict[str, Fixture] = {}
+    directory = module.path.rpartition("/")[0]
+    for other in package.modules():
+        place, _, name = other.path.rpartition("/")
+        near = name == "conftest.py" and f"{directory}/".startswith(f"{place}/" if place else "")
+        if near or other is module:
+            for fixture in own_fixtures(other):
+                if other is module or fixture.name not in found:
+                    found[fixture.name] = fixture
+    return found
+
+
+def own_fixtures(module: PythonModule) -> Iterator[Fixture]:
+    """Yield the fixtures that a file defines at its top or in classes."""
+    for function in module.function_nodes:
+        decorator = fixture_decorator(module, function)
+        if decorator is not None:
+            words = keywords(decorator)
+            name, scope = words.get("name"), words.get("scope")
+            known = name.value if isinstance(name, ast.Constant) else function.name
+            given = scope.value if isinstance(scope, ast.Constant) else ""
+            yield Fixture(str(known), function, module, str(given) if scope else "function")
+
+
+def keywords(decorator: ast.expr) -> dict[str, ast.expr]:
+    """Return the arguments by name of a decorator."""
+    given: Sequence[ast.keyword] = decorator.keywords if isinstance(decorator, ast.Call) else ()
+    return {word.arg: word.value for word in given if word.arg}
+
+
+def marks(
+    module: PythonModule, function: FunctionNode | ast.ClassDef
+) -> Iterator[tuple[str, ast.expr]]:
+    """Yield name and decorator of the marks, ``skip`` for ``@pytest.mark.skip``."""
+    for decorator in function.decorator_list:
+        node = decorator.func if isinstance(decorator, ast.Call) else decorator
+        name = module.qualified_name(node) or ""
+        if name.startswith("pytest.mark."):
+            yield name.removeprefix("pytest.mark."), decorator
+
+
+def has_other_ways(package: Package) -> bool:
+    """Tell whether plugins or settings of pytest may run what it does not run by itself."""
+    names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
+    texts = [package.source(name).text for name in names if package.has(name)]
+    texts += [module.source.text for module in package.modules() if module.in_tests]
+    return any(word in text for text in texts for word in _PLUGINS)
+
+
+def may_start(package: Package, name: str) -> bool:
+    """Tell whether another file of the package may start a test with ``launch_test``.
+
+    Args:
+        package: The package.
+        name: The name of the file that describes the launch.
+    """
+    return any(
+        name in module.source.text or "'launch_test'" in module.source.text
+        for module in package.modules()
+        if module.path.rpartition("/")[2] != name
+    )
+
+
+def is_named_elsewhere(package: Package, name: str) -> bool:
+    """Tell whether a name stands anywhere else: in a call, an import, an argument, a text."""
+    count = sum(module.source.text.count(name) for module in package.modules())
+    return count > 1
+
+
+def made_name(module: PythonModule, node: ast.expr) -> str:
+    """Return the full name of what is called for the only value of a name."""
+    if not isinstance(node, ast.Name):
+        return ""
+    found = module.index.lookup(node.id, node)
+    values = [binding.value for binding in found[1]] if found else []
+    made = values[0] if len(values) == 1 else None
+    return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
+
+
+def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
+    """Yield the files with tests of nodes, and their text with that of the conftest.py files.
+
+    Tests with launch_testing, and files that run themselves, are left out.
+    """
+    around = [one for one in package.modules() if one.path.endswith("conftest.py")]
+    for module in test_modules(package):
+        if "rclpy" not in module.imports_by_root or LAUNCH in module.functions:
+            continue
+        if not module.has_main_guard and "launch_pytest" not in module.imports_by_root:
+            yield module, "\n".join(one.source.text for one in [module, *around])

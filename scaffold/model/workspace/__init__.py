@@ -1,0 +1,1 @@
+"""The packages around one, and what the machine knows of others."""

@@ -1,0 +1,134 @@
+"""The keys that rosdep resolves, as its own cache on this machine knows them.
+
+``rosdep update`` stores each of its sources as a pickle of plain dictionaries. A pickle can run
+code when it is loaded, so only plain containers and texts are let in. Loading all takes longer
+than the check of a package, so a key is first looked for in the bytes.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import re
+from collections.abc import Mapping, Sequence
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.files.disk import Disk
+
+ROS_DISTRO = "jazzy"
+_OTHER_DISTROS = frozenset(
+    {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "humble", "iron"}
+    | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
+    | {"kilted", "lyrical", "rolling"}
+)
+MOST_BYTES = 50_000_000
+"""Of one source; that of a distribution has less than one million."""
+
+
+class RosdepKeys:
+    """The keys of some sources.
+
+    Args:
+        sources: The pickles of the sources.
+    """
+
+    def __init__(self, sources: Sequence[bytes]) -> None:
+        self._sources = sources
+        self._known: dict[str, bool] = {}
+        self._all: frozenset[str] | None = None
+
+    def resolves(self, key: str) -> bool | None:
+        """Tell whether a key has a rule for any system; ``None`` if a source is damaged."""
+        if key not in self._known:
+            if any(_has_key(source, key) for source in self._sources):
+                self._known[key] = True
+            else:
+                everything = self._everything()
+                if everything is None:
+                    return None
+                self._known[key] = key in everything
+        return self._known[key]
+
+    def _everything(self) -> frozenset[str] | None:
+        if self._all is None:
+            found: set[str] = set()
+            for source in self._sources:
+                keys = _keys(source)
+                if not keys:
+                    return None
+                found |= keys
+            self._all = frozenset(found)
+        return self._all
+
+
+def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> RosdepKeys | None:
+    """Return the keys of rosdep's cache; ``None`` if it does not hold all that Jazzy needs.
+
+    Args:
+        disk: Notes what was looked at.
+        variables: The environment: ``ROS_HOME``, ``HOME``.
+    """
+    home = variables.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
+    cache = os.path.join(home, "rosdep", "sources.cache")
+    try:
+        index = disk.read_renewed(os.path.join(cache, "index")).decode()
+    except (OSError, ValueError):
+        return None
+    sources: list[bytes] = []
+    kinds: set[str] = set()
+    for line in index.splitlines():
+        kind, _, rest = line.strip().partition(" ")
+        url, *tags = rest.split() or [""]
+        if kind != "yaml" or not url or not _OTHER_DISTROS.isdisjoint(tags):
+            continue
+        try:
+            sources.append(disk.read_renewed(os.path.join(cache, _file_of(url)), MOST_BYTES))
+        except OSError:
+            return None
+        kinds.add(ROS_DISTRO if ROS_DISTRO in tags else "" if not tags else "other")
+    return RosdepKeys(sources) if {ROS_DISTRO, ""} <= kinds else None
+
+
+def _file_of(url: str) -> str:
+    from hashlib import sha1
+
+    return f"{sha1(url.encode(), usedforsecurity=False).hexdigest()}.pickle"
+
+
+def _has_key(source: bytes, key: str) -> bool:
+    """Tell whether the bytes plainly hold a key: a text, noted, in front of a dictionary.
+
+    In the second protocol, which rosdep writes: ``X``, the length, the text, ``q`` or ``r`` with
+    the number of the note, ``}``.
+    """
+    text = key.encode()
+    start = b"X" + len(text).to_bytes(4, "little") + text
+    at = source.find(start)
+    while at >= 0:
+        end = at + len(start)
+        if re.match(rb"(?:q.|r....)\}", source[end : end + 6], re.DOTALL):
+            return True
+        at = source.find(start, end)
+    return False
+
+
+class _PlainUnpickler(pickle.Unpickler):
+    """Loads containers, texts and numbers; anything that would have to be imported is refused."""
+
+    def find_class(self, module_name: str, global_name: str) -> object:
+        raise pickle.UnpicklingError(f"{module_name}.{global_name} is no plain data")
+
+
+def _keys(source: bytes) -> frozenset[str] | None:
+    """Return the keys of a source; ``None`` if it is not what rosdep writes."""
+    if len(source) > MOST_BYTES:
+        return None
+    try:
+        data = _PlainUnpickler(BytesIO(source)).load()
+    except Exception:  # noqa: BLE001  a damaged pickle may raise anything
+        return None
+    if not isinstance(data, dict) or not all(isinstance(key, str) for key in data):
+        return None
+    return frozenset(data)

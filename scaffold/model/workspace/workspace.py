@@ -1,0 +1,122 @@
+"""The packages of a workspace, by name, and which of them a verdict needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from scaffold.files.disk import Disk
+
+if TYPE_CHECKING:
+    from scaffold.model.discovery.unchecked import Surroundings
+    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.package import Package
+    from scaffold.model.workspace.rosdep import RosdepKeys
+
+
+class Workspace:
+    """What the packages around one declare and define."""
+
+    def __init__(self, packages: Iterable[Package] = (), disk: Disk | None = None) -> None:
+        self._packages = list(packages)
+        self.disk = disk or Disk()
+        """What is looked at outside of the packages."""
+        self.around: Surroundings | None = None
+        """The packages that were not given, but lie in the same workspace on disk."""
+
+    def add(self, package: Package) -> None:
+        """Add a package; only before the first look at the workspace."""
+        self._packages.append(package)
+
+    def forget(self) -> None:
+        """Drop what was made of the packages: the files of one have changed."""
+        for name in ("by_name", "interfaces"):
+            self.__dict__.pop(name, None)
+        for package in self._packages:
+            package.forget()
+            package.workspace.forget()
+
+    def __iter__(self) -> Iterator[Package]:
+        return iter(self._packages)
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Package]:
+        """The packages by the name in their manifest; the first of a name wins."""
+        found: dict[str, Package] = {}
+        for package in self._packages:
+            found.setdefault(package.name, package)
+        return found
+
+    def get(self, name: str) -> Package | None:
+        """Return the package of a name, if it is in the workspace."""
+        found = self.by_name.get(name)
+        return self.around.get(name) if found is None and self.around is not None else found
+
+    @cached_property
+    def interfaces(self) -> Definitions:
+        """The interfaces that these packages can use; their own come first."""
+        from scaffold.model.interfaces.definitions import Definitions
+
+        return Definitions.around(self)
+
+    @cached_property
+    def rosdep(self) -> RosdepKeys | None:
+        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        from scaffold.model.workspace.rosdep import cached_keys
+
+        return cached_keys(self.disk)
+
+
+class Neighbourhood:
+    """The workspace as one of its packages sees it; notes whom the verdict on that one needs."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self.used: dict[int, Package] = {}
+        """The packages that were looked up, by identity; also such as were not given."""
+        self.uses_all = False
+        self.uses_interfaces = False
+        """Whether definitions were looked up: those of any package that has some."""
+
+    def get(self, name: str) -> Package | None:
+        """Return the package of a name, if it is in the workspace."""
+        found = self._workspace.get(name)
+        if found is not None:
+            self.used[id(found)] = found
+        return found
+
+    def __iter__(self) -> Iterator[Package]:
+        self.uses_all = True
+        yield from self._workspace
+        yield from self._workspace.around or ()
+
+    def forget(self) -> None:
+        """Drop what was made of the packages, but not whom the verdict needed."""
+        self.__dict__.pop("interfaces", None)
+
+    @property
+    def names(self) -> list[str]:
+        """The sorted names of the packages; these, a memory of verdicts knows for all."""
+        around = self._workspace.around
+        return sorted({*self._workspace.by_name, *(around.directories if around else ())})
+
+    @property
+    def disk(self) -> Disk:
+        """What is looked at outside of the packages."""
+        return self._workspace.disk
+
+    @property
+    def rosdep(self) -> RosdepKeys | None:
+        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        return self._workspace.rosdep
+
+    @cached_property
+    def interfaces(self) -> Definitions:
+        """The interfaces that these packages can use."""
+        from scaffold.model.interfaces.definitions import WatchedDefinitions
+
+        def tell() -> None:
+            self.uses_interfaces = True
+
+        return WatchedDefinitions(self._workspace.interfaces, tell)

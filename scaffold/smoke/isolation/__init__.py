@@ -1,0 +1,1 @@
+"""Keeps one executable under test apart from everything else."""

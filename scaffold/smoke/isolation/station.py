@@ -1,0 +1,129 @@
+"""A place to run one executable: a ROS domain of its own, with an observer in it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from scaffold.smoke import observe
+from scaffold.smoke.isolation import domain
+from scaffold.smoke.observe import Observer
+from scaffold.smoke.process import Origin
+
+FAST_DISCOVERY = """\
+<?xml version="1.0" encoding="UTF-8"?>
+<profiles xmlns="http://www.eprosima.com">
+  <participant profile_name="smoke" is_default_profile="true">
+    <rtps>
+      <builtin>
+        <discovery_config>
+          <initialAnnouncements>
+            <count>20</count>
+            <period><sec>0</sec><nanosec>100000000</nanosec></period>
+          </initialAnnouncements>
+          <leaseAnnouncement><sec>0</sec><nanosec>250000000</nanosec></leaseAnnouncement>
+        </discovery_config>
+      </builtin>
+    </rtps>
+  </participant>
+</profiles>
+"""
+"""Says hello often at first: an announcement that was missed costs 0.1 s instead of 3 s."""
+
+
+@dataclass(frozen=True)
+class Station:
+    """A domain and the observer in it."""
+
+    number: int
+    observer: Observer
+    scratch: Path
+
+    def variables(self, of_user: Mapping[str, str]) -> dict[str, str]:
+        """Return variables for a process that is to be seen here and nowhere else."""
+        return isolated(of_user, self.number, self.scratch)
+
+
+def isolated(variables: Mapping[str, str], number: int, scratch: Path) -> dict[str, str]:
+    """Return variables that keep a process in a domain, on the loopback network."""
+    profile = scratch / "fastdds.xml"
+    if not profile.exists():
+        profile.write_text(FAST_DISCOVERY, encoding="utf-8")
+    return {
+        **variables,
+        "ROS_DOMAIN_ID": str(number),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "ROS_LOG_DIR": str(scratch / "ros_log"),
+        "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile),
+        "FASTDDS_DEFAULT_PROFILES_FILE": str(profile),
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+class Stations:
+    """Gives out stations; some can be opened before they are needed, as that takes a while.
+
+    Args:
+        python: The interpreter that has rclpy.
+        scratch: The directory of the run.
+        origin: The run that the observers belong to.
+    """
+
+    def __init__(self, python: str, scratch: Path, origin: Origin) -> None:
+        self._python = python
+        self._scratch = scratch
+        self._origin = origin
+        self._opened = 0
+        self._waiting: list[asyncio.Task[tuple[AsyncExitStack, Station]]] = []
+
+    def open_early(self, variables: Mapping[str, str], count: int) -> None:
+        """Begin to open some stations; ``close`` has to follow."""
+        for _ in range(count):
+            self._waiting.append(asyncio.create_task(self._open(variables)))
+
+    @asynccontextmanager
+    async def one(self, variables: Mapping[str, str]) -> AsyncIterator[Station]:
+        """Give out a station, for the length of the block.
+
+        Raises:
+            ObserverError: its observer does not start.
+        """
+        stack, station = await self._next(variables)
+        async with stack:
+            yield station
+
+    async def close(self) -> None:
+        """Close the stations that nobody has asked for."""
+        while self._waiting:
+            task = self._waiting.pop()
+            task.cancel()
+            for outcome in await asyncio.gather(task, return_exceptions=True):
+                if not isinstance(outcome, BaseException):
+                    await outcome[0].aclose()
+
+    async def _next(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Station]:
+        if not self._waiting:
+            return await self._open(variables)
+        task = self._waiting.pop(0)
+        try:
+            return await asyncio.shield(task)
+        except BaseException:
+            self._waiting.append(task)  # nobody has the station: ``close`` sees to it
+            raise
+
+    async def _open(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Station]:
+        self._opened += 1
+        label = f"probe-{self._opened}"
+        async with AsyncExitStack() as stack:
+            number = stack.enter_context(domain.reserved())
+            observing = observe.observing(
+                self._python,
+                isolated(variables, number, self._scratch),
+                self._scratch / label,
+                self._origin.below(label),
+            )
+            observer = await stack.enter_async_context(observing)
+            return stack.pop_all(), Station(number, observer, self._scratch)

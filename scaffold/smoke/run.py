@@ -1,0 +1,271 @@
+"""One run of one executable: start it, watch it, stop it, and leave nothing behind."""
+
+from __future__ import annotations
+
+import re
+import signal
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from scaffold.smoke import output, process
+from scaffold.smoke.expectation import Expectation
+from scaffold.smoke.isolation.station import Station, Stations
+from scaffold.smoke.observe import ObserverError
+from scaffold.smoke.process import Origin
+from scaffold.smoke.result import Observation, Problem, Stop
+
+RETRIES = 2
+SETTLING = 1.0
+"""Seconds between the last change of the graph and the signal."""
+ENDING = 2.0
+"""Seconds that a program may take to end because of an exception."""
+
+_LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
+"""rclpy ends the context at once on a signal, also in the middle of a callback."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is the same for all runs."""
+
+    variables: Mapping[str, str]
+    """Those of the environment with the built packages in it."""
+    stations: Stations
+    install: Path
+    scratch: Path
+    origin: Origin
+    duration: float
+    timeout: float
+
+
+@dataclass
+class Trial:
+    """What came of a run."""
+
+    observation: Observation = field(default_factory=Observation)
+    stop: Stop = field(default_factory=lambda: Stop(None, None, 0.0))
+    problems: list[Problem] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    joined: bool = False
+    """Whether something of it was seen and it was running until it was told to stop."""
+    seconds: float = 0.0
+    """From its start to the end of the observation."""
+    doubtful: Problem | None = None
+    """The problem that may be rclpy's and not the package's: another run will tell."""
+
+    @property
+    def stopped_cleanly(self) -> bool:
+        """Tell whether it was up, and was stopped without a problem."""
+        return self.joined and not self.problems
+
+
+async def run(
+    plan: Plan,
+    executable: Path,
+    expectation: Expectation,
+    label: str,
+    number: signal.Signals,
+    *,
+    brief: bool = False,
+) -> Trial:
+    """Run an executable until it has been observed, and stop it with a signal.
+
+    rclpy itself loses a signal now and then, or lets the call fail during which it comes. What
+    looks like that is tried again, and counts when it happens again.
+
+    Args:
+        plan: What is the same for all runs.
+        executable: The file, started without arguments.
+        expectation: What its source says about it.
+        label: Names the run, as a relative path.
+        number: The signal to stop it with.
+        brief: Observe only until it is up: the run is about the signal.
+    """
+    first = await _run_once(plan, executable, expectation, label, number, brief=brief)
+    for attempt in range(RETRIES):
+        if first.doubtful is None:
+            break
+        again = f"{label}-{attempt + 2}"
+        other = await _run_once(plan, executable, expectation, again, number, brief=True)
+        if other.stopped_cleanly:
+            first.problems.remove(first.doubtful)
+            said = first.doubtful.message
+            first.notes.append(f"a race in rclpy in {attempt + 1} of {attempt + 2} runs: {said}")
+            first.stop = other.stop
+            break
+    return first
+
+
+async def _run_once(
+    plan: Plan,
+    executable: Path,
+    expectation: Expectation,
+    label: str,
+    number: signal.Signals,
+    *,
+    brief: bool,
+) -> Trial:
+    trial = Trial()
+    try:
+        async with plan.stations.one(plan.variables) as station:
+            one = _Run(plan, expectation, number, trial, station, brief=brief)
+            await one.execute(executable, label)
+    except ObserverError as error:
+        trial.problems.append(Problem(str(error)))
+    return trial
+
+
+class _Run:
+    def __init__(
+        self,
+        plan: Plan,
+        expectation: Expectation,
+        number: signal.Signals,
+        trial: Trial,
+        station: Station,
+        *,
+        brief: bool,
+    ) -> None:
+        self._plan = plan
+        self._expectation = expectation
+        self._number = number
+        self._trial = trial
+        self._station = station
+        self._observer = station.observer
+        self._brief = brief
+        self._hangs = ""
+
+    async def execute(self, executable: Path, label: str) -> None:
+        origin = self._plan.origin.below(label)
+        variables = self._station.variables(self._plan.variables)
+        directory = self._plan.scratch / "runs" / label
+        try:
+            running = await process.start([str(executable)], variables, directory, origin)
+        except OSError as error:
+            self._report(f"cannot be started: {error.strerror}")
+            return
+        try:
+            await self._watch(running)
+            self._trial.observation = await self._observer.observation()
+            self._trial.seconds = time.monotonic() - running.started
+            self._trial.joined = self._trial.observation.alive and running.exit_code is None
+            self._observer.dismiss()
+            if output.traceback(output.read(running.err)) is not None:
+                # It may be about to end because of that: a signal would hide it.
+                await running.ended_within(ENDING)
+            if running.exit_code is None:
+                await self._stop(running)
+            else:
+                self._ended_by_itself(running)
+            for command in await running.finish():
+                self._report(f"leaves a process running: {command}")
+            if running.lost_supervisor:
+                self._report("killed the process that started it")
+        finally:
+            await running.close()
+
+    async def _watch(self, running: process.Running) -> None:
+        observer, plan = self._observer, self._plan
+        if not await observer.wait_for(observer.has_seen_anything, plan.timeout, running):
+            if running.exit_code is None:
+                self._never_joined()
+            return
+        if not self._brief:
+            await observer.pause(plan.duration, running)
+        left = running.started + plan.timeout - time.monotonic()
+        await observer.wait_for(self._has_seen_all(), left, running)
+        # A signal in the middle of a constructor would tell about nothing but that.
+        await observer.settle(SETTLING, plan.timeout, running)
+
+    def _has_seen_all(self) -> Callable[[], bool]:
+        topics = [one.topic for one in self._expectation.publications if one.certain]
+        offers = self._expectation.offers
+        return lambda: (
+            all(self._observer.count(topic) for topic in topics)
+            and all(map(self._observer.offers, offers))
+        )
+
+    def _never_joined(self) -> None:
+        if self._expectation.is_node is False:
+            self._trial.notes.append("runs without a node")
+            return
+        self._hangs = f"hangs: no node appeared within {self._plan.timeout:g} s"
+
+    # -- the end
+
+    def _ended_by_itself(self, running: process.Running) -> None:
+        seconds = time.monotonic() - running.started
+        code = running.exit_code
+        said = output.read(running.err)
+        trace = output.traceback(said)
+        self._trial.stop = Stop(None, code, seconds, trace)
+        if not code and trace is None:
+            return
+        when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
+        reason = output.exception(trace) if trace else output.named_error(said)
+        how = ending(code) + (f": {reason}" if reason else "")
+        lines = tuple(output.short(trace)) if trace else _said(running)
+        self._report(f"crashed {when}, {how}", lines)
+
+    async def _stop(self, running: process.Running) -> None:
+        said = _said(running)
+        self._report_exception(running)
+        written = running.err.stat().st_size
+        done = await process.end(running, self._number)
+        trace = output.traceback(output.read(running.err, written))
+        self._trial.stop = Stop(done.sent[-1], running.exit_code, done.seconds, trace)
+        where = tuple(output.short(trace)) if trace else ()
+        if done.was_ignored:
+            last = "a second one" if done.was_missed else done.sent[-1]
+            self._report(
+                f"ignored {done.asked}: it was still running after {process.GRACE:g} s, "
+                f"{last} ended it",
+                doubtful=done.was_missed,
+            )
+        if self._hangs:
+            # The traceback of the interrupted program shows where it was.
+            self._report(self._hangs, said + where)
+        elif not done.was_ignored and (running.exit_code or trace):
+            how = ending(running.exit_code) + (f": {output.exception(trace)}" if trace else "")
+            last_lines = tuple(output.tail(output.read(running.err, written)))
+            self._report(
+                f"does not stop cleanly on {done.asked}, {how}",
+                where or last_lines,
+                doubtful=trace is not None and is_late_call(output.exception(trace)),
+            )
+
+    def _report_exception(self, running: process.Running) -> None:
+        """Report an exception that did not end the executable: of a thread, or printed by it."""
+        trace = output.traceback(output.read(running.err))
+        if trace is not None:
+            what = f"an exception while it ran: {output.exception(trace)}"
+            self._report(what, tuple(output.short(trace)))
+
+    def _report(self, message: str, lines: tuple[str, ...] = (), *, doubtful: bool = False) -> None:
+        shown = output.relative((message, *lines), self._plan.install)
+        problem = Problem(shown[0], tuple(shown[1:]))
+        self._trial.problems.append(problem)
+        if doubtful:
+            self._trial.doubtful = problem
+
+
+def is_late_call(exception: str) -> bool:
+    """Tell whether a call came too late: rclpy had ended its context already."""
+    return bool(_LATE_CALL.search(exception.partition("RCLError: ")[2]))
+
+
+def ending(code: int | None) -> str:
+    """Say how a process ended."""
+    if code is not None and code < 0:
+        try:
+            return f"killed by {signal.Signals(-code).name}"
+        except ValueError:
+            return f"killed by signal {-code}"
+    return f"exit code {code}"
+
+
+def _said(running: process.Running) -> tuple[str, ...]:
+    """Return the last lines of what an executable has written."""
+    return tuple(output.tail(output.read(running.err)) or output.tail(output.read(running.out)))

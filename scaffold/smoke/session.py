@@ -1,0 +1,339 @@
+"""Builds packages, runs and observes every executable, and says what is wrong."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import time
+from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from scaffold.errors import InputError
+from scaffold.files.tree import MANIFEST
+from scaffold.model.discovery.targets import Target
+from scaffold.model.package import Package as Source
+from scaffold.smoke import environment as environments
+from scaffold.smoke import leftovers, process, supervisor
+from scaffold.smoke import run as trial
+from scaffold.smoke.build import Layout, build
+from scaffold.smoke.environment import Environment
+from scaffold.smoke.expectation import Expectation, compare, wrong_rates
+from scaffold.smoke.interruption import Interruption
+from scaffold.smoke.isolation.station import Stations
+from scaffold.smoke.leftovers import Run
+from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
+from scaffold.smoke.run import Plan, Trial
+from scaffold.smoke.workspace_lock import WAIT, locked
+
+Result = TypeVar("Result")
+
+Progress = Callable[[str], None]
+"""Is told what goes on, in a few words."""
+
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
+_EARLY_STATIONS = 4
+"""Observers that are started during the build; more of them would slow it down."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a run is done; times are in seconds."""
+
+    duration: float = 5.0
+    """Observation after the first sign of life."""
+    timeout: float = 20.0
+    """From the start of an executable to its first sign of life and to its first messages."""
+    build_timeout: float = 900.0
+    signals: tuple[signal.Signals, ...] = (signal.SIGINT,)
+    workspace: Path | None = None
+    """Where build, install and log go; ``None``: into the scratch directory."""
+    keep: bool = False
+    workspace_wait: float = WAIT
+    """For another run in the same workspace to end."""
+    jobs: int = 4
+    """Executables that run at the same time, each in its own domain."""
+
+
+def smoke(
+    sources: Sequence[Source],
+    options: Options,
+    *,
+    variables: Mapping[str, str] | None = None,
+    progress: Progress | None = None,
+    announce: Progress | None = None,
+    interruption: Interruption | None = None,
+) -> Smoke:
+    """Build packages, run what they install, and compare it with what the sources say.
+
+    Args:
+        sources: The packages; they are not changed.
+        options: How it is done.
+        variables: The environment variables to start from; those of this process.
+        progress: Is told what goes on.
+        announce: Is told what the user should know, such as what a run waits for.
+        interruption: Takes the signals that ask for the end; without it, only this run does.
+
+    Raises:
+        InputError: another run holds the workspace.
+        EnvironmentMissingError: there is no ROS 2 to do it with.
+        InterruptedBySignalError: a signal asked for the end.
+    """
+    begun = time.monotonic()
+    interruption = interruption or Interruption()
+    with ExitStack() as stack:
+        stack.enter_context(interruption)
+        stack.enter_context(_subreaper())
+        with interruption.at_once():
+            leftovers.sweep()
+            if options.workspace is not None:
+                tell = announce or (lambda _: None)
+                stack.enter_context(locked(options.workspace, options.workspace_wait, tell))
+        run = stack.enter_context(leftovers.recorded_run(keep=options.keep))
+        with interruption.at_once():
+            selected = environments.select(
+                os.environ if variables is None else variables, origin=run.origin
+            )
+        session = _Session(selected, run, options, progress)
+        packages = interruption.run(lambda: session.run(sources))
+        stack.close()
+        interruption.check()
+    return Smoke(
+        environment={"kind": selected.kind, "prefix": selected.prefix, "rmw": selected.rmw},
+        packages=packages,
+        notes=selected.notes,
+        scratch=str(run.scratch) if options.keep else None,
+        seconds=time.monotonic() - begun,
+    )
+
+
+def packages_of(targets: Sequence[Target]) -> list[Source]:
+    """Return the packages that can be built; of a single file, the package that it is in.
+
+    Raises:
+        InputError: a file belongs to no package.
+    """
+    for target in targets:
+        if not target.package.has(MANIFEST):
+            raise InputError(f"{target.package.directory}: no {MANIFEST}; nothing to build")
+    return [target.package for target in targets]
+
+
+@contextmanager
+def _subreaper() -> Iterator[None]:
+    """Let what has lost its supervisor come to this process."""
+    supervisor.become_subreaper()
+    try:
+        yield
+    finally:
+        supervisor.become_subreaper(enabled=False)
+
+
+class _Session:
+    def __init__(
+        self,
+        environment: Environment,
+        run: Run,
+        options: Options,
+        progress: Progress | None,
+    ) -> None:
+        self._environment = environment
+        self._scratch = run.scratch
+        self._origin = run.origin
+        self._options = options
+        self._progress = progress
+        self._layout = Layout.below(options.workspace or run.scratch)
+        self._stations = Stations(environment.python, run.scratch, run.origin)
+        self._slots = asyncio.Semaphore(options.jobs)
+        self._running: set[str] = set()
+        self._expected: dict[str, dict[str, Expectation]] = {}
+
+    async def run(self, sources: Sequence[Source]) -> tuple[Package, ...]:
+        try:
+            builds = await self._build(sources)
+            built = [source for source in sources if builds[source.name].ok]
+            executables = await self._run_all(built) if built else {}
+        finally:
+            await self._stations.close()
+        return tuple(
+            Package(source.name, builds[source.name], executables.get(source.name, ()))
+            for source in sources
+        )
+
+    async def _build(self, sources: Sequence[Source]) -> dict[str, Build]:
+        """Build; meanwhile read the sources and get ready for what they are likely to have."""
+        self._tell(f"building {', '.join(source.name for source in sources)}")
+        building = asyncio.create_task(
+            build(
+                self._environment,
+                sources,
+                self._layout,
+                self._scratch,
+                origin=self._origin.below("build"),
+                timeout=self._options.build_timeout,
+            )
+        )
+        await asyncio.sleep(0)  # the build begins first
+        from scaffold.smoke.declared import expectations
+
+        self._expected = {source.name: expectations(source) for source in sources}
+        if not any(path.endswith(_INTERFACES) for source in sources for path in source.files):
+            # Observers have to know the messages: these come with the environment.
+            likely = sum(len(of_package) for of_package in self._expected.values())
+            count = min(likely, self._options.jobs, _EARLY_STATIONS)
+            self._stations.open_early(self._environment.variables, count)
+        return await building
+
+    async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
+        plan = Plan(
+            variables=await self._sourced(),
+            stations=self._stations,
+            install=self._layout.install,
+            scratch=self._scratch,
+            origin=self._origin,
+            duration=self._options.duration,
+            timeout=self._options.timeout,
+        )
+        runs = [
+            (source.name, one) for source in sources for one in self._of_package(plan, source.name)
+        ]
+        done = await _together([one for _, one in runs])
+        found: dict[str, list[Executable]] = {}
+        for (name, _), executable in zip(runs, done, strict=True):
+            found.setdefault(name, []).append(executable)
+        return {name: tuple(executables) for name, executables in found.items()}
+
+    async def _sourced(self) -> dict[str, str]:
+        """Return the variables with the built packages in them."""
+        install = self._layout.install
+        setup = install / "local_setup.sh"
+        begin = {**self._environment.variables, "COLCON_CURRENT_PREFIX": str(install)}
+        command, variables = environments.sourcing(setup, begin)
+        origin = self._origin.below("setup")
+        shell = await process.start(command, variables, self._scratch / "setup", origin)
+        try:
+            await shell.ended_within(environments.TIMEOUT)
+        finally:
+            await shell.close()
+        sourced = environments.sourced_variables(setup, shell.captured())
+        sourced.pop("COLCON_CURRENT_PREFIX", None)
+        return sourced
+
+    def _of_package(self, plan: Plan, package: str) -> list[Coroutine[Any, Any, Executable]]:
+        expected = self._expected[package]
+        paths = installed(package, plan.variables)
+        found = {path.name: path for path in paths or ()}
+        where = f"in lib/{package}" if paths is not None else "in a package of the ament index"
+        return [
+            self._one(plan, f"{package}/{name}", found[name], expected.get(name, Expectation()))
+            if name in found
+            else _missing(name, where)
+            for name in sorted({*found, *expected})
+        ]
+
+    async def _one(
+        self, plan: Plan, label: str, path: Path, expectation: Expectation
+    ) -> Executable:
+        async with self._slots:
+            self._tell_running(label, started=True)
+            trials: list[Trial] = []
+            for number in self._options.signals:
+                run = f"{label}/{number.name}"
+                brief = bool(trials)
+                if brief and not trials[0].joined:
+                    break
+                if brief:
+                    one = await trial.run(plan, path, expectation, run, number, brief=True)
+                else:
+                    one = await _observed(plan, path, expectation, run, number)
+                trials.append(one)
+            self._tell_running(label, started=False)
+        return _judge(path.name, trials, expectation)
+
+    def _tell_running(self, label: str, *, started: bool) -> None:
+        (self._running.add if started else self._running.discard)(label)
+        if self._running:
+            self._tell(f"running {', '.join(sorted(self._running))}")
+
+    def _tell(self, text: str) -> None:
+        if self._progress is not None:
+            self._progress(text)
+
+
+async def _observed(
+    plan: Plan, path: Path, expectation: Expectation, label: str, number: signal.Signals
+) -> Trial:
+    """Observe an executable, and once more when its rate is wrong: that may be the machine's."""
+    first = await trial.run(plan, path, expectation, label, number)
+    wrong = wrong_rates(expectation, first.observation) if first.stopped_cleanly else []
+    if not wrong:
+        return first
+    other = await trial.run(plan, path, expectation, f"{label}-again", number)
+    if not other.stopped_cleanly or wrong_rates(expectation, other.observation):
+        return first
+    other.notes.append(f"in the first of two runs only: {wrong[0].message}")
+    return other
+
+
+async def _together(runs: Sequence[Coroutine[Any, Any, Result]]) -> list[Result]:
+    """Run coroutines at the same time; all have ended when this ends, in whatever way.
+
+    ``asyncio.gather`` would go on as soon as the first of them is cancelled.
+    """
+    tasks = [asyncio.create_task(run) for run in runs]
+    if not tasks:
+        return []
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.wait(tasks)
+    return [task.result() for task in tasks]
+
+
+def installed(package: str, variables: Mapping[str, str]) -> list[Path] | None:
+    """Return the executables of a package as ``ros2 run`` finds them; ``None``: no package."""
+    for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        if not os.path.exists(f"{prefix}/share/ament_index/resource_index/packages/{package}"):
+            continue
+        found: list[Path] = []
+        for parent, directories, names in os.walk(os.path.join(prefix, "lib", package)):
+            directories[:] = sorted(name for name in directories if not name.startswith("."))
+            paths = (Path(parent, name) for name in sorted(names))
+            found += [path for path in paths if os.access(path, os.X_OK)]
+        return found
+    return None
+
+
+async def _missing(name: str, where: str) -> Executable:
+    return Executable(
+        name, problems=(Problem(f"ros2 run does not find it: it is declared, but not {where}"),)
+    )
+
+
+def _judge(name: str, trials: Sequence[Trial], expectation: Expectation) -> Executable:
+    """Put the runs of an executable together; the first one is the one that was observed."""
+    first = trials[0]
+    problems = list(first.problems)
+    notes = list(first.notes)
+    finished = first.stop.signal is None and not first.problems
+    if first.joined or finished:
+        seen, said = compare(expectation, first.observation, first.seconds, finished=finished)
+        problems += seen
+        notes += said
+    if finished and not problems:
+        notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
+    for other in trials[1:]:
+        notes += other.notes
+        problems += [problem for problem in other.problems if problem not in problems]
+    return Executable(
+        name=name,
+        observation=first.observation,
+        stops=tuple(one.stop for one in trials),
+        problems=tuple(problems),
+        notes=tuple(notes),
+    )

@@ -1,0 +1,653 @@
+"""Results are remembered: what has not changed is told again, and every change is seen."""
+
+from __future__ import annotations
+
+import ast
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from scaffold.check import registry
+from scaffold.check.cache import runs as memory
+from scaffold.check.session import Session
+from scaffold.cli.main import main
+from scaffold.diagnostic import Diagnostic
+from scaffold.files import cache
+from scaffold.model.discovery.targets import Target
+from scaffold.model.package import Package
+
+MANIFEST = """<?xml version="1.0"?>
+<?xml-model href="http://download.ros.org/schema/package_format3.xsd" \
+schematypens="http://www.w3.org/2001/XMLSchema"?>
+<package format="3">
+  <name>{}</name>
+  <version>0.1.0</version>
+  <description>An example</description>
+  <maintainer email="ann@example.com">Ann</maintainer>
+  <license>Apache-2.0</license>
+{}  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+SETUP = """from setuptools import find_packages, setup
+
+setup(
+    name='{0}',
+    version='0.1.0',
+    packages=find_packages(),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/{0}']),
+        ('share/{0}', ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    entry_points={{'console_scripts': ['talk = {0}.talk:main']}},
+)
+"""
+TALK = '''"""Says hello."""
+
+
+def main():
+    """Say it."""
+    print('hello')
+'''
+
+
+def write(root: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+def make_package(root: Path, name: str, dependencies: str = "") -> Path:
+    write(
+        root / name,
+        {
+            "package.xml": MANIFEST.format(name, dependencies),
+            "setup.py": SETUP.format(name),
+            "setup.cfg": f"[develop]\nscript_dir=$base/lib/{name}\n"
+            f"[install]\ninstall_scripts=$base/lib/{name}\n",
+            f"resource/{name}": "",
+            f"{name}/__init__.py": "",
+            f"{name}/talk.py": TALK,
+            "LICENSE": "Apache\n",
+        },
+    )
+    return root / name
+
+
+class Runs:
+    """Runs `check` in this process and knows which packages were really checked."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+        self.checked: list[str] = []
+        self._capsys = capsys
+        check = Session._check_rules  # noqa: SLF001  the place where the rules run
+
+        def watched(session: Session, package: Package) -> object:
+            self.checked.append(os.path.basename(package.directory))
+            return check(session, package)
+
+        monkeypatch.setattr(Session, "_check_rules", watched)
+
+    def __call__(self, *words: str) -> str:
+        """Return what `check` writes; ``checked`` holds what this run checked."""
+        self.checked.clear()
+        self.code = main(["check", *words])
+        out, err = self._capsys.readouterr()
+        assert err == ""
+        return out
+
+    def settle(self, *words: str) -> str:
+        """Check, and make sure that the same run is remembered."""
+        first = self(*words)
+        assert self(*words) == first
+        assert self.checked == []
+        return first
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    (tmp_path / "src").mkdir()
+    return tmp_path / "src"
+
+
+@pytest.fixture
+def runs(
+    tmp_path: Path,
+    source: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> Runs:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.delenv(cache.SWITCH, raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    # Somebody may edit the tool while its tests run; what that does, one of them shows.
+    tool = memory.tool()
+    monkeypatch.setattr(memory, "tool", lambda: tool)
+    monkeypatch.chdir(source)
+    return Runs(monkeypatch, capsys)
+
+
+@pytest.fixture
+def package(source: Path) -> Path:
+    return make_package(source, "talker")
+
+
+def test_an_unchanged_package_is_not_checked_again(runs: Runs, package: Path) -> None:
+    (package / "talker" / "talk.py").write_text("import os\n")
+    first = runs(".")
+    assert runs.checked == ["talker"]
+    assert (runs.code, "F401" in first) == (1, True)
+    assert runs(".") == first
+    assert (runs.code, runs.checked) == (1, [])
+
+
+@pytest.mark.usefixtures("package")
+def test_neither_rules_nor_ruff_are_loaded_for_it(
+    runs: Runs, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs(".")
+
+    def fail(roots: object) -> None:
+        raise AssertionError(roots)
+
+    monkeypatch.setattr(registry, "load", fail)
+    runs(".")
+    assert runs.code == 0
+
+
+# -- every change is seen
+
+
+def edit(package: Path) -> None:
+    (package / package.name / "talk.py").write_text("import os\n")
+
+
+def edit_in_the_same_size_and_time(package: Path) -> None:
+    path = package / "talker" / "talk.py"
+    before = path.stat()
+    path.write_text(TALK.replace("print('hello')", 'print("hallo")'))
+    assert path.stat().st_size == before.st_size
+    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+def touch_new_module(package: Path) -> None:
+    (package / "talker" / "extra.py").write_text("import os\n")
+
+
+def remove_marker(package: Path) -> None:
+    (package / "resource" / "talker").unlink()
+
+
+def rename_module(package: Path) -> None:
+    (package / package.name / "talk.py").rename(package / package.name / "walk.py")
+
+
+def new_executable(package: Path) -> None:
+    setup = package / "setup.py"
+    setup.write_text(setup.read_text().replace("talk = ", "walk = "))
+
+
+def rename_package(package: Path) -> None:
+    (package / "package.xml").write_text(MANIFEST.format("renamed", ""))
+
+
+def link_to_nowhere(package: Path) -> None:
+    (package / "resource" / "talker").unlink()
+    (package / "resource" / "talker").symlink_to("nowhere")
+
+
+def new_directory(package: Path) -> None:
+    (package / "talker" / "sub").mkdir()
+    (package / "talker" / "sub" / "talk.py").write_text("import os\n")
+
+
+def configure(package: Path) -> None:
+    (package.parent / "ros2-scaffold.toml").write_text('[check]\nselect = ["PX"]\n')
+
+
+def configure_above(package: Path) -> None:
+    (package.parent.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
+
+
+def configure_user(package: Path) -> None:
+    path = package.parent.parent / "config" / "ros2-scaffold" / "config.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text('[check]\nignore = ["PX"]\n')
+
+
+def ignore_package(package: Path) -> None:
+    (package / "COLCON_IGNORE").touch()
+    make_package(package.parent, "other")
+
+
+def new_neighbour(package: Path) -> None:
+    make_package(package.parent, "neighbour")
+
+
+def remove_licence(package: Path) -> None:
+    (package / "LICENSE").unlink()
+
+
+CHANGES: list[Callable[[Path], None]] = [
+    edit,
+    edit_in_the_same_size_and_time,
+    touch_new_module,
+    remove_marker,
+    rename_module,
+    rename_package,
+    link_to_nowhere,
+    new_directory,
+    configure,
+    configure_above,
+    configure_user,
+    ignore_package,
+    remove_licence,
+    new_neighbour,
+]
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=lambda change: change.__name__)
+def test_a_change_is_seen(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], None]
+) -> None:
+    runs.settle(".")
+    change(package)
+    told = runs(".")
+    assert runs.checked != []
+    monkeypatch.setenv(cache.SWITCH, "1")
+    assert runs(".") == told
+
+
+def test_a_mode_is_seen(runs: Runs, tmp_path: Path) -> None:
+    write(
+        tmp_path / "src" / "mover",
+        {
+            "package.xml": MANIFEST.format("mover", "").replace("ament_python", "ament_cmake"),
+            "CMakeLists.txt": "cmake_minimum_required(VERSION 3.20)\nproject(mover)\n"
+            "find_package(ament_cmake REQUIRED)\n"
+            "install(PROGRAMS scripts/move.py DESTINATION lib/${PROJECT_NAME})\n"
+            "ament_package()\n",
+            "scripts/move.py": "#!/usr/bin/env python3\n" + TALK,
+        },
+    )
+    script = tmp_path / "src" / "mover" / "scripts" / "move.py"
+    script.chmod(0o755)
+    before = runs.settle(".")
+    script.chmod(0o644)
+    after = runs(".")
+    assert runs.checked == ["mover"]
+    assert before != after
+
+
+def test_a_licence_above_is_seen(runs: Runs, package: Path) -> None:
+    (package / "LICENSE").unlink()
+    assert "LY006" in runs.settle(".")
+    (package.parent / "LICENSE").write_text("Apache\n")
+    assert "LY006" not in runs(".")
+
+
+def test_what_was_asked_outside_outlives_a_partial_run(runs: Runs, workspace: Path) -> None:
+    (workspace / "alone" / "LICENSE").unlink()
+    assert "LY006" in runs.settle(".")
+    edit(workspace / "lonely")
+    assert "LY006" in runs(".")
+    assert runs.checked == ["lonely"]
+    (workspace / "LICENSE").write_text("Apache\n")
+    assert "LY006" not in runs(".")
+
+
+def test_definitions_in_ament_prefix_path_are_seen(
+    runs: Runs, package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    message = tmp_path / "prefix" / "share" / "robot_msgs" / "msg" / "State.msg"
+    write(message.parent, {"State.msg": "int32 number\n"})
+    write(
+        package,
+        {
+            "talker/talk.py": '"""Says hello."""\nfrom robot_msgs.msg import State\n\n'
+            "import rclpy\n\n\ndef main():\n"
+            '    """Say it."""\n    rclpy.init()\n'
+            "    print(State(number=1))\n",
+            "package.xml": MANIFEST.format(
+                "talker", "".join(f"  <depend>{one}</depend>\n" for one in ("rclpy", "robot_msgs"))
+            ),
+        },
+    )
+    without = runs.settle(".")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "prefix"))
+    assert runs.settle(".") == without
+    message.write_text("int32 value\n")
+    assert "'number'" in runs(".")
+    message.unlink()
+    runs(".")
+    assert runs.checked == ["talker"]
+
+
+@pytest.mark.parametrize("where", ["rules/package_xml/license_todo.py", "scaffold/check/runner.py"])
+def test_an_edited_rule_is_seen(tmp_path: Path, where: str) -> None:
+    """In a copy of the tool, since the one under test is shared."""
+    root = Path(__file__).resolve().parents[3]
+    for part in ("scaffold", "rules"):
+        shutil.copytree(root / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__"))
+    before = _tool_in(tmp_path)
+    assert _tool_in(tmp_path) == before
+    with (tmp_path / where).open("a") as file:
+        file.write("\n")
+    assert _tool_in(tmp_path) != before
+
+
+def _tool_in(root: Path) -> str:
+    import subprocess
+
+    code = "from scaffold.check import memory; print(memory.tool())"
+    environment = {**os.environ, "PYTHONPATH": str(root), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=root, env=environment, check=True, stdout=-1
+    ).stdout.decode()
+
+
+def test_flags_and_directories_are_told_apart(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (package / "talker" / "talk.py").write_text("import os\n")
+    everything = runs.settle(".")
+    assert runs.settle(".", "--select", "PX") != everything
+    assert runs.settle(".", "--format", "json") != everything
+    assert runs.settle("talker/setup.py") != everything
+    monkeypatch.chdir(package)
+    assert "src/talker" not in runs.settle(".")
+
+
+# -- workspaces
+
+
+@pytest.fixture
+def workspace(source: Path) -> Path:
+    for name in ("alone", "lonely"):
+        make_package(source, name)
+    make_package(source, "caller", "  <exec_depend>called</exec_depend>\n")
+    make_package(source, "called")
+    return source
+
+
+def write_launch(workspace: Path) -> None:
+    write(
+        workspace / "caller",
+        {
+            "launch/call.launch.py": "from launch import LaunchDescription\n"
+            "from launch_ros.actions import Node\n\n\n"
+            "def generate_launch_description():\n"
+            "    return LaunchDescription([Node(package='called', executable='talk')])\n"
+        },
+    )
+
+
+def test_only_what_depends_on_a_change_is_checked_again(runs: Runs, workspace: Path) -> None:
+    write_launch(workspace)
+    before = runs.settle(".")
+    (workspace / "alone" / "alone" / "talk.py").write_text("import os\n")
+    told = runs(".")
+    assert runs.checked == ["alone"]
+    assert set(told.splitlines()[:-1]) > set(before.splitlines()[:-1])
+    assert runs(".") == told
+    assert runs.checked == []
+
+
+def test_a_change_in_another_package_is_seen(runs: Runs, workspace: Path) -> None:
+    write_launch(workspace)
+    assert "LF003" not in runs.settle(".")
+    new_executable(workspace / "called")
+    told = runs(".")
+    assert sorted(runs.checked) == ["called", "caller"]
+    assert "caller/launch/call.launch.py" in told
+
+
+@pytest.mark.parametrize("count", [0, 10])
+def test_a_partial_run_says_what_a_whole_one_says(
+    runs: Runs, workspace: Path, monkeypatch: pytest.MonkeyPatch, count: int
+) -> None:
+    """With ten more packages, worker processes check."""
+    write_launch(workspace)
+    for number in range(count):
+        make_package(workspace, f"more_{number}")
+    runs.settle(".")
+    for change, one in (
+        (edit, "alone"),
+        (rename_module, "called"),
+        (rename_package, "lonely"),
+        (shutil.rmtree, "called"),
+        (remove_licence, "caller"),
+        (new_neighbour, "caller"),
+    ):
+        change(workspace / one)
+        told = runs(".")
+        with monkeypatch.context() as context:
+            context.setenv(cache.SWITCH, "1")
+            assert runs(".") == told
+        assert runs(".") == told
+
+
+@pytest.mark.parametrize("count", [0, 10])
+def test_packages_around_the_given_ones_are_seen(
+    runs: Runs, workspace: Path, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Some packages of a workspace are given; the one that a launch file needs is not."""
+    write_launch(workspace)
+    more = [make_package(workspace, f"more_{number}") for number in range(count)]
+    given = ["caller", "alone", *(one.name for one in more)]
+    runs.settle(*given)
+    for change in (rename_module, new_executable, shutil.rmtree):
+        change(workspace / "called")
+        told = runs(*given)
+        with monkeypatch.context() as context:
+            context.setenv(cache.SWITCH, "1")
+            assert runs(*given) == told
+
+
+def test_interfaces_of_another_package_are_seen(runs: Runs, workspace: Path) -> None:
+    message = workspace / "robot_msgs" / "msg" / "State.msg"
+    write(
+        workspace,
+        {
+            "robot_msgs/package.xml": MANIFEST.format("robot_msgs", ""),
+            "robot_msgs/msg/State.msg": "int32 number\n",
+            "alone/alone/talk.py": '"""Says hello."""\nfrom robot_msgs.msg import State\n\n'
+            "import rclpy\n\n\ndef main():\n"
+            '    """Say it."""\n    rclpy.init()\n'
+            "    print(State(number=1))\n",
+        },
+    )
+    assert "'number'" not in runs.settle(".")
+    message.write_text("int32 value\n")
+    assert "'number'" in runs(".")
+    assert sorted(runs.checked) == ["alone", "robot_msgs"]
+
+
+# -- fixes
+
+
+def test_fixes_are_made_on_what_is_there(runs: Runs, package: Path) -> None:
+    module = package / "talker" / "talk.py"
+    module.write_text(TALK.replace("'hello'", '"hello"'))
+    before = runs.settle(".")
+    assert "Q000" in before
+    assert main(["check", "--fix", "."]) == 0
+    assert module.read_text() == TALK
+    assert "Q000" not in runs._capsys.readouterr().out  # noqa: SLF001
+    assert "Q000" not in runs(".")
+
+
+# -- the file
+
+
+@pytest.fixture
+def kept(runs: Runs, package: Path, tmp_path: Path) -> Iterator[Path]:
+    runs.settle(str(package))
+    yield from (tmp_path / "cache" / "ros2-scaffold" / "runs").iterdir()
+
+
+@pytest.mark.parametrize("keep", [0, 10, 60, 200, -1])
+def test_a_cut_file_is_ignored_and_renewed(
+    runs: Runs, package: Path, kept: Path, keep: int
+) -> None:
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[:keep])
+    runs(str(package))
+    assert runs.checked == ["talker"]
+    runs(str(package))
+    assert runs.checked == []
+
+
+def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
+    whole = bytearray(kept.read_bytes())
+    for at in range(0, len(whole), 97):
+        damaged = bytearray(whole)
+        damaged[at] ^= 0x41
+        kept.write_bytes(damaged)
+        slot = memory.Slot.of(["check", str(package)])
+        assert slot is not None
+        assert slot.last is None
+
+
+@pytest.mark.usefixtures("package")
+def test_the_switch_reads_and_writes_nothing(
+    runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(cache.SWITCH, "1")
+    for _ in range(2):
+        runs(".")
+        assert runs.checked == ["talker"]
+    assert not (tmp_path / "cache").exists()
+
+
+@pytest.mark.usefixtures("package")
+def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path: Path) -> None:
+    (tmp_path / "cache").write_text("a file")
+    for _ in range(2):
+        runs(".")
+        assert runs.checked == ["talker"]
+
+
+@pytest.mark.parametrize(
+    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MOST_BYTES", 5000)]
+)
+@pytest.mark.usefixtures("package")
+def test_old_runs_are_dropped(
+    runs: Runs,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    module: ModuleType,
+    limit: str,
+    value: int,
+) -> None:
+    monkeypatch.setattr(module, limit, value)
+    for code in ("PX", "SP", "LY", "NM", "ND"):
+        runs(".", "--select", code)
+    kept = tmp_path / "cache" / "ros2-scaffold" / "runs"
+    assert 1 <= len(list(kept.iterdir())) <= 4
+    runs(".", "--select", "ND")
+    assert runs.checked == []
+
+
+def test_a_schema_that_includes_others_is_left_alone(runs: Runs, package: Path) -> None:
+    """Nobody notes what libxml2 opens by itself, so it opens nothing."""
+    schema = '<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema">{}</xs:schema>\n'
+    write(
+        package,
+        {
+            "description.xml": '<a xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" '
+            'xsi:noNamespaceSchemaLocation="a.xsd"/>\n',
+            "a.xsd": schema.format('<xs:include schemaLocation="../b.xsd"/>'),
+        },
+    )
+    other = package.parent / "b.xsd"
+    other.write_text(schema.format('<xs:element name="a"/>'))
+    first = runs(".")
+    assert "PX052" in first
+    other.write_text(schema.format('<xs:element name="b"/>'))
+    assert runs(".") == first
+    (package / "a.xsd").write_text(schema.format('<xs:element name="b"/>'))
+    assert "PX051" in runs(".")
+
+
+def test_what_changes_during_the_run_is_not_remembered(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = Session._report  # noqa: SLF001  the last that is done for a package
+
+    def edit_and_report(session: Session, target: Target, found: list[Diagnostic]) -> object:
+        edit(package)
+        return report(session, target, found)
+
+    with monkeypatch.context() as context:
+        context.setattr(Session, "_report", edit_and_report)
+        assert "F401" not in runs(".")
+    (package / "talker" / "talk.py").write_text(TALK)
+    runs(".")
+    assert runs.checked == ["talker"]
+
+
+@pytest.mark.usefixtures("package")
+def test_rules_of_the_users_own_are_asked_every_time(runs: Runs, tmp_path: Path) -> None:
+    (tmp_path / "own" / "rules").mkdir(parents=True)
+    for _ in range(2):
+        runs(".", "--content", str(tmp_path / "own"))
+        assert runs.checked == ["talker"]
+
+
+ASKS = {"open", "listdir", "scandir", "walk", "stat", "lstat", "readlink", "access", "exists"}
+ASKS |= {"lexists", "isfile", "isdir", "islink", "realpath", "getsize", "getmtime", "samefile"}
+OWN_DATA = {"copyright.py", "sources.py", "api.py"}
+"""Modules that read files of the tool itself, which counts as a whole."""
+
+RUNS_A_PROGRAM = "xmllint.py"
+"""The program is given all that it looks at."""
+
+
+def _asks(path: Path) -> set[str]:
+    """Return the calls that ask the file system without a note."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Call):
+            match node.func:
+                case ast.Name(id="open"):
+                    found.add("open")
+                case ast.Attribute(value=ast.Name("os" | "io"), attr=name) if name in ASKS:
+                    found.add(name)
+                case ast.Attribute(value=ast.Attribute(ast.Name("os")), attr=name) if name in ASKS:
+                    found.add(name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names = [getattr(node, "module", None), *(alias.name for alias in node.names)]
+            found |= {"pathlib", "subprocess", "glob", "shutil"}.intersection(filter(None, names))
+    return found
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        "rules",
+        "scaffold/files",
+        "scaffold/formats",
+        "scaffold/model",
+        "scaffold/ament/copyright.py",
+        "scaffold/ament/files.py",
+        "scaffold/ament/lint_cmake.py",
+        "scaffold/ament/xmllint.py",
+        "scaffold/check",
+        "scaffold/config.py",
+    ],
+)
+def test_nothing_looks_at_files_without_a_note(part: str) -> None:
+    top = Path(__file__).resolve().parents[3] / part
+    told = {"disk.py", "runs.py", "cache.py", RUNS_A_PROGRAM, "registry.py", "docs.py", *OWN_DATA}
+    paths = list(top.rglob("*.py")) if top.is_dir() else [top]
+    assert {p.name: a for p in paths if p.name not in told and (a := _asks(p))} == {}

@@ -1,0 +1,61 @@
+"""The pages of the rules are made from the rules (`make docs`); links and paths lead somewhere."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from scaffold import content
+from scaffold.check import docs, registry
+from scaffold.check.session import all_rules
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+ROOT = Path(__file__).parents[2]
+PAGES = [
+    str(path.relative_to(ROOT))
+    for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("changelog.d/*.md"))
+    if not re.fullmatch(r"[A-Z]{2}\d+", path.stem)
+]
+"""Those that are written by hand, and the table of the rules."""
+RULES = all_rules(registry.load(content.roots("rules")))
+
+
+def test_pages_are_current(tmp_path: Path) -> None:
+    docs.write(str(tmp_path), RULES)
+    made = {path.name: path.read_text() for path in tmp_path.iterdir()}
+    kept = {path.name: path.read_text() for path in (ROOT / "docs" / "rules").glob("*.md")}
+    stale = [name for name in sorted({*made, *kept}) if kept.get(name) != made.get(name)]
+    assert stale == [], "run `make docs`"
+
+
+def test_table_lists_every_rule() -> None:
+    text = (ROOT / "docs" / "rules" / "README.md").read_text()
+    assert [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("| [")] == [
+        f"[{rule.code}]({rule.code}.md)" for rule in RULES
+    ]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_and_paths_lead_somewhere(page: str) -> None:
+    text = (ROOT / page).read_text()
+    links = re.findall(r"\]\((?!https?:)([^)#]+)", text)
+    paths = re.findall(r"`((?:benchmarks|docs|scaffold|scripts|templates|tests)/[\w./]+)`", text)
+    named = [*((ROOT / page).parent / link for link in links), *(ROOT / path for path in paths)]
+    assert [str(path) for path in named if not path.exists()] == []
+
+
+def test_news_fragments_have_a_type() -> None:
+    configured = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["towncrier"]
+    types = [one["directory"] for one in configured["type"]]
+    directory = ROOT / configured["directory"]
+    assert re.findall(r"\n\| `(\w+)` \|", (directory / "README.md").read_text()) == types
+    names = sorted(path.name for path in directory.iterdir() if path.name != "README.md")
+    known = rf"(\d+|\+[\w-]+)\.({'|'.join(types)})\.md"
+    assert [name for name in names if not re.fullmatch(known, name)] == []

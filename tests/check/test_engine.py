@@ -1,0 +1,249 @@
+"""Registry, runner, selection and suppression."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import ClassVar
+
+import pytest
+
+from scaffold import content
+from scaffold.check import registry, runner, selection, suppression
+from scaffold.check.fixer import splice
+from scaffold.check.rule import Example, Rule
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Edit
+from scaffold.errors import ConfigError, ContentError
+from scaffold.files.tree import MemoryTree
+from scaffold.model.discovery.targets import Target
+from scaffold.model.package import Package
+from scaffold.model.workspace.workspace import Workspace
+from scaffold.source import Location, MissingFileError
+
+RULE = '''\
+"""A rule."""
+
+from scaffold.api import Example, Rule
+
+
+class {name}(Rule):
+    """Flaw."""
+
+    code = "{code}"
+    name = "{rule}"
+    examples = ()
+
+    def check(self, package):
+        yield from ()
+'''
+
+
+def write_rule(root: Path, file: str, code: str, rule: str) -> None:
+    path = root / "cmake" / f"{file}.py"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(RULE.format(name="Some", code=code, rule=rule))
+
+
+class Loud(Rule):
+    """Reports the first line of CMakeLists.txt."""
+
+    code = "CM900"
+    name = "loud"
+    examples: ClassVar[tuple[Example, ...]] = ()
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield self.report(package.start_of("CMakeLists.txt"), "loud")
+
+
+class Crashing(Loud):
+    """Fails after its first diagnostic."""
+
+    code = "CM901"
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield self.report(package.start_of("CMakeLists.txt"), "before the crash")
+        raise ZeroDivisionError("by zero")
+
+
+class ReadsNotesOfListener(Rule):
+    code = "CM903"
+    name = "reads-notes"
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        listener = package.workspace.get("listener") if package.name == "talker" else None
+        if listener is not None:
+            listener.source("notes.txt")
+        yield from ()
+
+
+class NeedsManifest(Loud):
+    """Wants package.xml."""
+
+    code = "CM902"
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield self.report(package.manifest.root, "never")
+
+
+def test_registry_finds_what_is_there(tmp_path: Path) -> None:
+    write_rule(tmp_path, "some_flaw", "CM001", "some-flaw")
+    write_rule(tmp_path, "_helper", "CM009", "ignored")
+    assert [rule.code for rule in registry.load([str(tmp_path)])] == ["CM001"]
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "rule", "message"),
+    [
+        ("other_name", "CM002", "some-flaw", "file and rule share one name"),
+        ("second_flaw", "CM001", "second-flaw", "CM001 second-flaw is taken by"),
+        ("broken", "CM003", '" + 1 + "', "TypeError"),
+    ],
+)
+def test_registry_refuses(tmp_path: Path, file: str, code: str, rule: str, message: str) -> None:
+    write_rule(tmp_path, "first_flaw", "CM001", "first-flaw")
+    write_rule(tmp_path, file, code, rule)
+    with pytest.raises(ContentError, match=message):
+        registry.load([str(tmp_path)])
+
+
+def test_roots_with_equal_file_names_do_not_mix(tmp_path: Path) -> None:
+    write_rule(tmp_path / "a", "flaw_a", "CM001", "flaw-a")
+    write_rule(tmp_path / "b", "flaw_b", "CM002", "flaw-b")
+    (tmp_path / "a" / "cmake" / "flaw_c.py").write_text(
+        RULE.format(name="C", code="CM003", rule="flaw-c")
+    )
+    rules = registry.load([str(tmp_path / "a"), str(tmp_path / "b")])
+    assert [rule.code for rule in rules] == ["CM001", "CM002", "CM003"]
+
+
+def test_a_crash_is_a_diagnostic_and_the_others_run() -> None:
+    said = runner.check(Package.of({"CMakeLists.txt": ""}), [Crashing(), Loud()])
+    assert [d.code for d in said] == ["CM900", "CM901", "SC002"]
+    assert "CM901 loud failed: ZeroDivisionError: by zero" in said[-1].message
+
+
+def test_a_missing_view_silences_the_rule() -> None:
+    package = Package.of({"CMakeLists.txt": ""})
+    assert runner.check(package, [NeedsManifest()]) == []
+    with pytest.raises(MissingFileError):
+        _ = package.manifest
+
+
+@pytest.mark.parametrize("order", [("talker", "listener"), ("listener", "talker")])
+def test_what_is_read_for_others_is_not_reported(order: tuple[str, str]) -> None:
+    workspace = Workspace()
+    notes = {"listener": b"\xff", "talker": b"heard\n"}
+    packages: dict[str, Package] = {}
+    for name, data in notes.items():
+        files: dict[str, str | bytes] = {
+            "package.xml": f"<package><name>{name}</name></package>\n",
+            "notes.txt": data,
+        }
+        packages[name] = Package(MemoryTree(files), directory=name, workspace=workspace)
+        workspace.add(packages[name])
+    session = Session([ReadsNotesOfListener], Selection(select=("CM",)))
+    results = session.run_batch([Target(packages[name]) for name in order])
+    assert [one.diagnostics for one in results] == [[], []]
+
+
+def test_an_unparsable_file_is_reported_once() -> None:
+    package = Package.of({"package.xml": "<package>\n<name>x</nam>\n"})
+    said = runner.check(package, [NeedsManifest(), NeedsManifest()])
+    assert [(d.code, d.location.path, d.location.line) for d in said] == [
+        ("SC001", "package.xml", 2)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("select", "ignore", "code", "wanted"),
+    [
+        ((), (), "CM001", True),
+        (("CM",), (), "CM001", True),
+        (("CM",), (), "E501", False),
+        ((), ("CM",), "CM001", False),
+        (("CM001",), ("CM",), "CM001", True),
+        (("CM",), ("CM001",), "CM001", False),
+        (("E",), ("E",), "E501", False),
+        (("CM",), (), "SC001", True),
+        (("CM",), (), "SC003", False),
+        (("CM",), ("SC001",), "SC001", False),
+    ],
+)
+def test_selection(
+    select: tuple[str, ...], ignore: tuple[str, ...], code: str, *, wanted: bool
+) -> None:
+    assert Selection(select, ignore).wants(code) is wanted
+
+
+def test_an_unknown_code_is_refused_with_the_nearest() -> None:
+    with pytest.raises(ConfigError, match=r"--select: no rule has the code 'CN001'.*CM001"):
+        selection.validate(["PX", "CN001"], ["CM001", "PX001"], "--select")
+
+
+@pytest.mark.parametrize(
+    ("comment", "left"),
+    [
+        ("# noqa: CM900", []),
+        ("# NOQA:CM900", []),
+        ("# noqa: cm900", []),
+        ("# noqa: CM123, CM900", []),
+        ("# noqa: CM123 CM900  because", []),
+        ("# noqa", []),
+        ("# noqa because", []),
+        ("<!-- noqa: CM900 -->", []),
+        ("# noqa: CM123", ["CM900"]),
+        ("# noqa: CM90", ["CM900"]),
+        ("# noqas", ["CM900"]),
+        ("noqa: CM900", ["CM900"]),
+        ("\n# noqa: CM900", ["CM900", "SC003"]),
+        ("\n# NOQA: cm900", ["CM900", "SC003"]),
+        ("\n# noqa", ["CM900"]),
+        ("\n# noqa: CM123", ["CM900"]),
+    ],
+)
+def test_suppression_on_the_line(comment: str, left: list[str]) -> None:
+    package = Package.of({"CMakeLists.txt": f"project(x)  {comment}\n"})
+    kept = suppression.apply(package, runner.check(package, [Loud()]), {"CM900"})
+    assert [diagnostic.code for diagnostic in kept] == left
+
+
+def test_a_suppression_in_a_file_without_comments_means_nothing() -> None:
+    package = Package.of({"CMakeLists.txt": "", "notes.md": "# noqa: CM900\n"})
+    assert suppression.apply(package, [], {"CM900"}) == []
+
+
+def test_a_finding_behind_the_end_of_a_file_stays() -> None:
+    package = Package.of({"CMakeLists.txt": "# noqa\n"})
+    said = [Loud().report(Location("CMakeLists.txt", 9, 1, 9, 1), "behind the end")]
+    assert suppression.apply(package, said, set()) == said
+
+
+def test_unused_suppression_is_reported_where_it_stands() -> None:
+    text = "project(x)\nset(a b)  # noqa: CM900, CM123\n"
+    package = Package.of({"CMakeLists.txt": text})
+    kept = suppression.apply(package, runner.check(package, [Loud()]), {"CM900"})
+    assert [(d.code, d.location.line, d.location.column) for d in kept] == [
+        ("CM900", 1, 1),
+        ("SC003", 2, 19),
+    ]
+
+
+def test_splice() -> None:
+    edits = [Edit("f", 4, 4, "X"), Edit("f", 0, 1, "")]
+    assert splice("abcdef", edits) == "bcdXef"
+
+
+def test_a_rule_about_python_does_not_need_a_cmakelists_that_can_be_read() -> None:
+    (rule,) = (one for one in registry.load(content.roots("rules")) if one.code == "PX020")
+    package = Package.of(
+        {
+            "package.xml": "<package><name>talker</name></package>\n",
+            "CMakeLists.txt": "project(talker",
+            "talker/__init__.py": "import rclpy\n",
+        }
+    )
+    said = runner.check(package, [rule()])
+    assert [one.location.path for one in said if one.code == "PX020"] == ["package.xml"]

@@ -1,0 +1,253 @@
+"""Fixing: comes to rest in one run, in all packages at once, and breaks no file."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pty
+import struct
+import subprocess
+import sys
+import termios
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from scaffold.check import fixer
+from scaffold.cli.main import main
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import Edit, Fix, Safety
+from scaffold.model.package import Package
+from scaffold.source import Location
+from tests.test_patch import fill, git, tree
+
+MANIFEST = (
+    '<?xml version="1.0"?>\n<package format="3">\n  <name>{name}</name>\n'
+    "  <version>0.1.0</version>\n  <description>Talks.</description>\n"
+    '  <maintainer email="a@example.org">A</maintainer>\n  <license>Apache-2.0</license>\n'
+    "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+    "{depends}"
+    "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n"
+)
+CMAKE_LISTS = (
+    "cmake_minimum_required(VERSION 3.8)\nproject({name})\n"
+    "find_package(ament_cmake REQUIRED)\n"
+    "install(PROGRAMS node.py DESTINATION lib/${{PROJECT_NAME}})\nament_package()\n"
+)
+IMPORTS = "#!/usr/bin/env python3\nimport geometry_msgs.msg\nimport nav_msgs.msg\nimport rclpy\n"
+
+
+def package(name: str, node: str, depends: str = "") -> dict[str, bytes]:
+    """Return the files of a package by path."""
+    return {
+        f"{name}/package.xml": MANIFEST.format(name=name, depends=depends).encode(),
+        f"{name}/CMakeLists.txt": CMAKE_LISTS.format(name=name).encode(),
+        f"{name}/node.py": node.encode(),
+    }
+
+
+def replace(old: str, new: str, path: str = "a.py", safety: Safety = Safety.SAFE) -> Check:
+    """Return a check with a fix that replaces each occurrence of a text."""
+
+    def check(package: Package) -> list[Diagnostic]:
+        text = package.editable(path).text
+        starts = [at for at in range(len(text)) if text.startswith(old, at)]
+        return [
+            Diagnostic(
+                "XX001",
+                "replace",
+                Severity.WARNING,
+                Location.start_of(path, number),
+                f"{old!r}",
+                Fix(f"replace {number}", (Edit(path, at, at + len(old), new),), safety),
+            )
+            for number, at in enumerate(starts, 1)
+        ]
+
+    return check
+
+
+Check = Callable[[Package], list[Diagnostic]]
+
+
+def test_all_dependencies_are_inserted_in_one_round_and_in_order() -> None:
+    from scaffold import content
+    from scaffold.check import registry, runner
+
+    rules = [rule() for rule in registry.load(content.roots("rules")) if rule.code == "PX020"]
+    rounds: list[int] = []
+
+    def check(package: Package) -> list[Diagnostic]:
+        rounds.append(1)
+        return runner.check(package, rules)
+
+    modules = ["zmq", "nav_msgs", "rclpy", "geometry_msgs", "scipy", "std_msgs", "requests"]
+    node = "".join(f"import {module}\n" for module in modules)
+    files = {path.removeprefix("talker/"): data for path, data in package("talker", node).items()}
+    fixed = fixer.fix(Package.of({**files, "test/test_a.py": b"import numpy\n"}), check)
+    assert len(rounds) == 2
+    assert not fixed.diagnostics
+    lines = fixed.changed["package.xml"].decode().splitlines()
+    added = [line.strip() for line in lines if "exec_depend" in line or "test_depend" in line]
+    names = ["geometry_msgs", "nav_msgs", "python3-requests", "python3-scipy", "python3-zmq"]
+    expected = [f"<exec_depend>{name}</exec_depend>" for name in [*names, "rclpy", "std_msgs"]]
+    assert added == [*expected, "<test_depend>python3-numpy</test_depend>"]
+
+
+def test_a_fix_that_breaks_a_file_is_left_out_and_the_others_are_not() -> None:
+    before = "a = 1\nb = 1\nc = 1\n"
+
+    def check(package: Package) -> list[Diagnostic]:
+        return [
+            *replace("b", "(")(package),
+            *replace("a", "x")(package),
+            *replace("c", "y")(package),
+        ]
+
+    fixed = fixer.fix(Package.of({"a.py": before}), check)
+    assert fixed.changed == {"a.py": b"x = 1\nb = 1\ny = 1\n"}
+    assert fixed.applied == 2
+    assert [(one.message, one.fix) for one in fixed.diagnostics] == [("'b'", None)]
+    assert not fixed.unsettled
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "old"),
+    [
+        ("package.xml", "<package><name>a</name></package>\n", "</name>"),
+        ("CMakeLists.txt", "project(a)\n", ")"),
+        ("config/a.yaml", "a: [b]\n", "]"),
+        ("a.py", "x = (1)\n", ")"),
+        ("launch/a.xml", "<launch></launch>\n", "</launch>"),
+    ],
+)
+def test_files_of_all_kinds_stay_readable(path: str, text: str, old: str) -> None:
+    fixed = fixer.fix(
+        Package.of({"package.xml": "<package/>\n", path: text}), replace(old, "", path)
+    )
+    assert (fixed.changed, fixed.applied) == ({}, 0)
+
+
+def test_what_cannot_be_written_in_the_coding_of_the_file_is_left_out() -> None:
+    before = "# -*- coding: latin-1 -*-\na = '\xe9'\n".encode("latin-1")
+    fixed = fixer.fix(Package.of({"a.py": before}), replace("a =", "\u20ac ="))
+    assert (fixed.changed, fixed.applied) == ({}, 0)
+
+
+def test_fixes_that_undo_each_other_end_and_are_named() -> None:
+    def check(package: Package) -> list[Diagnostic]:
+        return replace("1", "2")(package) or replace("2", "1")(package)
+
+    fixed = fixer.fix(Package.of({"a.py": "a = 1\n"}), check)
+    assert fixed.applied == fixer.MAX_ROUNDS
+    assert fixed.unsettled == {"XX001"}
+    assert fixed.diagnostics[0].fix
+
+
+def test_the_second_run_changes_nothing_in_any_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What a package declares after the first round decides what its user lacks."""
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, {**package("a", IMPORTS), **package("b", IMPORTS + 'x = "1" \n')})
+    main(["check", "--fix"])
+    assert "0 fixes applied" not in capsys.readouterr().err
+    after = tree(tmp_path)
+    main(["check", "--fix"])
+    assert capsys.readouterr().err == "0 fixes applied\n"
+    assert tree(tmp_path) == after
+
+
+def test_the_patch_of_a_workspace_does_what_fix_does(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    files = {
+        **package("a", IMPORTS),
+        **package("b dir", IMPORTS.replace("\n", "\r\n")),
+        "a/caf\xe9 1.py": '# -*- coding: latin-1 -*-\nx = "\xe9" \n'.encode("latin-1"),
+    }
+    for side in ("patched", "fixed"):
+        fill(tmp_path / side / "src", files)
+    monkeypatch.chdir(tmp_path / "fixed" / "src")
+    main(["check", "--fix", "."])
+    git(tmp_path / "patched", "init", "-q")
+    for below in ("", "src", "src/a"):
+        monkeypatch.chdir(tmp_path / "patched" / below)
+        capfdbinary.readouterr()
+        assert main(["check", "--diff", "."]) in {0, 1}
+        text = capfdbinary.readouterr().out
+        (tmp_path / "saved").write_bytes(text)
+        if below != "src/a":
+            git(tmp_path / "patched" / below, "apply", "--check", str(tmp_path / "saved"))
+    git(tmp_path / "patched" / "src" / "a", "apply", str(tmp_path / "saved"))
+    monkeypatch.chdir(tmp_path / "patched")
+    capfdbinary.readouterr()
+    main(["check", "--diff", "src/b dir"])
+    (tmp_path / "saved").write_bytes(capfdbinary.readouterr().out)
+    git(tmp_path / "patched", "apply", str(tmp_path / "saved"))
+    assert tree(tmp_path / "patched") == tree(tmp_path / "fixed")
+    assert tree(tmp_path / "fixed" / "src") != {name: (data, False) for name, data in files.items()}
+
+
+def test_a_link_out_of_the_package_does_not_stop_the_rest(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, {**package("a", "import os \n"), "outside.py": b"import os \n"})
+    (tmp_path / "a" / "linked.py").symlink_to("../outside.py")
+    (tmp_path / "a" / "twin.py").symlink_to("node.py")
+    main(["check", "--fix", "a"])
+    assert (tmp_path / "outside.py").read_bytes() == b"import os \n"
+    assert (tmp_path / "a" / "twin.py").is_symlink()
+    assert b"import" not in (tmp_path / "a" / "node.py").read_bytes()
+
+
+def test_the_summary_tells_safe_fixes_from_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, {"a.py": b"x = None\ny = x == None\nz = x == None \n"})
+    main(["check", "a.py"])
+    assert capsys.readouterr().out.endswith(
+        "; 1 fixable with --fix, 2 more with --fix --unsafe-fixes\n"
+    )
+    main(["check", "a.py", "--unsafe-fixes"])
+    assert capsys.readouterr().out.endswith("; 3 fixable with --fix --unsafe-fixes\n")
+    main(["check", "a.py", "--select", "E711"])
+    assert capsys.readouterr().out.endswith("; 2 fixable with --fix --unsafe-fixes\n")
+
+
+def test_a_single_file_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, package("a", "import os\n"))
+    assert main(["check", "--fix", "a/node.py"]) == 2
+    assert capsys.readouterr().err == (
+        "ros2-scaffold: error: a/node.py: --fix and --diff work on whole packages, not on single "
+        "files; name the directory of a package\n"
+    )
+    assert (tmp_path / "a" / "node.py").read_bytes() == b"import os\n"
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_a_bar_is_shown_on_a_terminal_only(tmp_path: Path, *, is_terminal: bool) -> None:
+    fill(tmp_path, package("a", "import os\n"))
+    leader, follower = pty.openpty()
+    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    with subprocess.Popen(
+        [sys.executable, "-m", "scaffold", "check", "--fix", tmp_path],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=follower if is_terminal else subprocess.PIPE,
+    ) as process:
+        os.close(follower)
+        shown = process.stderr.read() if process.stderr else b""
+        with suppress(OSError):  # the end of a terminal is an error
+            while is_terminal and (part := os.read(leader, 1 << 16)):
+                shown += part
+    os.close(leader)
+    assert (b"round 1:" in shown) == is_terminal
+    assert shown.rstrip().endswith(b"fixes applied")

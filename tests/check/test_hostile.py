@@ -1,0 +1,497 @@
+"""`check` on packages made to break it: a diagnostic or silence, never a traceback or a hang."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import resource
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scaffold import content
+from scaffold.ament import verdict as style
+from scaffold.ament.finding import FLAKE8
+from scaffold.check import registry
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.model.package import Package
+
+MANIFEST = """<?xml version="1.0"?>
+<package format="3">
+  <name>hostile</name>
+  <version>0.1.0</version>
+  <description>Input that nobody would write by hand.</description>
+  <maintainer email="ann@ros.example.org">Ann</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+PLACES = {
+    "python": "hostile/node.py",
+    "setup.py": "setup.py",
+    "setup.cfg": "setup.cfg",
+    "manifest": "package.xml",
+    "cmake": "CMakeLists.txt",
+    "message": "msg/Odd.msg",
+    "service": "srv/Odd.srv",
+    "launch": "launch/odd.launch.py",
+    "launch xml": "launch/odd.launch.xml",
+    "launch yaml": "launch/odd.launch.yaml",
+    "parameters": "config/odd.yaml",
+    "changelog": "CHANGELOG.rst",
+}
+
+NESTED = 4000
+LONG = 10_000_000
+
+BYTES = {
+    "empty": b"",
+    "nul": b"\0" * 4096,
+    "nul inside": b"# a\n\0\n# b\n",
+    "not utf-8": b"# caf\xe9 \xff\xfe\n",
+    "unknown encoding": b"# -*- coding: no-such-codec -*-\n<?xml version='1.0' encoding='x-no'?>\n",
+    "utf-16": "# text\n<a/>\n".encode("utf-16"),
+    "bom": b"\xef\xbb\xbf# text\n",
+    "two boms": b"\xef\xbb\xbf\xef\xbb\xbf# text\n",
+    "crlf": b"# one\r\n# two\r\n",
+    "lone cr": b"# one\r# two\r",
+    "mixed ends": b"# one\r# two\r\n# three\n\x0c\x0b\x1c\xc2\x85\xe2\x80\xa8# four",
+    "surrogate": b"# \xed\xa0\x80\n",
+    "brackets": b"(" * NESTED,
+    "unclosed quote": b'"""\n' + b"'" * NESTED,
+    "minus": b"-" * NESTED + b"1",
+    "backslashes": b"\\" * NESTED + b"\n" + b"\\\n" * NESTED,
+}
+
+NESTS = {
+    "python": b"x = " + b"(" * NESTED + b"1" + b")" * NESTED + b"\n",
+    "setup.py": b"from setuptools import setup\nsetup(name=" + b"[" * 150 + b"]" * 150 + b")\n",
+    "manifest": b"<a>" * NESTED + b"</a>" * NESTED,
+    "cmake": b"project(hostile)\nif("
+    + b"(" * NESTED
+    + b"A"
+    + b")" * NESTED
+    + b")\nendif()\n"
+    + b"if(A)\n" * NESTED
+    + b"endif()\n" * NESTED,
+    "message": b"int32" + b"[" * NESTED + b"]" * NESTED + b" values\n",
+    "launch": b"x = " + b"[" * NESTED + b"]" * NESTED + b"\n",
+    "launch xml": b"<launch>" + b"<group>" * NESTED + b"</group>" * NESTED + b"</launch>",
+    "launch yaml": b"launch: " + b"[" * NESTED + b"]" * NESTED + b"\n",
+    "parameters": b"a: " + b"{a: " * NESTED + b"1" + b"}" * NESTED + b"\n",
+    "setup.cfg": b"[" * NESTED + b"a" + b"]" * NESTED + b"\n",
+}
+
+CHAINS = {
+    "sum": b"x = " + b"1 + " * NESTED + b"1\n",
+    "attributes": b"x = a" + b".b" * NESTED + b"\n",
+    "calls": b"x = f" + b"()" * NESTED + b"\n",
+    "conditions": b"if a:\n    pass\n" + b"elif a:\n    pass\n" * NESTED,
+    "names": b"import rclpy\nx0 = 1\n"
+    + b"".join(b"x%d = x%d + x%d\n" % (n + 1, n, n) for n in range(NESTED)),
+}
+
+LINES = {
+    "python": b"x = '" + b"a" * LONG + b"'\n",
+    "manifest": b"<package format='3'><name>" + b"a" * LONG + b"</name></package>",
+    "cmake": b"project(" + b"a " * (LONG // 2) + b")",
+    "message": b"int32 " + b"a" * LONG,
+    "parameters": b"a: " + b"a" * LONG,
+    "setup.cfg": b"[a]\nb = " + b"a" * LONG,
+}
+
+LAUGHS = (
+    b'<?xml version="1.0"?>\n<!DOCTYPE package [\n<!ENTITY a0 "ha">\n'
+    + b"".join(b'<!ENTITY a%d "%s">\n' % (n, b"&a%d;" % (n - 1) * 10) for n in range(1, 20))
+    + b']>\n<package format="3"><name>&a19;</name></package>\n'
+)
+
+YAML_LAUGHS = b"a0: &a0 [ha]\n" + b"".join(
+    b"a%d: &a%d [%s]\n" % (n, n, b", ".join([b"*a%d" % (n - 1)] * 10)) for n in range(1, 20)
+)
+
+
+def _package(directory: Path, files: dict[str, bytes]) -> Path:
+    """Write a package and return its directory."""
+    given = {
+        "package.xml": MANIFEST.encode(),
+        "CMakeLists.txt": b"cmake_minimum_required(VERSION 3.8)\nproject(hostile)\n",
+        **files,
+    }
+    for path, data in given.items():
+        (directory / path).parent.mkdir(parents=True, exist_ok=True)
+        (directory / path).write_bytes(data)
+    return directory
+
+
+def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[bytes]:
+    """Run ``check`` with memory for no more than a few of the largest files."""
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+    done = subprocess.run(
+        [sys.executable, "-m", "scaffold", "check", *arguments],
+        env={**os.environ, "SCAFFOLD_NO_CACHE": "1", "SCAFFOLD_DEBUG": "1"},
+        check=False,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        preexec_fn=limit,
+    )
+    assert b"Traceback" not in done.stderr, done.stderr.decode(errors="replace")[-2000:]
+    return done
+
+
+def _check(package: Path) -> list[dict[str, Any]]:
+    """Return what is said about a package."""
+    done = _run("--format", "json", package)
+    assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
+    found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
+    assert "SC002" not in {one["code"] for one in found}
+    return found
+
+
+@pytest.mark.parametrize("kind", BYTES)
+def test_bytes_everywhere(tmp_path: Path, kind: str) -> None:
+    """The same odd bytes as every file that is not the manifest."""
+    files = {path: BYTES[kind] for name, path in PLACES.items() if name != "manifest"}
+    _check(_package(tmp_path, files))
+
+
+@pytest.mark.parametrize("kind", BYTES)
+def test_bytes_as_manifest(tmp_path: Path, kind: str) -> None:
+    """A manifest that is none, or one behind odd bytes."""
+    found = _check(_package(tmp_path, {"package.xml": BYTES[kind]}))
+    assert "package.xml" in {one["path"].rpartition("/")[2] for one in found}
+
+
+@pytest.mark.parametrize("place", NESTS)
+def test_nesting(tmp_path: Path, place: str) -> None:
+    """Deeper than any recursion goes."""
+    _check(_package(tmp_path, {PLACES[place]: NESTS[place]}))
+
+
+@pytest.mark.parametrize("kind", CHAINS)
+def test_chains(tmp_path: Path, kind: str) -> None:
+    """Syntax trees that are deep, or values that double, without a bracket."""
+    _check(_package(tmp_path, {PLACES["python"]: CHAINS[kind], PLACES["launch"]: CHAINS[kind]}))
+
+
+@pytest.mark.parametrize("place", LINES)
+def test_one_long_line(tmp_path: Path, place: str) -> None:
+    """Ten megabytes without a line end."""
+    _check(_package(tmp_path, {PLACES[place]: LINES[place]}))
+
+
+@pytest.mark.parametrize("place", ["manifest", "launch xml"])
+def test_entities_are_not_expanded(tmp_path: Path, place: str) -> None:
+    """Twenty lines of XML that stand for 10^19 words."""
+    _check(_package(tmp_path, {PLACES[place]: LAUGHS}))
+
+
+@pytest.mark.parametrize("place", ["parameters", "launch yaml"])
+def test_aliases_are_not_expanded(tmp_path: Path, place: str) -> None:
+    """The same in YAML."""
+    _check(_package(tmp_path, {PLACES[place]: YAML_LAUGHS}))
+
+
+@pytest.mark.parametrize("place", [name for name in PLACES if name != "manifest"])
+def test_only_regular_files_are_read(tmp_path: Path, place: str) -> None:
+    """A pipe that nobody writes to, a device without an end, a loop, and a directory."""
+    package = _package(tmp_path, {})
+    name = package / PLACES[place]
+    name.parent.mkdir(parents=True, exist_ok=True)
+    name.unlink(missing_ok=True)
+    os.mkfifo(name)
+    _check(package)
+    for target in ("/dev/zero", name.name, "."):
+        name.unlink()
+        name.symlink_to(target)
+        _check(package)
+    name.unlink()
+    name.mkdir()
+    _check(package)
+
+
+@pytest.mark.parametrize("name", ["package.xml", "node.py"])
+def test_pipe_named_on_the_command_line(tmp_path: Path, name: str) -> None:
+    """What is no file is not waited for."""
+    os.mkfifo(tmp_path / name)
+    for path in (tmp_path / name, tmp_path):
+        assert _run(path).returncode == 2
+
+
+def test_loop_of_directories(tmp_path: Path) -> None:
+    """Links to directories are not followed."""
+    package = _package(tmp_path, {"hostile/__init__.py": b""})
+    (package / "hostile" / "up").symlink_to(package)
+    (package / "left").symlink_to("right")
+    (package / "right").symlink_to("left")
+    _check(package)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_unreadable(tmp_path: Path) -> None:
+    """A file and a directory without permission."""
+    package = _package(tmp_path, {"hostile/node.py": b"x = 1\n", "launch/a.launch.py": b""})
+    (package / "hostile" / "node.py").chmod(0)
+    (package / "launch").chmod(0)
+    try:
+        _check(package)
+    finally:
+        (package / "launch").chmod(0o755)
+
+
+def test_odd_names(tmp_path: Path) -> None:
+    """Names that are no text, hold line ends or escapes, or are as long as they get."""
+    package = _package(tmp_path / "package", {})
+    names = [b"caf\xe9.py", b"a\nb.py", b"a\x1b[31mb.py", b"n" * 252 + b".py", b"-x.py", b" .py"]
+    for name in names:
+        with open(os.path.join(os.fsencode(package), name), "wb") as file:
+            file.write(b"import os\n")
+    paths = {one["path"] for one in _check(package) if one["code"] == "F401"}
+    assert len(paths) == len(names)
+    done = _run(package)
+    assert done.returncode == 1
+    text = done.stdout.decode()
+    assert "\x1b" not in text
+    assert "caf\\xe9.py:1:1: " in text
+    assert "a\\nb.py:1:1: " in text
+
+
+def test_odd_directories(tmp_path: Path) -> None:
+    """Packages in directories whose names are no text, hold line ends or escapes."""
+    for name in (b"caf\xe9", b"a\nb", b"a\x1b[31mb"):
+        package = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), name)))
+        _package(package, {"hostile/node.py": b"import os\n", "caf\udce9.py": b"x = 1 \n"})
+        assert "F401" in {one["code"] for one in _check(package)}
+        for arguments in ((), ("--diff",), ("--fix",)):
+            done = _run(*arguments, package)
+            assert done.returncode == 1
+            assert b"\x1b" not in done.stdout + done.stderr
+        done = _run(package / "nothing")
+        assert done.returncode == 2
+        assert b"\x1b" not in done.stderr
+        assert done.stderr.count(b"\n") == 1
+
+
+def test_terminals_are_not_given_escapes_of_files(tmp_path: Path) -> None:
+    """A patch is exact in a file and spelled out on a terminal."""
+    package = _package(tmp_path, {"node.py": b"X = '\x1b[2J\xc2\x9b'  \n"})
+    assert b"+X = '\x1b[2J\xc2\x9b'\n" in _run("--diff", package).stdout
+    leader, follower = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-m", "scaffold", "check", "--diff", package],
+        stdin=subprocess.DEVNULL,
+        stdout=follower,
+        stderr=follower,
+        env={**os.environ, "NO_COLOR": "1"},
+    ):
+        os.close(follower)
+        shown = b""
+        with suppress(OSError):  # the end of a terminal is an error
+            while part := os.read(leader, 1 << 16):
+                shown += part
+    os.close(leader)
+    assert b"\\x1b[2J\\x9b" in shown
+    assert b"\x1b" not in shown
+    assert b"\xc2\x9b" not in shown
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_too_large(tmp_path: Path, place: str) -> None:
+    """Three megabytes of any kind: nothing is said of what is in it."""
+    found = _check(_package(tmp_path, {PLACES[place]: b"# " + b"x \n" * 1_000_000}))
+    here = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
+    about_the_file = {"SC004", "E902", "LY006", "LY020", "PX050"}
+    assert here <= about_the_file
+
+
+@pytest.mark.parametrize("place", ["CMakeLists.txt", "package.xml"])
+def test_a_line_that_is_too_long(tmp_path: Path, place: str) -> None:
+    """A line of 60 kB is within the size of a file, and no line that people write."""
+    found = _check(_package(tmp_path, {place: b"x;" * 30_000}))
+    (told,) = (one for one in found if one["code"] == "SC004")
+    assert told["path"].endswith(place)
+    assert told["message"].startswith("a line of 60 kB, 20 kB are read")
+
+
+TINY = {
+    "manifest": (b"<a/>\n" * 6_000, "30000 words and signs of 20000 that are read"),
+    "setup.cfg": (b"a=b\n" * 6_000, "24000 words and signs of 20000 that are read"),
+    "cmake": (b"f()\n" * 8_000, "32000 words and signs of 30000 that are read"),
+    "service": (b"a\n" * 60_000, ""),
+}
+
+
+@pytest.mark.parametrize("place", TINY)
+def test_too_many_words(tmp_path: Path, place: str) -> None:
+    """The time goes by the words, not by the bytes: in code they have a bound of their own."""
+    data, message = TINY[place]
+    found = _check(_package(tmp_path, {PLACES[place]: data}))
+    told = [one["message"] for one in found if one["code"] == "SC004"]
+    assert told == ([f"{message}: it is not checked"] if message else [])
+
+
+@pytest.mark.parametrize("place", ["launch xml", "launch yaml"])
+def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
+    """They are decoded in their own way, and have the bound of all others."""
+    node = {"launch xml": b"<node pkg='a' exec='b'/>\n", "launch yaml": b"- node: {pkg: a}\n"}
+    head = {"launch xml": b"<launch>\n", "launch yaml": b"launch:\n"}
+    tail = {"launch xml": b"</launch>\n", "launch yaml": b""}
+    data = head[place] + node[place] * 60_000 + tail[place]
+    found = _check(_package(tmp_path, {PLACES[place]: data}))
+    said = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
+    assert said == {"SC004"}
+
+
+def test_too_many_words_for_the_style(tmp_path: Path) -> None:
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
+    said = {one["code"] for one in found if one["path"].endswith("node.py")}
+    assert "E902" in said
+    assert said <= {"E902", "SC004", "LY020"}
+
+
+def test_a_line_that_is_too_long_for_the_style(tmp_path: Path) -> None:
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
+    said = {one["code"] for one in found if one["path"].endswith("node.py")}
+    assert "E902" in said
+    assert said <= {"E902", "SC004", "LY020"}
+
+
+def test_too_many_findings(tmp_path: Path) -> None:
+    """A flood ends, and says so."""
+    found = _check(_package(tmp_path, {"hostile/node.py": b"x = 1  \n" * 6000}))
+    assert sum(one["code"] == "W291" for one in found) == 5000
+    (told,) = (one for one in found if one["code"] == "SC005")
+    assert told["line"] == 5001
+
+
+_IMPORTS = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n"
+_NODE = f"{_IMPORTS}class A(Node):\n    def __init__(self):\n        super().__init__('a')\n"
+_PROJECT = "cmake_minimum_required(VERSION 3.8)\nproject(hostile)\n"
+REPEATED = {
+    "parameters of other names": (
+        "hostile/node.py",
+        _NODE,
+        "        self.declare_parameter('some{0}', 1)\n        self.get_parameter('som{0}')\n",
+    ),
+    "attributes of other names": (
+        "hostile/node.py",
+        _NODE,
+        "        self.some_{0} = 1\n        print(self.som_{0})\n",
+    ),
+    "attributes that are added to": ("hostile/node.py", _NODE, "        self.sum += {0}\n"),
+    "statements": ("hostile/node.py", f"{_IMPORTS}def f(n):\n", "    rclpy.spin(n)\n"),
+    "statements behind return": (
+        "hostile/node.py",
+        f"{_IMPORTS}def f(n):\n    return\n",
+        "    n.x()\n",
+    ),
+    "values of a name": (
+        "hostile/node.py",
+        f"{_IMPORTS}def f():\n",
+        "    m = String()\n    m.data = 'a'\n",
+    ),
+    "classes": ("hostile/node.py", _IMPORTS, "class A{0}(Node):\n    pass\n"),
+    "targets of other names": (
+        "CMakeLists.txt",
+        _PROJECT,
+        "add_library(some{0} a.cpp)\ntarget_link_libraries(som{0} b)\n",
+    ),
+    "dependencies of interfaces": (
+        "CMakeLists.txt",
+        f"{_PROJECT}rosidl_generate_interfaces(hostile DEPENDENCIES\n",
+        "  a{0}\n",
+    ),
+    "blanks before parentheses": ("CMakeLists.txt", _PROJECT, 'set(x "" "" )\n'),
+    "upper case": ("CMakeLists.txt", _PROJECT, "SET(A B)\n"),
+}
+
+
+@pytest.mark.parametrize("kind", REPEATED)
+def test_steps_grow_with_the_input(kind: str) -> None:
+    """Four times the lines take four times the calls, not sixteen; counted, not timed."""
+    path, head, line = REPEATED[kind]
+    rules = registry.load(content.roots("rules", ()))
+    session = Session(rules, Selection(select=tuple({rule.code[:2] for rule in rules})))
+
+    def steps(count: int) -> int:
+        text = head + "".join(line.format(number) for number in range(count))
+        package = Package.of({"package.xml": MANIFEST, "CMakeLists.txt": _PROJECT, path: text})
+        calls = 0
+
+        def note(*_: object) -> None:
+            nonlocal calls
+            calls += 1
+
+        sys.setprofile(note)
+        try:
+            session.check(package)
+        finally:
+            sys.setprofile(None)
+        return calls
+
+    assert steps(1200) < 6 * steps(300)
+
+
+@pytest.mark.parametrize("line", ["x;", "[1 ,2 ],", "( x ),"])
+def test_steps_grow_with_a_line(line: str) -> None:
+    """A line four times as long takes four times the steps of the style rules, not sixteen."""
+
+    def steps(count: int) -> int:
+        data = (line * count + "\n").encode()
+        taken = 0
+
+        def note(*_: object) -> Callable[..., Any]:
+            nonlocal taken
+            taken += 1
+            return note
+
+        before = sys.gettrace()
+        sys.settrace(note)
+        try:
+            found = style.check("node.py", data, list, FLAKE8)
+        finally:
+            sys.settrace(before)
+        assert {one.line for one in found} == {1}
+        return taken
+
+    assert steps(800) < 6 * steps(200)
+
+
+def test_files_that_vanish(tmp_path: Path) -> None:
+    """Every file is there when it is listed and gone when it is read."""
+    package = Package.at(_package(tmp_path, dict.fromkeys(PLACES.values(), b"x = 1\n")))
+    assert package.files
+    for path in package.files:
+        (tmp_path / path).unlink()
+    rules = registry.load(content.roots("rules", ()))
+    said = Session(rules, Selection()).check(package)
+    assert "SC002" not in {one.code for one in said}
+
+
+def test_sockets_are_no_files(tmp_path: Path) -> None:
+    """A socket named like a source file."""
+    package = _package(tmp_path, {})
+    with socket.socket(socket.AF_UNIX) as listening:
+        listening.bind(str(package / "a.py"))
+        _check(package)
+
+
+def test_many_files(tmp_path: Path) -> None:
+    """Five thousand files of one package."""
+    files = {f"hostile/m{n}/f{n}.py": b"import os\n" for n in range(2500)}
+    files |= {f"config/c{n}.yaml": b"a: 1\n" for n in range(2500)}
+    found = _check(_package(tmp_path, files))
+    assert sum(one["code"] == "F401" for one in found) == 2500

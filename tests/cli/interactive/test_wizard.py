@@ -1,0 +1,371 @@
+"""The questions of `new` on a terminal: a real one, with somebody typing."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.interactive.answer_text import quoted
+from scaffold.cli.main import main
+from tests import PATIENCE
+
+pexpect = pytest.importorskip("pexpect")
+ENTER, DOWN = "\r", "\x1b[B"
+SHELLS = ("bash", "zsh", "fish")
+
+
+@pytest.fixture(autouse=True)
+def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No setting of the machine reaches a test, and its files are its own."""
+    for name in ("HOME", "XDG_CONFIG_HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv(
+        "PYTHONPATH", os.path.dirname(os.path.dirname(str(Path(__file__).parent.parent)))
+    )
+    monkeypatch.chdir(tmp_path)
+
+
+class Terminal:
+    """`new` on a terminal, and somebody who types."""
+
+    def __init__(self, *arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> None:
+        self.child = pexpect.spawn(
+            sys.executable,
+            ["-m", "scaffold", "new", *arguments],
+            encoding="utf-8",
+            timeout=PATIENCE,
+            dimensions=size,
+            env={**os.environ, **more},
+        )
+
+    def answer(self, question: str, text: str) -> None:
+        """Wait for a question and type."""
+        self.child.expect_exact(question)
+        self.child.send(text)
+
+    def says(self, text: str) -> None:
+        """Wait for a text."""
+        self.child.expect_exact(text)
+
+    def end(self) -> tuple[str, int]:
+        """Wait for the end; return what was said last, and the exit code."""
+        self.child.expect(pexpect.EOF)
+        self.child.close()
+        return self.child.before.replace("\r\n", "\n"), self.child.exitstatus
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., Terminal]]:
+    """Start `new` with arguments, on a terminal of some size; end it."""
+    started: list[Terminal] = []
+
+    def begin(*arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> Terminal:
+        started.append(Terminal(*arguments, size=size, **more))
+        return started[-1]
+
+    yield begin
+    for one in started:
+        one.child.close(force=True)
+
+
+@pytest.fixture
+def terminal(start: Callable[..., Terminal]) -> Terminal:
+    """Start `new` without arguments."""
+    return start()
+
+
+def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
+    """Answer what comes before the extras."""
+    terminal.answer("Name of the new package:", "talker" + ENTER)
+    terminal.answer("Build system:", DOWN + ENTER)
+    terminal.answer("What is in the package?", "publisher" + ENTER)
+    terminal.answer("Name of the node", "\x15speaker" + ENTER)
+    terminal.answer("Topic to publish on:", "\x15chatter" + ENTER)
+    terminal.answer("What to publish:", "\x15sensor_msgs/msg/Temperature" + ENTER)
+    terminal.answer("Messages per second:", "\x155" + ENTER)
+    terminal.answer("Quality of service", ENTER)
+    terminal.answer("What else is in the package?", then)
+
+
+def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
+    """Answer what comes after the parts; return what is said at the end."""
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What the package is for", "Speaks" + ENTER)
+    terminal.answer("Licence of the package:", ENTER)
+    terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
+    terminal.answer("Mail address:", "\x15" + mail + ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    return said
+
+
+def test_the_command_that_is_shown_does_the_same(
+    terminal: Terminal, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    through_the_publisher(terminal)
+    said = rest(terminal)
+    command = command_in(said)
+    assert shlex.split(command) == [
+        "ros2-scaffold",
+        "new",
+        "talker",
+        "--build-type",
+        "ament_python",
+        "--add",
+        "publisher:speaker topic=chatter message_type=sensor_msgs/msg/Temperature rate=5",
+        "--description",
+        "Speaks",
+        "--maintainer-name",
+        "Ada",
+        "--maintainer-email",
+        "ada@example.com",
+    ]
+    assert_same(command, tmp_path / "talker")
+    capsys.readouterr()
+
+
+def test_interfaces_and_programs_are_asked_for(
+    start: Callable[..., Terminal], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    terminal = start("--build-type", "ament_cmake")
+    terminal.answer("new package:", "robot_interfaces" + ENTER)
+    terminal.answer("What is in the package?", "message" + ENTER)
+    terminal.answer("Name of the new type:", "\x15Scan" + ENTER)
+    terminal.answer("Fields of the message", "\x15float64 range; string unit 'm'" + ENTER)
+    terminal.answer("What else is in the package?", "service" + ENTER)
+    terminal.answer("Name of the new type:", ENTER)
+    terminal.answer("Fields of the request", '\x15Scan scan  # a "first" one' + ENTER)
+    terminal.answer("Fields of the response", ENTER)
+    terminal.answer("What else is in the package?", "timer")
+    terminal.answer("nothing has 'timer' in it", "\x15cpp_sets" + ENTER)
+    terminal.answer("Name of the", ENTER)
+    terminal.answer("What else is in the package?", ENTER)
+    command = command_in(rest(terminal))
+    assert_same(command, tmp_path / "robot_interfaces")
+    capsys.readouterr()
+
+
+def command_in(said: str) -> str:
+    """Return the command that is shown at the end."""
+    return said.rpartition("The same without questions:\n")[2].strip()
+
+
+def assert_same(command: str, made: Path) -> None:
+    """Fail if a command writes something else than what is there."""
+    asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
+    shutil.rmtree(made)
+    assert main(shlex.split(command)[1:]) == 0
+    assert {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")} == asked
+
+
+def test_answers_are_judged_while_they_are_typed(terminal: Terminal) -> None:
+    terminal.answer("Name of the new package:", "Talker" + ENTER)
+    terminal.answer("must be lower-case words", "\x15std_msgs" + ENTER)
+    terminal.answer("existing", "\x15talker" + ENTER)
+    terminal.says("Build system:")
+
+
+def test_message_types_are_completed(terminal: Terminal) -> None:
+    terminal.answer("Name of the new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "publisher" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to publish on:", ENTER)
+    terminal.answer("What to publish:", "\x15LaserSc")
+    terminal.says("sensor_msgs/msg/LaserScan")
+
+
+@pytest.mark.parametrize("key", ["\x03", "\x04"], ids=["interrupted", "closed"])
+@pytest.mark.parametrize("questions", [0, 1, 8])
+def test_interrupted_nothing_is_written(
+    terminal: Terminal, tmp_path: Path, questions: int, key: str
+) -> None:
+    asked = ["new package:", "Build system:", "What is in", "Name of the node", "Topic to"]
+    asked += ["What to publish", "Messages per", "Quality of", "What else", "add besides"]
+    for question, text in zip(asked[:questions], ["talker", *[""] * questions], strict=False):
+        terminal.answer(question, text + ENTER)
+    terminal.answer(asked[questions], key)
+    terminal.says("ros2-scaffold: interrupted")
+    assert terminal.end() == ("\n", 130)
+    assert not (tmp_path / "talker").exists()
+
+
+@pytest.mark.parametrize("size", [(10, 40), (24, 60)])
+def test_what_is_wrong_is_said_in_full(
+    start: Callable[..., Terminal], size: tuple[int, int]
+) -> None:
+    terminal = start(size=size)
+    terminal.answer("new package:", "Talker" + ENTER)
+    lines: list[str] = []
+    while not lines or not lines[-1].endswith("talker"):
+        terminal.child.expect_exact("\n")
+        line = re.sub(r"\x1b\[[\d;?]*[a-zA-Z]", "", terminal.child.before).replace("\r", "")
+        lines += [line] if line.startswith("  ") else []
+    assert max(map(len, lines)) < size[1]
+    assert " ".join(map(str.strip, lines)) == (
+        "the package name 'Talker' must be lower-case words of letters and digits joined by single "
+        "underscores, starting with a letter, such as talker"
+    )
+
+
+def test_what_matches_nothing_chooses_nothing(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", "pyton")
+    terminal.answer("nothing has 'pyton' in it", ENTER + "\x15setuptools" + ENTER)
+    terminal.says("Build system: ament_python")
+
+
+def test_a_name_that_is_typed_in_full_comes_first(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker_msgs" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "service" + ENTER)
+    terminal.says("Name of the new type")
+
+
+def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: Path) -> None:
+    (tmp_path / "talker").mkdir()
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("talker exists already", "\x15speaker" + ENTER)
+    terminal.says("Build system:")
+
+
+def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to subscribe to:", "\x15chatter" + ENTER)
+    terminal.answer("Topic to publish on:", "\x15chatter" + ENTER)
+    terminal.answer("What to publish:", ENTER)
+    terminal.answer("What to receive (default: the same as what is published):", ENTER)
+    terminal.answer("Quality of service", ENTER)
+    terminal.says("both '/chatter'")
+    terminal.answer("What is in the package?", "timer" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("How often", ENTER)
+    terminal.answer("What else is in the package?", "timer" + ENTER)
+    terminal.answer("minimal_timer_2", "\x15minimal_timer" + ENTER)
+    terminal.says("the package has minimal_timer already")
+
+
+def test_the_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
+    through_the_publisher(terminal, "subscriber" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to subscribe to:", "\x15/chatter" + ENTER)
+    terminal.says("sensor_msgs/msg/Temperature")
+
+
+def test_pasted_lines_are_one_answer(terminal: Terminal) -> None:
+    terminal.answer("new package:", "\x1b[200~tal\nker\n\x1b[201~" + ENTER)
+    terminal.says("'tal ker'")
+
+
+def test_without_a_cursor_choices_are_answered_by_name(
+    start: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    terminal = start(TERM="dumb")
+    terminal.answer("new package:", "talker\n")
+    terminal.answer("Build system: [ament_cmake]", "setuptools\n")
+    terminal.answer("'setuptools' is no name in the list above", "ament_python\n")
+    terminal.answer("What is in the package? [publisher]", "timer\n")
+    terminal.answer("executable: [minimal_timer]", "\n")
+    terminal.answer("per second: [2.0]", "\n")
+    terminal.answer("What else is in the package? [nothing more]", "\n")
+    terminal.answer("What to add besides", "launch gitignore\n")
+    terminal.answer("What the package is for", "\n")
+    terminal.answer("Licence of the package: [Apache-2.0]", "MIT\n")
+    terminal.answer("Who maintains the package:", "Ada\n")
+    terminal.answer("Mail address:", "ada@example.com\n")
+    said, code = terminal.end()
+    assert code == 0, said
+    assert "\x1b" not in said
+    assert "--extras gitignore launch --license MIT" in said
+    assert (tmp_path / "talker" / "launch" / "talker.launch.py").exists()
+
+
+def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Terminal]) -> None:
+    known = ("--node-kind", "timer", "--maintainer-name", "Zo\xeb", "--maintainer-email", "z@x.org")
+    terminal = start(*known, "--description", "Ticks", PYTHONIOENCODING="ascii:strict")
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("Licence of the package:", ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    assert "--maintainer-name 'Zo\\xeb'" in said
+
+
+def test_the_command_has_what_was_given_before(
+    start: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    terminal = start("--destination-directory", "a b", "--license", "MIT", "--qos", "latched")
+    through_the_publisher(terminal)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What the package is for", "-x `y` $z \"a\" 'b' \\\\ !" + ENTER)
+    terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
+    terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    command = command_in(said)
+    made = tmp_path / "a b" / "talker"
+    asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
+    (tmp_path / "bin").mkdir()
+    program = tmp_path / "bin" / "ros2-scaffold"
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m scaffold "$@"\n')
+    program.chmod(0o755)
+    path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
+    for shell in filter(shutil.which, SHELLS):
+        shutil.rmtree(made)
+        subprocess.run([shell, "-c", command], check=True, env={**os.environ, "PATH": path})
+        assert {one.relative_to(made): one.read_bytes() for one in made.rglob("*.*")} == asked
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_shells_read_quoted_words_as_they_are(shell: str) -> None:
+    if shutil.which(shell) is None:
+        pytest.skip(f"{shell} is not installed")
+    words = [
+        "",
+        "a b",
+        "'",
+        "\\",
+        "\\\\'",
+        "it's \\' $HOME `id` $(id)",
+        "~/x",
+        "=ls",
+        "a\nb",
+        "{a,b}",
+    ]
+    words += [
+        "*",
+        "%self",
+        "!!",
+        "#x",
+        '"',
+        "é\u202f日",
+        "a;b&c|d<e>f",
+        "-n",
+        "~",
+        "[x]",
+        "^a",
+        "--x=~",
+    ]
+    command = "printf '%s\\0' " + " ".join(map(quoted, words))
+    done = subprocess.run([shell, "-c", command], capture_output=True, check=True)
+    assert done.stdout.decode().split("\0")[:-1] == words
+
+
+def test_without_a_terminal_the_name_is_needed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new"]) == 2
+    assert "PACKAGE is needed: the name of the new package" in capsys.readouterr().err

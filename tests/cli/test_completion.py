@@ -1,0 +1,76 @@
+"""Tab completion, as the shells ask for it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+
+
+def offered(line: str) -> list[str]:
+    """Return what is offered after a line, by the protocol of argcomplete."""
+    variables = {
+        **os.environ,
+        "_ARGCOMPLETE": "1",
+        "_ARGCOMPLETE_IFS": "\n",
+        "_ARGCOMPLETE_SUPPRESS_SPACE": "1",
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "PYTHONPATH": os.path.dirname(str(Path(__file__).parent.parent)),
+    }
+    done = subprocess.run(
+        ["bash", "-c", f'exec "{sys.executable}" -m scaffold 8>&1 >/dev/null'],
+        env=variables,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout.split("\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("ros2-scaffold upd", ["update"]),
+        ("ros2-scaffold new talker --build-type ament_p", ["ament_python"]),
+        (
+            "ros2-scaffold new talker --message-type sensor_msgs/msg/LaserS",
+            ["sensor_msgs/msg/LaserScan"],
+        ),
+        ("ros2-scaffold new talker --message-type LaserS", ["LaserScan"]),
+        ("ros2-scaffold new talker --qos sensor", ["sensor_data"]),
+        ("ros2-scaffold new talker --add cpp_dequ", ["cpp_deque:"]),
+        ("ros2-scaffold new talker --add 'timer:x r", ["timer:x rate="]),
+        (
+            "ros2-scaffold new talker --add 'publisher:x rate=5 message_type=LaserS",
+            ["publisher:x rate=5 message_type=LaserScan"],
+        ),
+        ("ros2-scaffold new talker --extras lau", ["launch"]),
+        ("ros2-scaffold add cpp_dequ", ["cpp_deque"]),
+        ("ros2-scaffold interfaces std_srvs/srv/Tri", ["std_srvs/srv/Trigger"]),
+    ],
+)
+def test_what_is_offered(line: str, expected: list[str]) -> None:
+    assert [word.strip() for word in offered(line)] == expected
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_shells_accept_the_code(
+    shell: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["completion", shell]) == 0
+    code = capsys.readouterr().out
+    assert "ros2-scaffold" in code
+    program = shutil.which(shell)
+    if program is None:
+        pytest.skip(f"{shell} is not installed")
+    script = tmp_path / "code"
+    script.write_text(code)
+    done = subprocess.run([program, "-n", str(script)], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

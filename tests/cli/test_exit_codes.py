@@ -1,0 +1,209 @@
+"""Exit codes and the one line that goes with them, with real processes and real devices."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli import exit_codes
+from scaffold.cli.main import VERBS
+from tests import PATIENCE
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOL = [sys.executable, "-m", "scaffold"]
+NO_SPACE = "No space left on device"
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A package in which `check` finds something."""
+    top = tmp_path_factory.mktemp("exit_codes")
+    subprocess.run([*TOOL, "new", "talker"], cwd=top, check=True, capture_output=True)
+    manifest = top / "talker" / "package.xml"
+    manifest.write_text(manifest.read_text().replace("Apache-2.0", "TODO"))
+    return top / "talker"
+
+
+def shell(
+    script: str, where: Path, *words: str, variables: Mapping[str, str | None] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run a line of bash in which ``tool`` is the tool, and ``$1`` ... are words."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    for name, value in (variables or {}).items():
+        if value is None:
+            environment.pop(name, None)
+        else:
+            environment[name] = value
+    tool = f'tool() {{ {sys.executable} -m scaffold "$@"; }}\n'
+    return subprocess.run(
+        ["bash", "-c", tool + script, "bash", *words],
+        cwd=where,
+        env=environment,
+        check=False,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=PATIENCE,
+    )
+
+
+def test_the_table_of_the_docs_has_every_code() -> None:
+    table = (ROOT / "docs" / "exit-codes.md").read_text()
+    documented = {int(code) for code in re.findall(r"^\| (\d+) \|", table, re.MULTILINE)}
+
+    assert documented == {value for name, value in vars(exit_codes).items() if name.isupper()}
+
+
+def test_the_codes_are_numbers_in_one_module_only() -> None:
+    tree = [ast.parse(path.read_text()) for path in (ROOT / "scaffold" / "cli").glob("*.py")]
+    returned = [
+        node.value.value
+        for module in tree
+        for node in ast.walk(module)
+        if isinstance(node, ast.Return) and isinstance(node.value, ast.Constant)
+    ]
+
+    assert not {1, 2, 3} & {value for value in returned if type(value) is int}
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["check", "."],
+        ["check", "--format", "json", "."],
+        ["check", "--fix", "--select", "PX001", "."],
+        ["rules"],
+        ["rules", "PX001"],
+        ["templates"],
+        ["interfaces"],
+        ["completion", "bash"],
+        ["update", "--dry-run", "."],
+        ["add", "timer", "ticker", "--diff"],
+        ["new", "other", "--dry-run", "--destination-directory", ".."],
+        ["--version"],
+        ["--help"],
+        ["check", "--help"],
+    ],
+    ids=" ".join,
+)
+def test_a_full_device(package: Path, words: Sequence[str], unbuffered: str) -> None:
+    run = shell(
+        'tool "$@" > /dev/full', package, *words, variables={"PYTHONUNBUFFERED": unbuffered}
+    )
+
+    errors = [line for line in run.stderr.splitlines() if line.startswith("ros2-scaffold:")]
+    assert errors == [f"ros2-scaffold: error: standard output: {NO_SPACE}"]
+    assert run.returncode == exit_codes.USAGE_ERROR
+    assert "Exception" not in run.stderr
+
+
+def test_a_closed_output_is_said_before_anything_is_written(package: Path, tmp_path: Path) -> None:
+    for words in (["check", str(package)], ["new", "made"], ["rules"], ["--version"]):
+        run = shell('tool "$@" >&-', tmp_path, *words)
+
+        assert run.returncode == exit_codes.USAGE_ERROR
+        assert run.stderr == (
+            "ros2-scaffold: error: standard output is closed: redirect it to /dev/null instead\n"
+        )
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_an_error_that_nobody_can_read_keeps_its_code(tmp_path: Path, where: str) -> None:
+    assert shell(f"tool check nowhere {where}", tmp_path).returncode == exit_codes.USAGE_ERROR
+    assert shell(f"tool check --no-flag {where}", tmp_path).returncode == exit_codes.USAGE_ERROR
+
+
+@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", "<&-"])
+def test_a_verdict_does_not_depend_on_other_streams(package: Path, where: str) -> None:
+    run = shell(f"tool check . {where}", package)
+
+    assert run.returncode == exit_codes.FINDINGS
+    assert "PX001" in run.stdout
+
+
+def test_no_file_is_opened_in_place_of_a_closed_stream(tmp_path: Path) -> None:
+    run = shell("tool new made <&- 2>&-", tmp_path)
+
+    assert run.returncode == exit_codes.CLEAN
+    assert shell("tool check made", tmp_path).returncode == exit_codes.CLEAN
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize(
+    "words",
+    [["check", "."], ["rules"], ["interfaces"], ["--help"], ["new", "made", "--dry-run"]],
+    ids=" ".join,
+)
+def test_a_broken_pipe_is_never_a_clean_end(
+    package: Path, tmp_path: Path, words: Sequence[str], unbuffered: str
+) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    # The reader is there when the writer opens the pipe, and gone before anything is written.
+    script = 'exec 3<>"$1"; exec 4>"$1"; exec 3<&-; shift; tool "$@" >&4; echo $? >&2'
+    where = package if words[0] == "check" else tmp_path
+    variables = {"PYTHONUNBUFFERED": unbuffered}
+    run = shell(script, where, str(tmp_path / "pipe"), *words, variables=variables)
+
+    *notes, code = run.stderr.splitlines()
+    assert code == str(exit_codes.BROKEN_PIPE)
+    assert all(line.startswith("note: ") for line in notes)
+
+
+@pytest.mark.parametrize("verb", sorted({*VERBS} - {"completion"}))
+def test_a_removed_directory(tmp_path: Path, verb: str) -> None:
+    script = 'mkdir gone && cd gone && rmdir ../gone && tool "$@"'
+    more = {"add": ["timer", "x"], "new": ["made"]}.get(verb, [])
+    run = shell(script, tmp_path, verb, *more)
+
+    assert run.stderr == (
+        "ros2-scaffold: error: the current directory is gone: change to another one\n"
+    )
+    assert run.returncode == exit_codes.USAGE_ERROR
+
+
+@pytest.mark.parametrize("home", [None, "/nonexistent", "/dev/null", ""])
+def test_a_home_that_cannot_be_used(package: Path, home: str | None) -> None:
+    variables = {"HOME": home, "XDG_CACHE_HOME": None, "XDG_CONFIG_HOME": None}
+    run = shell("tool check .", package, variables=variables)
+
+    assert (run.returncode, run.stderr) == (exit_codes.FINDINGS, "")
+
+
+def test_no_place_for_scratch_files_is_one_line_at_most(package: Path) -> None:
+    run = shell("tool check .", package, variables={"TMPDIR": "/nonexistent"})
+
+    assert (run.returncode, run.stderr) == (exit_codes.FINDINGS, "")
+
+
+def test_an_encoding_that_lacks_letters(tmp_path: Path) -> None:
+    run = shell("tool check t\u00e4lker", tmp_path, variables={"PYTHONIOENCODING": "ascii"})
+
+    assert run.stderr == "ros2-scaffold: error: t\\xe4lker: no such file or directory\n"
+    assert run.returncode == exit_codes.USAGE_ERROR
+
+
+def test_control_c(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "answers.yaml")
+    run = subprocess.Popen(
+        [*TOOL, "new", "made", "--answers", "answers.yaml"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    with open(tmp_path / "answers.yaml", "w", encoding="utf-8"):
+        run.send_signal(signal.SIGINT)
+        _, error = run.communicate(timeout=PATIENCE)
+
+    assert error == "ros2-scaffold: interrupted\n"
+    assert run.returncode == exit_codes.INTERRUPTED
+    assert not (tmp_path / "made").exists()

@@ -1,0 +1,116 @@
+"""``templates``: what there is, and whether the templates of a team make right packages."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from scaffold import content
+from scaffold.cli.main import main
+from scaffold.generate.templates import template
+
+needs_ros = pytest.mark.skipif(
+    find_spec("rclpy") is None and not Path("/opt/ros").exists(),
+    reason="no ROS 2: install the extra 'ros' of this project",
+)
+
+
+@pytest.fixture(autouse=True)
+def _own_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No setting of the machine reaches a test."""
+    for name in ("HOME", "XDG_CONFIG_HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+
+
+@pytest.fixture
+def team(tmp_path: Path) -> Path:
+    """Return a content directory with an extra that writes a CITATION file."""
+    extra = tmp_path / "team" / "templates" / "citation"
+    extra.mkdir(parents=True)
+    (extra / "template.yaml").write_text(
+        "summary: A citation file\n"
+        "role: extra\n"
+        "questions:\n"
+        "  year_of_paper: { default: 2026, help: when it came out }\n"
+        "examples:\n"
+        "  plain: { package: cited_package }\n"
+    )
+    (extra / "CITATION.cff.jinja").write_text("title: {{ package }}\nyear: {{ year_of_paper }}\n")
+    return tmp_path / "team"
+
+
+def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["templates"]) == 0
+    said = capsys.readouterr().out
+    for name, one in template.load(content.roots("templates")).items():
+        assert any(line.split() == [name, *one.summary.split()] for line in said.split("\n")), name
+
+
+def test_those_of_a_team(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["templates", "list", str(team)]) == 0
+    assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
+    assert main(["templates", "--content", str(team)]) == 0
+    assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
+
+
+def test_good_ones(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["templates", "test", str(team)]) == 0
+    assert capsys.readouterr().out == (
+        "citation: plain, ament_cmake: ok\ncitation: plain, ament_python: ok\n2 examples, 0 wrong\n"
+    )
+
+
+def test_one_that_makes_a_bad_package(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    extra = team / "templates" / "citation"
+    (extra / "{{ package }}").mkdir()
+    (extra / "{{ package }}" / "cite.py.jinja").write_text('{{ header }}\n\nX = "x"\n')
+    assert main(["templates", "test", str(team)]) == 1
+    said = capsys.readouterr().out
+    assert "citation: plain, ament_cmake: wrong\n    cited_package/cite.py:" in said
+    assert ": Q000 " in said
+    assert said.endswith("2 examples, 2 wrong\n")
+
+
+def test_one_that_cannot_be_rendered(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (team / "templates" / "citation" / "CITATION.cff.jinja").write_text("{{ who }}\n")
+    assert main(["templates", "test", str(team)]) == 1
+    assert "    template 'citation/CITATION.cff.jinja'" in capsys.readouterr().out
+
+
+def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = team / "templates" / "citation" / "template.yaml"
+    path.write_text(path.read_text().partition("examples:")[0])
+    assert main(["templates", "test", str(team)]) == 1
+    said = capsys.readouterr()
+    assert said.err == "note: citation has no examples: nothing of it was tested\n"
+    assert said.out == "0 examples, 0 wrong\n"
+
+
+def test_a_directory_without_templates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["templates", "test", str(tmp_path)]) == 2
+    assert "there is no directory templates in it" in capsys.readouterr().err
+
+
+@pytest.mark.build
+@needs_ros
+def test_building(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["templates", "test", str(team), "--build"]) == 0
+    said = capsys.readouterr().out
+    assert "citation: plain, ament_cmake: built\n" in said
+    assert "citation: plain, ament_python: built\n" in said
+    program = team / "templates" / "cpp_broken" / "src"
+    program.mkdir(parents=True)
+    (program.parent / "template.yaml").write_text(
+        "summary: does not compile\nrole: program\nbuild_types: [ament_cmake]\n"
+        "questions: { program_name: { type: program, default: broken, help: its name } }\n"
+        "examples: { alone: { package: broken_program } }\n"
+    )
+    (program / "{{ program.name }}.cpp.jinja").write_text(
+        "{{ header | slashes }}\n\nint main()\n{\n  return nothing;\n}\n"
+    )
+    assert main(["templates", "test", str(team), "--build"]) == 1
+    said = capsys.readouterr().out
+    assert "cpp_broken: alone, ament_cmake: does not build\n" in said
+    assert "nothing" in said

@@ -1,0 +1,178 @@
+"""What a package may have besides its parts: launch file, CI, pre-commit, container, .gitignore."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from scaffold import content
+from scaffold.check import registry
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.cli.main import main
+from scaffold.diagnostic import Diagnostic
+from scaffold.errors import InputError
+from scaffold.generate import draft
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates import licenses, template
+from scaffold.generate.templates.template import Role
+from scaffold.model.package import Package
+from tests import oracles
+
+ROOTS = content.roots("templates")
+TEMPLATES = template.load(ROOTS)
+EXTRAS = template.of_role(TEMPLATES, Role.EXTRA)
+BUILD_TYPES = template.of_role(TEMPLATES, Role.BUILD_TYPE)
+
+
+def make(**answers: object) -> dict[str, str]:
+    """Return the files of a package that passes every rule."""
+    given = {"maintainer_name": "Ada", "maintainer_email": "ada@example.com", **answers}
+    asked = {name: Given(value, f"--{name}") for name, value in given.items()}
+    made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
+    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    return dict(made.rendered.files)
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+@pytest.mark.parametrize("comments", ["brief", "tutorial"])
+def test_all_extras_together(build_type: str, comments: str) -> None:
+    files = make(package="talker", build_type=build_type, comments=comments, extras=list(EXTRAS))
+    assert {
+        ".devcontainer/devcontainer.json",
+        ".github/workflows/ci.yaml",
+        ".gitignore",
+        ".pre-commit-config.yaml",
+        "config/talker.yaml",
+        "launch/talker.launch.py",
+    } < set(files)
+
+
+def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
+    files = make(
+        package="conversation",
+        extras="launch",
+        add=["publisher:talker", {"kind": "publisher", "name": "announcer", "topic": "on"}],
+        rate=5,
+    )
+    launched = [line.strip() for line in files["launch/conversation.launch.py"].split("\n")]
+    assert [line for line in launched if line.startswith("executable=")] == [
+        "executable='talker.py',",
+        "executable='announcer.py',",
+    ]
+    assert launched.count("parameters=[config / 'conversation.yaml'],") == 2
+    parameters: Any = yaml.safe_load(files["config/conversation.yaml"])
+    assert parameters == {
+        "talker": {"ros__parameters": {"topic": "example_topic", "rate": 5.0}},
+        "announcer": {"ros__parameters": {"topic": "on", "rate": 5.0}},
+    }
+    for kind in ("ament_index_python", "launch", "launch_ros"):
+        assert f"<exec_depend>{kind}</exec_depend>" in files["package.xml"]
+    assert "ros2 launch conversation conversation.launch.py" in files["README.md"]
+    assert "    config\n    launch\n  DESTINATION share/${PROJECT_NAME}" in files["CMakeLists.txt"]
+
+
+def test_long_names_fit_on_their_lines() -> None:
+    for build_type in BUILD_TYPES:
+        make(package="p" * 48, build_type=build_type, extras=list(EXTRAS), node_name="n" * 48)
+
+
+def test_a_package_without_nodes_has_nothing_to_launch() -> None:
+    files = make(package="tools", extras=["launch"], add=["cpp_program:tool"])
+    assert not [path for path in files if path.startswith(("launch", "config"))]
+    assert "ros2 launch" not in files["README.md"]
+
+
+def test_the_workflow_builds_and_tests_the_package() -> None:
+    workflow: Any = yaml.safe_load(make(package="talker", extras="ci")[".github/workflows/ci.yaml"])
+    job = workflow["jobs"]["test"]
+    commands = "\n".join(step.get("run", "") for step in job["steps"])
+    assert job["steps"][0]["with"]["path"] == "src/talker"
+    for command in ("rosdep install", "colcon build", "--return-code-on-test-failure"):
+        assert command in commands
+
+
+def test_pre_commit_accepts_its_configuration(tmp_path: Path) -> None:
+    path = tmp_path / ".pre-commit-config.yaml"
+    path.write_text(make(package="talker", extras="pre_commit")[path.name])
+    command = [sys.executable, "-m", "pre_commit", "validate-config", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_container_has_the_package_in_a_workspace() -> None:
+    files = make(package="talker", extras="devcontainer")
+    container = json.loads(files[".devcontainer/devcontainer.json"])
+    assert container["workspaceFolder"] == "/ros2_ws/src/talker"
+
+
+def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
+    (tmp_path / ".gitignore").write_text(make(package="talker", extras="gitignore")[".gitignore"])
+    subprocess.run(["git", "init", "-q", str(tmp_path)], check=True)
+    paths = ["build/x", "install/x", "log/x", "talker/__pycache__/a.pyc", "talker/talker.py"]
+    done = subprocess.run(
+        ["git", "-C", str(tmp_path), "check-ignore", *paths],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stdout.split() == paths[:-1]
+
+
+def test_commas_separate_extras() -> None:
+    files = make(package="talker", extras=["ci,pre_commit", "gitignore"])
+    assert files == make(package="talker", extras=["ci", "pre_commit", "gitignore"])
+
+
+def test_an_extra_that_does_not_exist() -> None:
+    with pytest.raises(InputError, match=r"--extras: 'lunch' is not one of .*did you mean launch"):
+        make(package="talker", extras=["lunch"])
+
+
+def write(directory: Path, files: dict[str, str]) -> Path:
+    """Write a package that is a git repository of its own."""
+    for path, text in files.items():
+        (directory / path).parent.mkdir(parents=True, exist_ok=True)
+        (directory / path).write_text(text)
+    subprocess.run(["git", "init", "-q", str(directory)], check=True)
+    return directory
+
+
+@oracles.needs_system_linter("ament_copyright")
+@pytest.mark.parametrize("license_", licenses.names(ROOTS))
+def test_ament_copyright_accepts_a_package_that_is_a_repository(
+    license_: str, tmp_path: Path
+) -> None:
+    files = make(package="talker", extras=["ci"], license=license_)
+    talker = write(tmp_path / "talker", files)
+    assert oracles.ament_copyright(talker) == set()
+    assert [one.code for one in check(talker) if one.code == "LY022"] == []
+    (talker / "CONTRIBUTING.md").unlink()
+    assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
+    assert [one.code for one in check(talker) if one.code == "LY022"] == ["LY022"]
+
+
+@pytest.mark.parametrize("extra", ["ci", "pre_commit", "devcontainer"])
+def test_add_brings_what_a_repository_needs(extra: str, tmp_path: Path) -> None:
+    person = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    assert main(["new", "talker", *person, "--destination-directory", str(tmp_path)]) == 0
+    talker = write(tmp_path / "talker", {})
+    command = ["add", extra, "--package-directory", str(talker)]
+    assert main(command) == 0
+    assert check(talker) == []
+    (talker / "CONTRIBUTING.md").write_text("Please do.\n")
+    assert main(command) == 0
+    assert (talker / "CONTRIBUTING.md").read_text() == "Please do.\n"
+
+
+def check(directory: Path) -> list[Diagnostic]:
+    """Return what the checker says of a package."""
+    session = Session(registry.load(content.roots("rules")), Selection())
+    return session.check(Package.at(str(directory)))

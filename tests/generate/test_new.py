@@ -1,0 +1,1181 @@
+"""`ros2-scaffold new`: what is rendered, what is refused, what is written."""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import os
+import subprocess
+from pathlib import Path
+from textwrap import dedent
+from typing import Any
+
+import pytest
+from lxml import etree
+
+from scaffold import content, trust
+from scaffold.check.rule import Rule
+from scaffold.cli.main import main
+from scaffold.errors import ContentError, InputError
+from scaffold.generate import draft, examples, payload
+from scaffold.generate.questions import answer_types, names
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.qos import qos
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates import filters, licenses, template
+
+ROOTS = content.roots("templates")
+TEMPLATES = template.load(ROOTS)
+BUILD_TYPES = ("ament_cmake", "ament_python")
+COMMENTS = ("brief", "tutorial")
+TYPES = (
+    *("Bool", "Byte", "Char", "Float32", "Float64", "Header", "String"),
+    *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)),
+)
+COMBINATIONS = list(itertools.product(BUILD_TYPES, COMMENTS, TYPES))
+EXAMPLES = [
+    pytest.param(example.answers, id=f"{name}-{example.title}")
+    for name, one in TEMPLATES.items()
+    for example in examples.of(one, TEMPLATES)
+]
+
+COMMON_FILES = {
+    "CHANGELOG.rst",
+    "LICENSE",
+    "README.md",
+    "package.xml",
+    "talker/__init__.py",
+    "talker/minimal_publisher.py",
+    "test/test_minimal_publisher.py",
+}
+FILES = {
+    "ament_cmake": COMMON_FILES | {"CMakeLists.txt"},
+    "ament_python": COMMON_FILES
+    | {"setup.py", "setup.cfg", "resource/talker"}
+    | {f"test/test_{linter}.py" for linter in ("copyright", "flake8", "pep257")},
+}
+
+
+@pytest.fixture(autouse=True)
+def _own_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No setting of the machine reaches a test."""
+    home = tmp_path / "home"
+    home.mkdir()
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(home / ".config"))
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(home / ".gitconfig"))
+    monkeypatch.setenv("GIT_CONFIG_SYSTEM", os.devnull)
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1760000000")
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    (home / ".gitconfig").write_text("[user]\nname = Ada Lovelace\nemail = ada@example.com\n")
+    work = tmp_path / "work"
+    work.mkdir()
+    monkeypatch.chdir(work)
+
+
+def make(**answers: object) -> draft.Draft:
+    """Render a package."""
+    given = {"package": "talker", **answers}
+    asked = {name: Given(value, f"--{name}") for name, value in given.items()}
+    return draft.draft(ROOTS, TEMPLATES, asked, User("."))
+
+
+def files_of(**answers: object) -> dict[str, str]:
+    return dict(make(**answers).rendered.files)
+
+
+# -- every combination
+
+
+@pytest.mark.parametrize(("build_type", "comments", "name"), COMBINATIONS)
+def test_every_combination(build_type: str, comments: str, name: str) -> None:
+    made = make(build_type=build_type, comments=comments, message_type=f"std_msgs/msg/{name}")
+    files = made.rendered.files
+    assert set(files) == FILES[build_type]
+    assert made.rendered.executable == {"talker/minimal_publisher.py"}
+    for path, text in files.items():
+        assert_tidy(path, text)
+    for path in filter(lambda path: path.endswith(".py"), files):
+        ast.parse(files[path], path)
+    node = files["talker/minimal_publisher.py"]
+    filled = payload.payload(f"std_msgs/msg/{name}")
+    assert node.startswith("#!/usr/bin/env python3\n# Copyright 2025 Ada Lovelace\n")
+    assert f"\nfrom std_msgs.msg import {name}\n" in node
+    assert "('rate', 2.0).value" in node
+    assert ("frame_id" in node) == (name == "Header")
+    for statement in filled.statements:
+        assert f"        {statement}\n" in node
+    comment_lines = [line for line in node.splitlines() if line.startswith("        # ")]
+    assert bool(comment_lines) == (comments == "tutorial")
+    readme = files["README.md"]
+    assert f"| `/example_topic` | `std_msgs/msg/{name}` | published |" in readme
+    executable = "minimal_publisher.py" if build_type == "ament_cmake" else "minimal_publisher"
+    assert made.executables == (executable,)
+    assert f"\nros2 run talker {executable}\n" in readme
+
+
+def assert_tidy(path: str, text: str) -> None:
+    assert "\t" not in text or path == "LICENSE", path
+    assert "{{" not in text, path
+    assert "{%" not in text, path
+    assert "#:" not in text, path
+    assert not text or text.endswith("\n"), path
+    assert not text.endswith("\n\n"), path
+    assert "\n\n\n" not in text or path.endswith((".py", "LICENSE")), path
+    for line in text.splitlines():
+        assert line == line.rstrip(), path
+
+
+def test_brief_node() -> None:
+    node = files_of()["talker/minimal_publisher.py"]
+    assert node.partition("# limitations under the License.\n")[2] == dedent('''
+        """
+        Publish std_msgs/msg/String messages at a fixed rate.
+
+        Publishes:
+            /example_topic (std_msgs/msg/String)
+                a greeting with a counter
+        Subscribes to:
+            nothing
+
+        Author: Ada Lovelace
+        Date: 2025-10-09
+        """
+
+        import signal
+
+        import rclpy
+        from rclpy.executors import ExternalShutdownException
+        from rclpy.node import Node
+        from std_msgs.msg import String
+
+
+        class MinimalPublisher(Node):
+            """Publish a greeting with a counter."""
+
+            def __init__(self):
+                """Declare the parameters, then create the publisher and its timer."""
+                super().__init__('minimal_publisher')
+                topic = self.declare_parameter('topic', 'example_topic').value
+                rate = self.declare_parameter('rate', 2.0).value  # messages per second
+                self.publisher = self.create_publisher(String, topic, 10)
+                self.timer = self.create_timer(1.0 / rate, self.publish_message)
+                self.count = 0
+
+            def publish_message(self):
+                """Log the next message and publish it."""
+                msg = String()
+                msg.data = f'Hello World: {self.count}'
+                self.get_logger().info(f'Publishing: {msg.data}')
+                self.publisher.publish(msg)
+                self.count += 1
+
+
+        def main(args=None):
+            """Run the node until Ctrl+C (SIGINT) or SIGTERM."""
+            signal.signal(signal.SIGTERM, signal.default_int_handler)  # rclpy alone may miss one
+            rclpy.init(args=args)
+            node = None
+            try:
+                node = MinimalPublisher()
+                rclpy.spin(node)
+            except (KeyboardInterrupt, ExternalShutdownException):
+                pass
+            except RuntimeError:
+                if rclpy.ok():  # otherwise a signal ended the context while the node was using it
+                    raise
+            finally:
+                if node is not None:
+                    node.destroy_node()
+                rclpy.try_shutdown()
+
+
+        if __name__ == '__main__':
+            main()
+        ''')
+
+
+def test_cmake_sections_in_the_order_of_the_tutorial() -> None:
+    lists = files_of()["CMakeLists.txt"]
+    commands = [
+        line.partition("(")[0] for line in lists.splitlines() if line[:1].isalpha() and "(" in line
+    ]
+    assert commands == [
+        "cmake_minimum_required",
+        "project",
+        "find_package",
+        "find_package",
+        "ament_python_install_package",
+        "install",
+        "if",
+        "endif",
+        "ament_package",
+    ]
+    assert "rclcpp" not in lists
+    assert "include" not in lists
+
+
+@pytest.mark.parametrize(
+    ("build_type", "expected"),
+    [
+        (
+            "ament_cmake",
+            {
+                "buildtool_depend": ["ament_cmake", "ament_cmake_python"],
+                "exec_depend": ["python3-numpy", "rclpy", "sensor_msgs", "std_msgs"],
+                "test_depend": [
+                    "ament_cmake_pytest",
+                    "ament_index_python",
+                    "ament_lint_auto",
+                    "ament_lint_common",
+                ],
+            },
+        ),
+        (
+            "ament_python",
+            {
+                "exec_depend": ["python3-numpy", "rclpy", "sensor_msgs", "std_msgs"],
+                "test_depend": [
+                    "ament_copyright",
+                    "ament_flake8",
+                    "ament_index_python",
+                    "ament_pep257",
+                    "python3-pytest",
+                ],
+            },
+        ),
+    ],
+)
+def test_dependencies(build_type: str, expected: dict[str, list[str]]) -> None:
+    wanted = ["std_msgs", "sensor_msgs", "python3-numpy", "sensor_msgs"]
+    manifest = etree.fromstring(
+        files_of(build_type=build_type, dependencies=wanted)["package.xml"].encode()
+    )
+    found: dict[str, list[str]] = {}
+    for element in manifest:
+        if element.tag.endswith("_depend"):
+            found.setdefault(element.tag, []).append(element.text or "")
+    assert found == expected
+    assert manifest.findtext("export/build_type") == build_type
+
+
+def test_a_dependency_of_the_test_moves_to_run_time() -> None:
+    manifest = files_of(dependencies="ament_index_python")["package.xml"]
+    assert "<exec_depend>ament_index_python<" in manifest
+    assert "<test_depend>ament_index_python<" not in manifest
+
+
+def test_private_topics_frames_profiles_and_class_names() -> None:
+    files = files_of(
+        node_name="node", topic="~/beat", message_type="std_msgs/Header", qos="sensor_data"
+    )
+    node = files["talker/node.py"]
+    assert "class NodeNode(Node):" in node
+    assert "    node = NodeNode()\n" in node
+    assert "('topic', '~/beat')" in node
+    assert "    /node/beat (std_msgs/msg/Header)\n" in node
+    assert "self.create_publisher(Header, topic, qos_profile_sensor_data)" in node
+    assert "msg.frame_id = self.frame_id" in node
+    assert "self.count" not in node
+    test = files["test/test_node.py"]
+    assert "TOPIC = '/node/beat'\n" in test
+    assert "QOS = qos_profile_sensor_data\n" in test
+    assert names.class_name("header", ["Header"]) == "HeaderNode"
+    assert names.class_name("action_client") == "ActionClientNode"
+
+
+@pytest.mark.parametrize("given", EXAMPLES)
+@pytest.mark.parametrize("comments", COMMENTS)
+def test_examples_pass_every_rule(given: dict[str, Any], comments: str) -> None:
+    made = make(**{"comments": comments, **given})
+    assert draft.defects(made, rules()) == []
+
+
+@pytest.mark.parametrize("license_", licenses.names(ROOTS))
+def test_every_licence_passes_every_rule(license_: str) -> None:
+    for build_type in BUILD_TYPES:
+        made = make(build_type=build_type, license=license_)
+        assert draft.defects(made, rules()) == []
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+def test_the_longest_names_pass_every_rule(build_type: str) -> None:
+    made = make(
+        package="p" * names.MAX_LENGTH,
+        node_name="n" * names.MAX_LENGTH,
+        build_type=build_type,
+        comments="tutorial",
+        topic="t" * (names.MAX_TOPIC - 1),
+        message_type="std_msgs/msg/Float64",
+        qos="action_status_default",
+        description="word " * 200 + "w" * 300,
+        maintainer_name="M" * answer_types.MAX_PERSON,
+        maintainer_email="m" * (answer_types.MAX_PERSON - 12) + "@example.com",
+    )
+    assert draft.defects(made, rules()) == []
+
+
+def rules() -> list[type[Rule]]:
+    from scaffold.check import registry
+
+    return registry.load(content.roots("rules"))
+
+
+# -- text that must survive
+
+HOSTILE = [
+    'Bob\'s "robot"',
+    "a & b <c> &amp; ]]>",
+    "{{ package }} {% raw %} {# x #}",
+    "${PROJECT_NAME} $(pwd) `id` %s \\n \\",
+    "*bold* _it_ [x](y) | # 1. > -",
+    "- starts like a list",
+    "1. starts like a list",
+    "Grüße, 日本語, \U0001f916, a\u00adb\u200bc",
+    "'''\"\"\"",
+    "#: not a comment",
+    "x" * 400,
+    "it's " * 60,
+    '"quoted" and it\'s ' * 20,
+]
+
+
+@pytest.mark.parametrize("description", HOSTILE)
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+def test_descriptions_come_out_right(description: str, build_type: str) -> None:
+    expected = " ".join(description.split())
+    made = make(description=description, build_type=build_type)
+    files = made.rendered.files
+    manifest = etree.fromstring(files["package.xml"].encode())
+    assert manifest.findtext("description") == expected
+    assert filters.markdown(expected) in files["README.md"].splitlines()
+    if build_type == "ament_python":
+        assert setup_arguments(files["setup.py"])["description"] == expected
+        assert max(map(len, files["setup.py"].splitlines())) <= filters.MAX_COLUMNS
+    assert draft.defects(made, rules()) == []
+
+
+def test_line_breaks_in_a_description_are_folded() -> None:
+    files = files_of(description="one\r\ntwo\n\n  three\t", build_type="ament_python")
+    assert "<description>one two three</description>" in files["package.xml"]
+    assert "    description='one two three',\n" in files["setup.py"]
+
+
+@pytest.mark.parametrize(
+    ("description", "message"),
+    [
+        (" \n", "must not be empty"),
+        ("a\0b", r"holds the character U\+0000"),
+        ("a\x1b[1mb", r"holds the character U\+001B"),
+        ("a\udcffb", r"holds the character U\+DCFF"),
+        ("TODO: say it", "is a placeholder"),
+    ],
+)
+def test_descriptions_that_are_refused(description: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(description=description)
+
+
+def test_metadata_agree() -> None:
+    files = files_of(build_type="ament_python", maintainer_name="Seán O'Brien & Co", license="MIT")
+    manifest = etree.fromstring(files["package.xml"].encode())
+    setup = setup_arguments(files["setup.py"])
+    maintainer = manifest.find("maintainer")
+    assert maintainer is not None
+    assert setup["version"] == manifest.findtext("version")
+    assert setup["description"] == manifest.findtext("description")
+    assert setup["license"] == manifest.findtext("license") == "MIT"
+    assert setup["maintainer"] == maintainer.text == "Seán O'Brien & Co"
+    assert setup["maintainer_email"] == maintainer.get("email") == "ada@example.com"
+    assert '    maintainer="Seán O\'Brien & Co",\n' in files["setup.py"]
+    assert "Copyright (c) 2025 Seán O'Brien & Co" in files["LICENSE"]
+    assert "setup.py" not in files_of()
+
+
+def setup_arguments(text: str) -> dict[str, Any]:
+    """Return the literal keyword arguments of ``setup()``."""
+    call = next(
+        node
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "setup"
+    )
+    found: dict[str, Any] = {}
+    for keyword in call.keywords:
+        if keyword.arg and isinstance(keyword.value, ast.Constant):
+            found[keyword.arg] = keyword.value.value
+    return found
+
+
+# -- names
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("Bad Name", "underscores, starting with a letter, such as bad_name$"),
+        ("my-robot", "such as my_robot$"),
+        ("MyRobot", "such as my_robot$"),
+        ("my__robot", "such as my_robot$"),
+        ("robot_", "such as robot$"),
+        ("9lives", "such as lives$"),
+        ("größe", "such as gr_e$"),
+        ("../evil", "such as evil$"),
+        ("", "'' has 0 characters; it must have 2 to 48$"),
+        ("a", "'a' has 1 character; it must have 2 to 48$"),
+        ("a" * 49, "has 49 characters; it must have 2 to 48$"),
+        ("class", "'class' is a keyword of Python; choose another one$"),
+        ("test", "'test' is the name of a CMake target; choose another one$"),
+        ("install", "is the name of a CMake target"),
+        ("src", "is the name of a directory in workspaces and packages"),
+        ("resource", "is the name of a directory"),
+        ("logging", "is a module of the Python standard library"),
+        ("rclpy", "is an existing ROS package"),
+        ("std_msgs", "is an existing ROS package"),
+        ("nav2_msgs", "is an existing ROS package"),
+        ("numpy", "is an existing Python package"),
+    ],
+)
+def test_package_names_that_are_refused(name: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(package=name)
+
+
+def test_installed_packages_are_existing_ones(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    index = tmp_path / "opt" / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "our_robot").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path / 'opt'}")
+    with pytest.raises(InputError, match=r"'our_robot' is a package installed in .*/opt"):
+        make(package="our_robot")
+    make(package="our_robots")
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("talker", "--node-name: 'talker' is the name of the package"),
+        ("random", "would hide the Python module random"),
+        ("rclpy", "would hide the Python module rclpy"),
+        ("yaml", "would hide the Python module yaml"),
+        ("import", "is a keyword of Python"),
+        ("test_node", "is the name of a test file for pytest"),
+        ("node_test", "is the name of a test file for pytest"),
+        ("flake8", "would hide the Python module flake8"),
+        ("copyright", "is the name of a test file"),
+        ("my-node", "such as my_node$"),
+        ("MinimalPublisher", "such as minimal_publisher$"),
+        ("n" * 49, "has 49 characters"),
+    ],
+)
+def test_node_names_that_are_refused(name: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(node_name=name)
+
+
+@pytest.mark.parametrize(
+    ("topic", "message"),
+    [
+        ("a//b", "must be words of letters"),
+        ("/", "must be words of letters"),
+        ("", "must be words of letters"),
+        ("~", "must be words of letters"),
+        ("~x", "must be words of letters"),
+        ("x/", "must be words of letters"),
+        ("a b", "must be words of letters"),
+        ("a/1b", "none starting with a digit"),
+        ("{node}/x", "must be words of letters"),
+        ("a'b", "must be words of letters"),
+        ("a__b", "two underscores in a row"),
+        ("rosout", "one that ROS itself uses"),
+        ("/parameter_events", "one that ROS itself uses"),
+        ("t" * 65, "has 65 characters; the limit is 64"),
+        ("~/" + "t" * 62, "'/minimal_publisher/t*' in full, 81 characters long"),
+    ],
+)
+def test_topics_that_are_refused(topic: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(topic=topic)
+
+
+@pytest.mark.parametrize("topic", ["x", "/x", "~/x", "a/b_c/D1", "/a/b", "_hidden"])
+def test_topics_that_are_fine(topic: str) -> None:
+    assert f"'topic', '{topic}'" in files_of(topic=topic)["talker/minimal_publisher.py"]
+
+
+# -- numbers and types
+
+
+@pytest.mark.parametrize(
+    ("rate", "written"), [("2", "2.0"), (10, "10.0"), ("0.001", "0.001"), ("1e4", "10000.0")]
+)
+def test_rates(rate: object, written: str) -> None:
+    files = files_of(rate=rate)
+    assert f"('rate', {written}).value" in files["talker/minimal_publisher.py"]
+    assert f"how often: {written} Hz" in files["README.md"]
+
+
+@pytest.mark.parametrize("rate", ["0", "-1", "nan", "inf", "1e9", "0.0001"])
+def test_rates_out_of_range(rate: str) -> None:
+    with pytest.raises(InputError, match=f"--rate: {rate} Hz is not between 0.001 and 10000 Hz"):
+        make(rate=rate)
+
+
+def test_a_rate_is_a_number() -> None:
+    for rate in ("fast", "", True, [2]):
+        with pytest.raises(InputError, match="--rate: "):
+            make(rate=rate)
+
+
+@pytest.mark.parametrize(
+    ("name", "statements"),
+    [
+        ("String", ("msg.data = f'Hello World: {self.count}'",)),
+        ("Bool", ("msg.data = self.count % 2 == 0",)),
+        ("Byte", ("msg.data = bytes([self.count % 256])",)),
+        ("Char", ("msg.data = self.count % 256",)),
+        ("Int8", ("msg.data = self.count % 128",)),
+        ("UInt16", ("msg.data = self.count % 65536",)),
+        ("Int32", ("msg.data = self.count % 2**31",)),
+        ("UInt64", ("msg.data = self.count",)),
+        ("Float32", ("msg.data = math.sin(self.count / 10.0)",)),
+        (
+            "Header",
+            ("msg.stamp = self.get_clock().now().to_msg()", "msg.frame_id = self.frame_id"),
+        ),
+    ],
+)
+def test_payloads(name: str, statements: tuple[str, ...]) -> None:
+    assert payload.payload(f"std_msgs/{name}").statements == statements
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("std_msgs/msg/Sting", "did you mean std_msgs/msg/String"),
+        ("Sting", "did you mean std_msgs/msg/String"),
+        ("std_msgs/msg/string", "did you mean std_msgs/msg/String"),
+        ("std_msgs/msg/Int9", "did you mean std_msgs/msg/Int"),
+        ("geometry_msgs/msg/Twits", "did you mean geometry_msgs/msg/Twist"),
+        ("", "unknown message type ''"),
+        ("std_srvs/srv/Empty", "'std_srvs/srv/Empty' is a type of services, not of messages"),
+    ],
+)
+def test_unknown_message_types(name: str, message: str) -> None:
+    with pytest.raises(InputError, match=f"--message_type: .*{message}"):
+        make(message_type=name)
+
+
+@pytest.mark.parametrize(
+    ("address", "message"),
+    [
+        ("todo", "is a placeholder"),
+        ("a@b", "is not a mail address"),
+        ("a b@example.com", "is not a mail address"),
+        ("ada@exämple.com", "is not a mail address"),
+        ("root@todo.todo", "is a placeholder that reaches nobody"),
+        ("a" * 60 + "@example.com", "has more than 60 characters"),
+    ],
+)
+def test_addresses_that_are_refused(address: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(maintainer_email=address)
+
+
+@pytest.mark.parametrize("name", ["", 'A "B" C', "a\\b", "x" * 61, "TODO"])
+def test_persons_that_are_refused(name: str) -> None:
+    with pytest.raises(InputError, match="--maintainer_name: "):
+        make(maintainer_name=name)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("talker", "--dependencies: talker is the package itself"),
+        ("ament_cmake", "--dependencies: ament_cmake builds the package"),
+        ("a b;c", "the dependency 'b;c' is not the name of a package"),
+        (7, "the dependency '7' is not the name"),
+    ],
+)
+def test_dependencies_that_are_refused(given: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        make(dependencies=given)
+
+
+@pytest.mark.parametrize(
+    ("given", "near"),
+    [("mit", "MIT or MIT-0"), ("Apache 2.0", "Apache-2.0"), ("GPLv3", "GPL-3.0"), ("BSD", "BSD")],
+)
+def test_unknown_licences(given: str, near: str) -> None:
+    message = f"--license: '{given}' is not one of Apache-2.0, .*; did you mean .*{near}"
+    with pytest.raises(InputError, match=message):
+        make(license=given)
+
+
+def test_what_a_licence_really_grants_is_said() -> None:
+    (remark,) = make(license="GPL-3.0-only").remarks
+    assert remark.startswith("the header that ament_copyright accepts for GPL-3.0-only grants")
+    assert make(license="GPL-3.0-or-later").remarks == ()
+
+
+# -- text for languages
+
+
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("plain", "'plain'"),
+        ("it's", '"it\'s"'),
+        ('say "x"', "'say \"x\"'"),
+        ('it\'s "x"', "'it\\'s \"x\"'"),
+        ("back\\slash", "'back\\\\slash'"),
+        ("a\u00adb", "'a\\xadb'"),
+    ],
+)
+def test_python_literals(text: str, written: str) -> None:
+    assert filters.literal(text) == written
+    assert ast.literal_eval(written) == text
+
+
+def test_long_literals_break_after_blanks() -> None:
+    assert filters.literal("word " * 30, column=16, indent=8) == (
+        "(\n        '" + "word " * 17 + "'\n        '" + "word " * 13 + "'\n    )"
+    )
+
+
+def test_imports_are_sorted_as_ament_flake8_wants() -> None:
+    lines = [
+        "from std_msgs.msg import String",
+        "import rclpy",
+        "from rclpy.node import Node  # base",
+        "import sys",
+        "from pathlib import Path",
+        "from Xlib import X",
+        "import rclpy",
+    ]
+    assert filters.import_block(lines).splitlines() == [
+        "from pathlib import Path",
+        "import sys",
+        "",
+        "import rclpy",
+        "from rclpy.node import Node  # base",
+        "from std_msgs.msg import String",
+        "from Xlib import X",
+    ]
+
+
+# -- where answers come from
+
+
+def test_sources_of_answers(tmp_path: Path) -> None:
+    config = tmp_path / "home" / ".config" / "ros2-scaffold" / "config.toml"
+    config.parent.mkdir(parents=True)
+    config.write_text(
+        '[new]\nlicense = "MIT"\nmaintainer-email = "conf@example.com"\nrate = 5\nqos = 3\n'
+    )
+    (tmp_path / "work" / "answers.yaml").write_text("rate: 7\nqos: 4\ntopic: a/b\n")
+    assert main(["new", "talker", "--answers", "answers.yaml", "--qos", "9"]) == 0
+    node = (tmp_path / "work/talker/talker/minimal_publisher.py").read_text()
+    manifest = (tmp_path / "work/talker/package.xml").read_text()
+    assert "topic, 9)" in node  # flag
+    assert "('rate', 7.0)" in node  # answers file
+    assert "('topic', 'a/b')" in node
+    assert "<license>MIT</license>" in manifest  # configuration
+    assert '<maintainer email="conf@example.com">Ada Lovelace</maintainer>' in manifest  # git
+    assert "('rate', 2.0)" in files_of()["talker/minimal_publisher.py"]  # template
+
+
+def test_the_git_settings_are_those_of_the_destination(tmp_path: Path) -> None:
+    repository = tmp_path / "repository"
+    subprocess.run(["git", "init", "-q", repository], check=True)
+    subprocess.run(["git", "-C", repository, "config", "user.email", "work@b.org"], check=True)
+    given = {"package": Given("talker", "PACKAGE")}
+    made = draft.draft(ROOTS, TEMPLATES, given, User(str(repository / "src" / "new")))
+    assert 'email="work@b.org">Ada Lovelace<' in made.rendered.files["package.xml"]
+
+
+def test_without_git_settings_the_login_is_used_and_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "home" / ".gitconfig").unlink()
+    assert main(["new", "talker"]) == 0
+    said = capsys.readouterr().err
+    assert said.startswith("note: the maintainer is ")
+    assert said.count("\n") == 1
+    manifest = etree.parse(tmp_path / "work/talker/package.xml").getroot()
+    maintainer = manifest.find("maintainer")
+    assert maintainer is not None
+    assert maintainer.text
+    assert answer_types.address(maintainer.get("email"))
+
+
+def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    made = draft.draft(
+        ROOTS, TEMPLATES, {"package": Given("talker", "PACKAGE")}, User(str(tmp_path))
+    )
+    assert "the maintainer is" in made.remarks[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("rte: 2\n", "answers.yaml: 'rte' is no question of the templates; did you mean rate?"),
+        (
+            "zzz: 2\n",
+            "answers.yaml: 'zzz' is no question of the templates; known are ",
+        ),
+        ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
+        ("a: [\n", "answers.yaml:2: not YAML: "),
+        ("rate: 0\n", "answers.yaml: rate: 0 Hz is not between"),
+        ("comments: loud\n", "answers.yaml: comments: 'loud' is not one of brief, tutorial"),
+        ("topic: yes\n", "answers.yaml: topic: True is not a text"),
+    ],
+)
+def test_answers_files_that_are_refused(
+    text: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "work" / "answers.yaml").write_text(text)
+    assert_refused(capsys, ["new", "talker", "--answers", "answers.yaml"], message)
+
+
+def test_a_missing_answers_file(capsys: pytest.CaptureFixture[str]) -> None:
+    message = "nowhere.yaml: No such file or directory"
+    assert_refused(capsys, ["new", "talker", "--answers", "nowhere.yaml"], message)
+
+
+def test_an_unknown_key_in_the_configuration(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "work" / "ros2-scaffold.toml").write_text('[new]\nlicence = "MIT"\n')
+    message = "[new]: 'licence' is no question of the templates; did you mean license?"
+    assert_refused(capsys, ["new", "talker"], message)
+
+
+def test_the_date_can_be_fixed(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = files_of()
+    assert files_of() == first
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
+    with pytest.raises(InputError, match="SOURCE_DATE_EPOCH: 'yesterday' is not a number"):
+        make()
+
+
+# -- the command
+
+
+def test_help_names_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["new", "--help"])
+    assert stop.value.code == 0
+    said = capsys.readouterr().out
+    for flag in (
+        "--build-type {ament_cmake,ament_python}",
+        "--description",
+        "--license",
+        "--maintainer-name",
+        "--maintainer-email",
+        "--destination-directory",
+        "--dependencies",
+        "--node-name",
+        "--topic",
+        "--message-type",
+        "--rate",
+        "--qos",
+        "--comments {brief,tutorial}",
+        "--dry-run",
+        "--force",
+        "--answers",
+    ):
+        assert flag in said
+
+
+def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "ws" / "src"
+    source.mkdir(parents=True)
+    assert main(["new", "talker", "--destination-directory", str(source)]) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert said.out == dedent(f"""\
+        talker/
+            .ros2-scaffold.json            what `ros2-scaffold update` needs
+            CHANGELOG.rst                  what changed, for releases
+            CMakeLists.txt                 what is installed and tested
+            LICENSE                        the full text of the licence
+            README.md                      how to build it, run it and look at it
+            package.xml                    name, licence, dependencies
+            talker/
+                __init__.py                makes the directory a Python package
+                minimal_publisher.py       the node
+            test/
+                test_minimal_publisher.py  starts the node, receives messages, stops it
+
+        Next:
+            ros2-scaffold check {source}/talker
+            cd {tmp_path}/ws && colcon build --packages-select talker
+            source install/setup.bash
+            ros2 run talker minimal_publisher.py
+        """)
+    assert os.access(source / "talker" / "talker" / "minimal_publisher.py", os.X_OK)
+
+
+def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "talker", "--diff"]) == 0
+    said = capsys.readouterr().out
+    assert "--- /dev/null\n+++ b/talker/.ros2-scaffold.json\n" in said
+    assert "+++ b/talker/talker/minimal_publisher.py\n" in said
+    assert os.listdir() == []
+    assert main(["new", "talker"]) == 0
+    (tmp_path / "work" / "talker" / "LICENSE").unlink()
+    capsys.readouterr()
+    assert main(["new", "talker", "--diff", "--force"]) == 0
+    assert capsys.readouterr().out.startswith("diff --git a/talker/LICENSE b/talker/LICENSE\n")
+
+
+def test_dry_run_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "talker", "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("talker/\n")
+    assert said.endswith("\n\nNothing was written (--dry-run).\n")
+    assert os.listdir(tmp_path / "work") == []
+
+
+def test_an_existing_package_is_left_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["new", "talker"]) == 0
+    node = tmp_path / "work" / "talker" / "talker" / "minimal_publisher.py"
+    node.write_text("mine\n")
+    capsys.readouterr()
+    message = "talker exists already; --force overwrites the files that differ"
+    assert_refused(capsys, ["new", "talker"], message, untouched=False)
+    assert node.read_text() == "mine\n"
+
+    assert main(["new", "talker", "--force", "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert "the node, overwritten\n" in said
+    assert "\n-mine\n+#!/usr/bin/env python3\n" in said
+    assert node.read_text() == "mine\n"
+
+    assert main(["new", "talker", "--force"]) == 0
+    assert node.read_text() == files_of()["talker/minimal_publisher.py"]
+    assert os.access(node, os.X_OK)
+    assert "LICENSE                        the full text of the licence, unchanged" in (
+        capsys.readouterr().out
+    )
+
+
+def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    work = tmp_path / "work"
+    (work / "file").write_text("")
+    (work / "link").mkdir()
+    (work / "link" / "talker").symlink_to(tmp_path / "home")
+    (work / "outer" / "deep").mkdir(parents=True)
+    (work / "outer" / "package.xml").write_text("<package><name>outer</name></package>\n")
+    (work / "ws" / "src" / "group" / "folder").mkdir(parents=True)
+    other = work / "ws" / "src" / "group" / "folder" / "package.xml"
+    other.write_text("<package><name>talker</name></package>\n")
+    (work / "ws" / "src" / "mine").mkdir()
+    for place, message in (
+        ("file", "/file is not a directory"),
+        ("file/below", "/file is not a directory"),
+        ("link", "link/talker is a link to "),
+        ("outer/deep", "/outer is a package, and colcon does not look for others inside of it"),
+        ("ws/src/mine", "/folder is a package with the name 'talker' already"),
+        ("ws", "/folder is a package with the name 'talker' already"),
+    ):
+        before = sorted(work.rglob("*"))
+        command = ["new", "talker", "--destination-directory", place]
+        assert_refused(capsys, command, message, untouched=False)
+        assert sorted(work.rglob("*")) == before
+    message = "/proc/talker cannot be written: No such file or directory; nothing was written"
+    assert_refused(capsys, ["new", "talker", "--destination-directory", "/proc"], message)
+    assert main(["new", "talker", "--destination-directory", "new/ws/src"]) == 0
+    assert (work / "new/ws/src/talker/package.xml").is_file()
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (["--rate", "0"], "--rate: 0 Hz is not between 0.001 and 10000 Hz"),
+        (["--build-type", "ament_pyhton"], "did you mean ament_python?"),
+        (["--comments", "loud"], "--comments: 'loud' is not one of brief, tutorial"),
+        (["--message-type", "std_msgs/Sting"], "--message-type: unknown message type"),
+    ],
+)
+def test_bad_flags(flags: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert_refused(capsys, ["new", "talker", *flags], message)
+
+
+def assert_refused(
+    capsys: pytest.CaptureFixture[str], command: list[str], message: str, *, untouched: bool = True
+) -> None:
+    """Run a command that must end with 2, one clear line and nothing written."""
+    before = os.listdir()
+    assert main(command) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith("ros2-scaffold: error: ")
+    assert message in said.err
+    assert said.err.count("\n") == 1
+    assert not untouched or os.listdir() == before
+
+
+# -- templates of a team
+
+
+@pytest.fixture
+def team(tmp_path: Path) -> Path:
+    """A content directory with one more kind of node."""
+    kind = tmp_path / "team" / "templates" / "blinker"
+    (kind / "{{ package }}").mkdir(parents=True)
+    (kind / "template.yaml").write_text(
+        "summary: blinks\nrole: node\n"
+        "questions:\n"
+        "  node_name: {type: node, default: blinker, help: its name}\n"
+        "  lamp: {default: red, help: which lamp}\n"
+        'include: {"extra/*": "node.lamp == \'blue\'"}\n'
+        'executable: ["{{ package }}/*.py"]\n'
+    )
+    (kind / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
+        "#: for learners\nLAMP = {{ node.lamp | literal }}\n"
+    )
+    (kind / "test").mkdir()
+    (kind / "test" / "test_{{ node.module }}.py.jinja").write_text(
+        "{{ header }}\n\n\ndef test_lamp():\n    assert True\n"
+    )
+    (kind / "extra").mkdir()
+    (kind / "extra" / "x.jinja").write_text("")
+    (kind / "_readme.md.jinja").write_text(
+        "{% macro run(node) %}run\n{% endmacro %}{% macro look(node) %}{% endmacro %}"
+        "{% macro topics(node) %}{% endmacro %}{% macro parameters(node) %}{% endmacro %}"
+    )
+    return tmp_path / "team" / "templates"
+
+
+def test_templates_of_a_team(team: Path) -> None:
+    roots = [*ROOTS, str(team)]
+    templates = template.load(roots)
+    asked = {"package": "talker", "node_kind": "blinker", "lamp": "it's blue"}
+    given = {name: Given(value, f"--{name}") for name, value in asked.items()}
+    files = draft.draft(roots, templates, given, User(".")).rendered.files
+    assert files["talker/blinker.py"] == 'LAMP = "it\'s blue"\n'
+    assert "extra/x" not in files
+    given["lamp"] = Given("blue", "--lamp")
+    given["comments"] = Given("tutorial", "--comments")
+    files = draft.draft(roots, templates, given, User(".")).rendered.files
+    assert files["talker/blinker.py"] == "# for learners\nLAMP = 'blue'\n"
+    assert files["extra/x"] == ""
+    given["rate"] = Given("2", "--rate")
+    with pytest.raises(InputError, match="--rate: of no use for ament_cmake and blinker"):
+        draft.draft(roots, templates, given, User("."))
+
+
+def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> None:
+    (tmp_path / "work" / "answers.yaml").write_text("node_kind: blinker\nlamp: green\n")
+    (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
+        "#!/usr/bin/env python3\n{{ header }}\n\nLAMP = {{ node.lamp | literal }}\n"
+    )
+    (team / "_licenses" / "Ours-1.0").mkdir(parents=True)
+    (team / "_licenses" / "Ours-1.0" / "header.jinja").write_text("Copyright {{ year }} us\n")
+    (team / "_licenses" / "Ours-1.0" / "LICENSE.jinja").write_text("All rights are ours.\n")
+    command = ["new", "talker", "--content", str(team.parent), "--answers", "answers.yaml"]
+    assert main([*command, "--license", "MIT"]) == 0
+    assert "LAMP = 'green'" in (tmp_path / "work/talker/talker/blinker.py").read_text()
+    roots = [*ROOTS, str(team)]
+    given = {"package": Given("p2", ""), "license": Given("Ours-1.0", "")}
+    files = draft.draft(roots, template.load(roots), given, User(".")).rendered.files
+    assert files["LICENSE"] == "All rights are ours.\n"
+    assert "\n# Copyright 2025 us\n" in files["p2/minimal_publisher.py"]
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "message"),
+    [
+        ("{{ package }}/a.py.jinja", "{{ nobody }}", "UndefinedError: 'nobody' is undefined"),
+        ("a.jinja", "{% if %}", "a.jinja':1: TemplateSyntaxError"),
+        ("a.jinja", "{{ ''.__class__.__mro__ }}", "SecurityError"),
+        ("a.jinja", "{% include '../../x' %}", "TemplateNotFound"),
+        ("{{ package | upper }}.jinja", "", "a path holds only {{ names }} that are defined"),
+        ("{{ nobody }}.jinja", "", "a path holds only {{ names }} that are defined"),
+        ("README.md.jinja", "", "README.md is rendered twice"),
+        ("setup.py", "", "setup.py: must end in .jinja"),
+    ],
+)
+def test_broken_templates(team: Path, path: str, text: str, message: str) -> None:
+    file = team / "blinker" / path
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(text)
+    roots = [*ROOTS, str(team)]
+    given = {
+        "package": Given("talker", "PACKAGE"),
+        "node_kind": Given("blinker", "--node-kind"),
+    }
+    with pytest.raises(ContentError) as told:
+        draft.draft(roots, template.load(roots), given, User("."))
+    assert message in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("manifest", "message"),
+    [
+        ("[", "template.yaml: while parsing"),
+        ("- a", "must be a mapping with the keys summary, role"),
+        ("role: node", "the key 'summary' is missing"),
+        ("summary: x\nrole: knot", "role must be one of package, build_type, node"),
+        ("summary: x\nrole: node\nfiles: []", "unknown key 'files'"),
+        ("summary: x\nrole: node\ninclude: []", "include must be a dict"),
+        (
+            "summary: x\nrole: node\ndepends: {run: [a]}",
+            "depends must map buildtool, build, build_export, depend, exec, test",
+        ),
+        ("summary: x\nrole: node\nquestions: {a: 1}", "the question 'a' must be a mapping"),
+        (
+            "summary: x\nrole: node\nquestions: {a: {help: x, typ: text}}",
+            "a has an unknown key 'typ'",
+        ),
+        (
+            "summary: x\nrole: node\nquestions: {a: {help: x, type: txt}}",
+            "a has the unknown type 'txt'",
+        ),
+        (
+            "summary: x\nrole: extra\nquestions: {a: {help: x, choices: none}}",
+            "a must have a list of choices, or a role",
+        ),
+        (
+            "summary: x\nrole: extra\nquestions: {topic: {help: x, type: rate}}",
+            "topic has the type topic, but rate in",
+        ),
+    ],
+)
+def test_broken_manifests(team: Path, manifest: str, message: str) -> None:
+    (team / "blinker" / "template.yaml").write_text(manifest)
+    with pytest.raises(ContentError) as told:
+        template.load([*ROOTS, str(team)])
+    assert message in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_a_package_that_the_checker_rejects_is_a_defect(
+    team: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "work" / "ros2-scaffold.toml").write_text(f'content = ["{team.parent}"]\n')
+    trust.add(str(tmp_path / "work"))
+    (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text("import os\n")
+    assert main(["new", "talker", "--node-kind", "blinker"]) == 3
+    said = capsys.readouterr()
+    assert "talker/blinker.py:1:1: F401 " in said.err
+    assert said.err.endswith("nothing was written; please report it to their authors\n")
+    assert os.listdir(tmp_path / "work") == ["ros2-scaffold.toml"]
+
+
+def test_the_page_on_templates_names_everything() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "templates.md").read_text()
+    context = set(package_variables())
+    for word in {
+        *template._KEYS,  # noqa: SLF001  the page must not forget one
+        *template._QUESTION_KEYS,  # noqa: SLF001
+        *answer_types.TYPES,
+        *payload.Payload._fields,
+        *qos("1")._fields,
+        *context,
+    }:
+        assert f"`{word}`" in page or f"`{word}." in page, word
+
+
+def package_variables() -> list[str]:
+    """Return the names that a template may use."""
+    from scaffold.generate import context, parts
+    from scaffold.generate.questions import questions
+    from scaffold.generate.templates.render import Renderer
+
+    given = {"package": Given("talker", "PACKAGE")}
+    order = draft.choose(TEMPLATES, given)
+    renderer = Renderer(ROOTS, TEMPLATES, is_tutorial=False)
+
+    def answers(asked: list[template.Question]) -> dict[str, object]:
+        return questions.resolve(
+            asked,
+            given,
+            known={"contents": "a node"},
+            render=renderer.text,
+            fallback=User(".").answer,
+        ).values
+
+    publisher = TEMPLATES["publisher"]
+    part = parts.Part(publisher, answers(list(publisher.questions)))
+    of_publisher = {question.name for question in TEMPLATES["publisher"].questions}
+    frame = answers(questions.unique(order.frame))
+    made = context.package_context(frame, order.layers, [part], renderer, context.today())
+    node = made["nodes"][0]
+    return [*(set(made) - of_publisher), *(set(node) - of_publisher)]
+
+
+# -- several parts
+
+
+def test_several_nodes_in_one_package() -> None:
+    made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
+    files = made.rendered.files
+    assert draft.defects(made, rules()) == []
+    assert made.executables == ("talker.py", "announcer.py")
+    assert {"conversation/talker.py", "conversation/announcer.py"} < set(files)
+    assert {"test/test_talker.py", "test/test_announcer.py"} < set(files)
+    for name in ("talker", "announcer"):
+        assert f"    ${{PROJECT_NAME}}/{name}.py\n" in files["CMakeLists.txt"]
+        assert f"test_{name} test/test_{name}.py" in files["CMakeLists.txt"]
+        assert f"ros2 run conversation {name}.py\n" in files["README.md"]
+        assert "declare_parameter('rate', 5.0)" in files[f"conversation/{name}.py"]
+    description = "with the publisher node talker and the publisher node announcer</description>"
+    assert description in files["package.xml"]
+
+
+def test_answers_for_one_node_of_several() -> None:
+    made = make(
+        package="conversation",
+        topic="chatter",
+        add=[{"kind": "publisher", "name": "fast", "rate": 50}, "publisher:slow"],
+    )
+    assert "('rate', 50.0)" in made.rendered.files["conversation/fast.py"]
+    assert "('rate', 2.0)" in made.rendered.files["conversation/slow.py"]
+    assert "('topic', 'chatter')" in made.rendered.files["conversation/fast.py"]
+    assert "('topic', 'chatter')" in made.rendered.files["conversation/slow.py"]
+
+
+def test_the_written_answers_make_the_same_package() -> None:
+    made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
+    assert make(**made.answers).rendered == made.rendered
+
+
+@pytest.mark.parametrize(
+    ("add", "message"),
+    [
+        ("publsher:talker", "'publsher' is not one of "),
+        ("publsher:talker", "did you mean publisher?"),
+        ("publisher:", "'publisher:' is not KIND:NAME, such as publisher:talker"),
+        ("publisher:Talker", "'Talker' must be lower-case words"),
+        ("publisher:conversation", "is the name of the package"),
+    ],
+)
+def test_parts_that_are_refused(capsys: pytest.CaptureFixture[str], add: str, message: str) -> None:
+    assert_refused(capsys, ["new", "conversation", "--add", add], message)
+
+
+def test_two_nodes_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["new", "conversation", "--add", "publisher:talker", "--add", "publisher:talker"]
+    assert_refused(capsys, command, "two parts of the package have the name 'talker'")
+    command = ["new", "conversation", "--add", "publisher:talker", "--node-name", "announcer"]
+    assert_refused(capsys, command, "--node-name: of no use with --add")
+
+
+def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("answers.yaml").write_text(
+        "add:\n- {kind: publisher, name: talker, rate: 7}\n- publisher:announcer\n"
+    )
+    assert main(["new", "conversation", "--answers", "answers.yaml"]) == 0
+    assert "('rate', 7.0)" in Path("conversation/conversation/talker.py").read_text()
+    capsys.readouterr()
+    Path("answers.yaml").write_text("add: [{kind: publisher, colour: red}]\n")
+    command = ["new", "another", "--answers", "answers.yaml"]
+    assert_refused(capsys, command, "'colour' is no question of publisher, which asks message_type")

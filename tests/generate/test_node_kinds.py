@@ -1,0 +1,112 @@
+"""The kinds of nodes: what their answers make of the code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from scaffold import content
+from scaffold.check import registry
+from scaffold.errors import InputError
+from scaffold.generate import draft
+from scaffold.generate.questions import questions
+from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates import filters, template
+
+ROOTS = content.roots("templates")
+TEMPLATES = template.load(ROOTS)
+
+
+def files_of(kind: str, **answers: object) -> Mapping[str, str]:
+    """Return the files of a package with one node, which every rule accepts."""
+    given: dict[str, object] = {
+        "package": "talker",
+        "node_kind": kind,
+        "node_name": "worker",
+        "maintainer_name": "Ada",
+        "maintainer_email": "ada@example.com",
+        **answers,
+    }
+    asked = {name: Given(value, name) for name, value in given.items()}
+    made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
+    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    return made.rendered.files
+
+
+def test_a_subscriber_reads_nothing_that_may_be_missing() -> None:
+    node = files_of("subscriber", message_type="sensor_msgs/msg/JointState")["talker/worker.py"]
+    assert "{msg.name[0]}" not in node
+    assert "f'Received: name: {len(msg.name)}, position: {len(msg.position)}'" in node
+
+
+def test_a_subscriber_imports_what_its_log_needs_and_no_more() -> None:
+    files = files_of("subscriber", message_type="geometry_msgs/msg/PoseStamped")
+    assert "import math\n" not in files["talker/worker.py"]
+    assert "import math\n" in files["test/test_worker.py"]
+
+
+def test_a_relay_needs_no_more_than_its_message() -> None:
+    node = files_of("publisher_subscriber", message_type="geometry_msgs/msg/PoseStamped")
+    code = node["talker/worker.py"]
+    assert "        return msg\n" in code
+    for word in ("math", "self.count", "frame_id"):
+        assert word not in code
+
+
+def test_what_is_made_of_a_measurement_keeps_its_time_and_frame() -> None:
+    files = files_of(
+        "publisher_subscriber",
+        input_type="sensor_msgs/msg/LaserScan",
+        message_type="geometry_msgs/msg/TwistStamped",
+    )
+    code = files["talker/worker.py"]
+    assert "        msg.header = received.header  # " in code
+    assert "get_clock" not in code
+    assert "frame_id" not in code
+    assert "frame_id" not in files["README.md"]
+
+
+def test_parts_of_a_result_that_name_a_frame_keep_their_parameter() -> None:
+    code = files_of(
+        "publisher_subscriber",
+        input_type="sensor_msgs/msg/LaserScan",
+        message_type="nav_msgs/msg/Path",
+    )["talker/worker.py"]
+    assert "        msg.header = received.header  # " in code
+    assert ("self.frame_id = self.declare_parameter" in code) is ("= self.frame_id" in code)
+
+
+@pytest.mark.parametrize(("input_topic", "topic"), [("a", "a"), ("/a", "a"), ("~/a", "/worker/a")])
+def test_a_node_does_not_listen_to_itself(input_topic: str, topic: str) -> None:
+    message = "--input-topic and --topic are both '.*': the node would receive what it sends"
+    with pytest.raises(InputError, match=message):
+        files_of("publisher_subscriber", input_topic=input_topic, topic=topic)
+
+
+@pytest.mark.parametrize("quality", ["latched", "best_effort,depth=5", "latched,deadline=0.5"])
+@pytest.mark.parametrize("kind", ["subscriber", "publisher_subscriber"])
+def test_settings_of_the_quality_of_service(kind: str, quality: str) -> None:
+    files = files_of(kind, qos=quality)
+    for path in ("talker/worker.py", "test/test_worker.py"):
+        assert "\nQOS = QoSProfile(" in files[path]
+    assert ", QOS)" in files["talker/worker.py"]
+
+
+def test_imports_of_one_module_stand_on_one_line() -> None:
+    lines = ["from a.b import C, d", "import os", "from a.b import B", "from a.b import C"]
+    assert filters.import_block(lines) == "import os\n\nfrom a.b import B, C, d"
+    long = [f"from a.b import {letter * 50}" for letter in "YX"]
+    assert filters.import_block(long) == "\n".join(sorted(long))
+    commented = ["from a.b import C  # why", "from a.b import D"]
+    assert filters.import_block(commented) == "\n".join(commented)
+
+
+def test_a_flag_says_what_it_means_for_each_kind() -> None:
+    kinds = [TEMPLATES[kind] for kind in ("publisher", "subscriber", "timer")]
+    found = {one.name: one for one in questions.shared(kinds)}
+    assert found["topic"].help == "topic to publish on; topic to subscribe to"
+    assert found["topic"].default == "example_topic"
+    assert found["node_name"].help == "name of the node, its module and its executable"
+    assert found["node_name"].default is None

@@ -1,0 +1,272 @@
+"""A package stays in step with its templates, and keeps what its owner wrote."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from scaffold import __version__, content, installation
+from scaffold.cli.main import main
+from scaffold.errors import InputError
+from scaffold.generate.update import merge, provenance
+
+TEMPLATES = Path(content.roots("templates")[0])
+NODE = "talker/minimal_publisher.py"
+
+
+@pytest.fixture(autouse=True)
+def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No setting of the machine reaches a test, and its files are its own."""
+    for name in ("HOME", "XDG_CONFIG_HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def package(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+    """Make a package with the templates of before."""
+    command = ["new", "talker", "--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    assert main(command) == 0
+    capsys.readouterr()
+    return tmp_path / "talker"
+
+
+@pytest.fixture
+def team(tmp_path: Path) -> Path:
+    """Return a directory with the templates of now, which a test changes."""
+    for name in ("publisher", "package", "ament_cmake"):
+        shutil.copytree(TEMPLATES / name, tmp_path / "team" / "templates" / name)
+    return tmp_path / "team"
+
+
+def change(team: Path, pattern: str, old: str, new: str) -> None:
+    """Change the one template file of a name."""
+    (path,) = (team / "templates").rglob(pattern)
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def node_of(team: Path) -> str:
+    """Return the name of the publisher's template."""
+    (path,) = (team / "templates" / "publisher" / "{{ package }}").iterdir()
+    return path.name
+
+
+def test_new_records_answers_and_files(package: Path) -> None:
+    text = (package / provenance.NAME).read_text()
+    found = provenance.parse(text, "here")
+    assert "How ros2-scaffold made this package" in text.split("\n")[1]
+    assert found.answers["maintainer_name"] == "Ada"
+    assert found.answers["add"][0]["rate"] == 2.0
+    assert found.date.isoformat() == "2023-11-14"
+    for path, written in found.rendered.items():
+        assert (package / path).read_text() == written
+    assert len(text) < 12_000  # bytes, the text of the licence included
+
+
+def test_nothing_to_do(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
+    assert main(["update", "talker"]) == 0
+    assert capsys.readouterr().out == "The package is in step with the templates.\n"
+    assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
+
+
+def test_both_changes_come_together(
+    package: Path, team: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = package / NODE
+    node.write_text(node.read_text().replace("Log the next message", "Log and count the message"))
+    change(team, node_of(team), "Declare the parameters, then", "Declare what can change, and")
+    (team / "templates" / "package" / "NOTES.md.jinja").write_text("# {{ package }}\n")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1800000000")
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    assert capsys.readouterr().out == f"NOTES.md: new\n{NODE}: merged\n"
+    merged = node.read_text()
+    assert "Log and count the message" in merged
+    assert "Declare what can change, and" in merged
+    assert "Date: 2023-11-14" in merged
+    assert os.access(node, os.X_OK)
+    assert (package / "NOTES.md").read_text() == "# talker\n"
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    assert capsys.readouterr().out == "The package is in step with the templates.\n"
+
+
+def test_a_conflict_is_marked_and_told(
+    package: Path, team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    node = package / NODE
+    node.write_text(node.read_text().replace("Log the next message", "Log and count the message"))
+    change(team, node_of(team), "Log the next message", "Tell the next message")
+    assert main(["update", "talker", "--content", str(team)]) == 1
+    said = capsys.readouterr().out
+    assert said.startswith(f"{NODE}: merged, 1 conflict to decide\n")
+    lines = [line.strip() for line in node.read_text().split("\n")]
+    start = lines.index("<<<<<<< yours")
+    assert lines[start : start + 7] == [
+        "<<<<<<< yours",
+        '"""Log and count the message and publish it."""',
+        "||||||| template before",
+        '"""Log the next message and publish it."""',
+        "=======",
+        '"""Tell the next message and publish it."""',
+        ">>>>>>> template now",
+    ]
+    marked = node.read_text()
+    assert main(["update", "talker", "--content", str(team)]) == 2
+    assert "has a conflict that an earlier update has marked" in capsys.readouterr().err
+    assert node.read_text() == marked
+
+
+def test_a_template_of_a_team_that_is_not_named(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record = package / provenance.NAME
+    record.write_text(record.read_text().replace('"publisher"', '"beacon"'))
+    for command in (["update", "talker"], ["add", "timer", "x", "--package-directory", "talker"]):
+        assert main(command) == 2
+        assert capsys.readouterr().err == (
+            "ros2-scaffold: error: talker/.ros2-scaffold.json: made with the template 'beacon', "
+            "which is not known here; --content names the directory with the templates of a team\n"
+        )
+
+
+@pytest.mark.parametrize("flag", ["--dry-run", "--diff"])
+def test_looking_changes_nothing(
+    package: Path, team: Path, flag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(team, node_of(team), "Log the next message", "Tell the next message")
+    before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
+    assert main(["update", "talker", "--content", str(team), flag]) == 0
+    said = capsys.readouterr().out
+    assert f"{NODE}: merged\n" in said or f"+++ b/talker/{NODE}\n" in said
+    assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
+
+
+def test_what_the_owner_removed_stays_away(
+    package: Path, team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "README.md").unlink()
+    change(team, "README.md.jinja", "## Prerequisites", "## What it needs")
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    assert not (package / "README.md").exists()
+    note = "note: README.md changed in the templates; you have removed it\n"
+    assert capsys.readouterr().err == note
+
+
+def test_what_the_templates_dropped_stays_there(
+    package: Path, team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (team / "templates" / "package" / "CHANGELOG.rst.jinja").unlink()
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    assert (package / "CHANGELOG.rst").exists()
+    assert "CHANGELOG.rst is no longer in the templates" in capsys.readouterr().err
+
+
+def test_a_question_that_is_gone_and_one_that_is_new(
+    package: Path, team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = team / "templates" / "package" / "template.yaml"
+    path.write_text(
+        path.read_text().replace("  comments:", "  colour: { default: red, help: x }\n  comments:")
+    )
+    (team / "templates" / "package" / "COLOUR.jinja").write_text("{{ colour }}\n")
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    assert (package / "COLOUR").read_text() == "red\n"
+    capsys.readouterr()
+    assert main(["update", "talker"]) == 0
+    assert "note: the templates no longer ask for colour\n" in capsys.readouterr().err
+
+
+def test_windows_line_endings_stay(package: Path, team: Path) -> None:
+    node = package / NODE
+    node.write_bytes(node.read_bytes().replace(b"\n", b"\r\n"))
+    change(team, node_of(team), "Log the next message", "Tell the next message")
+    assert main(["update", "talker", "--content", str(team)]) == 0
+    merged = node.read_bytes()
+    assert b"Tell the next message" in merged
+    assert merged.count(b"\r\n") == merged.count(b"\n")
+
+
+def test_a_package_of_somebody_else(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "other").mkdir()
+    assert main(["update", "other"]) == 2
+    assert "other/.ros2-scaffold.json is missing" in capsys.readouterr().err
+    assert main(["update", "nowhere"]) == 2
+    assert "nowhere: no such directory" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[",
+        "[]",
+        "{}",
+        '{"version": "0.1", "date": "2026-01-01", "answers": {}, "rendered": "!!"}',
+        '{"version": "0.1", "date": "2026-01-01", "answers": {}, "rendered": "eJwDAAAAAAE="}',
+        '{"version": "0.1", "date": "yesterday", "answers": {}, "rendered": "eJyrrgUAAXUA+Q=="}',
+        '{"version": "0.1", "date": "2026-01-01", "answers": 7, "rendered": "eJyrrgUAAXUA+Q=="}',
+    ],
+)
+def test_damaged_records(text: str) -> None:
+    with pytest.raises(InputError, match=r"^here: damaged: "):
+        provenance.parse(text, "here")
+
+
+@pytest.mark.parametrize("answers", [{}, {"add": 5}, {"add": None}, {"add": [{}]}])
+def test_answers_that_nobody_gave(
+    package: Path, answers: dict[str, object], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = package / provenance.NAME
+    entries = json.loads(path.read_text())
+    entries["answers"] = {**entries["answers"], **answers} if answers else {}
+    path.write_text(json.dumps(entries))
+    for verb in (["update", "talker"], ["add", "timer", "clock", "--package-directory", "talker"]):
+        assert main(verb) == 2
+        assert "damaged: an entry has the wrong type" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("version", "is_newer"),
+    [("0.1", False), ("0.1.0.dev3", False), ("0.0.9", False), ("0.1.1", True), ("2.0rc1", True)],
+)
+def test_records_of_a_newer_release_are_not_touched(
+    package: Path,
+    version: str,
+    capsys: pytest.CaptureFixture[str],
+    *,
+    is_newer: bool,
+) -> None:
+    path = package / provenance.NAME
+    path.write_text(json.dumps({**json.loads(path.read_text()), "version": version}))
+    before = {file: file.read_bytes() for file in package.rglob("*") if file.is_file()}
+    for verb in (["update", "talker"], ["add", "timer", "clock", "--package-directory", "talker"]):
+        if not is_newer:
+            assert main([*verb, "--dry-run"]) == 0
+            continue
+        assert main(verb) == 2
+        assert capsys.readouterr().err == (
+            "ros2-scaffold: error: talker/.ros2-scaffold.json: written by ros2-scaffold "
+            f"{version}, and this is {__version__}: install {version} or later: bring its source "
+            f"up to date, then `{installation.command()}`\n"
+        )
+    assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
+
+
+def test_what_is_added_makes_the_record_one_of_this_release(package: Path) -> None:
+    path = package / provenance.NAME
+    path.write_text(json.dumps({**json.loads(path.read_text()), "version": "0.0.1"}))
+    assert main(["add", "timer", "clock", "--package-directory", "talker"]) == 0
+    assert json.loads(path.read_text())["version"] == __version__
+
+
+def test_binary_files_are_not_merged() -> None:
+    with pytest.raises(InputError, match="git cannot merge: "):
+        merge.merge(b"\0a", b"\0b", b"\0c")

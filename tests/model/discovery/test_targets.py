@@ -1,0 +1,129 @@
+"""Which packages and files the paths of a user stand for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scaffold.errors import InputError
+from scaffold.files.tree import DiskTree
+from scaffold.model.discovery import targets as discovery
+from scaffold.model.discovery.colcon import IGNORE_MARKERS
+
+MANIFEST = "<package format='3'><name>{}</name></package>\n"
+
+
+def make_package(path: Path, name: str | None = None) -> Path:
+    path.mkdir(parents=True)
+    (path / "package.xml").write_text(MANIFEST.format(name or path.name))
+    return path
+
+
+def found(*paths: Path | str) -> list[str]:
+    targets = discovery.find([str(path) for path in paths])
+    return [Path(target.package.directory).name for target in targets]
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    make_package(tmp_path / "src" / "b_package")
+    make_package(tmp_path / "src" / "group" / "a_package")
+    for skipped in ("build", "install", "log", ".hidden"):
+        make_package(tmp_path / skipped / f"in_{skipped.strip('.')}")
+    for marker in IGNORE_MARKERS:
+        ignored = make_package(tmp_path / "src" / f"with_{marker.lower()}")
+        (ignored / marker).touch()
+    return tmp_path
+
+
+def test_workspace(workspace: Path) -> None:
+    assert found(workspace) == ["b_package", "a_package"]
+
+
+def test_each_package_once(workspace: Path) -> None:
+    assert found(workspace, workspace / "src", workspace / "src" / "b_package") == [
+        "b_package",
+        "a_package",
+    ]
+
+
+def test_an_ignored_package_given_by_name_is_checked(workspace: Path) -> None:
+    assert found(workspace / "src" / "with_colcon_ignore") == ["with_colcon_ignore"]
+
+
+def test_nothing_but_ignored_packages(tmp_path: Path) -> None:
+    (make_package(tmp_path / "only") / "COLCON_IGNORE").touch()
+    assert found(tmp_path) == ["only"]
+
+
+def test_nested_packages_belong_to_nobody(tmp_path: Path) -> None:
+    outer = make_package(tmp_path / "outer")
+    inner = make_package(outer / "inner")
+    (inner / "node.py").touch()
+    assert found(tmp_path) == ["outer"]
+    tree = DiskTree(outer)
+    assert tree.files == ("package.xml",)
+    assert tree.nested == ["inner"]
+
+
+def test_file_of_a_package(workspace: Path) -> None:
+    node = workspace / "src" / "b_package" / "b_package" / "node.py"
+    node.parent.mkdir()
+    node.touch()
+    (target,) = discovery.find([str(node)])
+    assert target.only == frozenset({"b_package/node.py"})
+    assert target.package.name == "b_package"
+
+
+def test_packages_are_named_as_their_files_are_given(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = workspace / "src" / "b_package"
+    (package / "node.py").touch()
+    monkeypatch.chdir(package.parent)
+    for given, shown in (("b_package/node.py", "b_package"), (package / "node.py", package)):
+        (target,) = discovery.find([str(given)])
+        assert target.package.directory == str(shown)
+    monkeypatch.chdir(package)
+    (target,) = discovery.find(["node.py"])
+    assert target.package.directory == "."
+
+
+def test_loose_file_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "node.py").touch()
+    monkeypatch.chdir(tmp_path)
+    (target,) = discovery.find(["node.py"])
+    assert (target.package.directory, target.package.files) == (".", ("node.py",))
+
+
+def test_loose_file(tmp_path: Path) -> None:
+    (tmp_path / "node.py").touch()
+    (tmp_path / "other.py").touch()
+    (target,) = discovery.find([str(tmp_path / "node.py")])
+    assert target.package.files == ("node.py",)
+
+
+def test_links_that_go_round(tmp_path: Path) -> None:
+    package = make_package(tmp_path / "round")
+    (package / "again").symlink_to(package)
+    (package / "dangling.py").symlink_to(package / "nowhere")
+    assert found(tmp_path) == ["round"]
+    assert DiskTree(package).files == ("package.xml",)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [("missing", "no such file or directory"), ("empty", "no ROS 2 package"), ("a.txt", "belongs")],
+)
+def test_bad_paths(tmp_path: Path, name: str, message: str) -> None:
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "a.txt").touch()
+    with pytest.raises(InputError, match=message):
+        found(tmp_path / name)
+
+
+def test_setup_py_without_manifest(tmp_path: Path) -> None:
+    (tmp_path / "setup.py").touch()
+    with pytest.raises(InputError, match=r"no package\.xml; colcon does not take it"):
+        found(tmp_path)

@@ -1,0 +1,140 @@
+"""A package that is given alone is judged as in its workspace."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from scaffold import content
+from scaffold.check import registry, runner
+from scaffold.diagnostic import Diagnostic
+from scaffold.files.disk import holds
+from scaffold.model.discovery import targets as discovery
+from scaffold.model.discovery import unchecked
+from scaffold.model.package import Package
+
+RULES = [rule() for rule in registry.load(content.roots("rules"))]
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="3">
+  <!-- The name says it. -->
+  <name>{name}</name>
+  <version>0.1.0</version>
+  <description>A package.</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>MIT</license>
+  <exec_depend>{needs}</exec_depend>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+LAUNCH = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='driver', executable='{program}')])
+"""
+SETUP = """\
+from setuptools import setup
+
+setup(
+    name='driver', version='0.1.0', packages=['driver'],
+    entry_points={'console_scripts': ['drive = driver.drive:main']},
+)
+"""
+
+
+def write(top: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        path = top / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    manifests = {
+        "bringup/package.xml": MANIFEST.format(name="bringup", needs="driver"),
+        "group/driver-of-2026/package.xml": MANIFEST.format(name="driver", needs="launch"),
+        "ignored/driver/package.xml": MANIFEST.format(name="hidden", needs="launch"),
+        "ignored/COLCON_IGNORE": "",
+    }
+    write(tmp_path / "src", manifests)
+    write(tmp_path / "src/bringup", {"launch/robot.launch.py": LAUNCH.format(program="dirve")})
+    write(tmp_path / "src/group/driver-of-2026", {"setup.py": SETUP, "driver/drive.py": ""})
+    return tmp_path
+
+
+def one(path: Path, name: str = "bringup") -> Package:
+    """Return the package of a name among those that a path stands for."""
+    targets = discovery.find([str(path)])
+    return next(target.package for target in targets if target.package.name == name)
+
+
+def said(package: Package, *codes: str) -> list[Diagnostic]:
+    return [found for found in runner.check(package, RULES) if found.code in codes]
+
+
+def test_alone_as_in_the_workspace(workspace: Path) -> None:
+    alone = said(one(workspace / "src/bringup"), "LF005", "LF006")
+    assert [found.code for found in alone] == ["LF006"]
+    assert "driver" in alone[0].message
+    assert alone == said(one(workspace), "LF005", "LF006")
+    assert alone == said(one(workspace / "src/bringup/launch/robot.launch.py"), "LF005", "LF006")
+
+
+def test_others_are_not_checked(workspace: Path) -> None:
+    (target,) = discovery.find([str(workspace / "src/bringup")])
+    assert target.package.name == "bringup"
+    assert target.package.workspace.names == ["bringup", "driver"]
+    assert target.package.workspace.get("hidden") is None
+
+
+def test_whole_workspace_needs_no_search(workspace: Path) -> None:
+    for given in (workspace, workspace / "src"):
+        around = one(given).known_workspace
+        assert around is not None
+        assert around.around is None
+
+
+def test_nothing_is_read_before_it_is_needed(workspace: Path) -> None:
+    package = one(workspace / "src/bringup")
+    manifest = str(workspace / "src/group/driver-of-2026/package.xml")
+    assert ("content", manifest) not in package.outside.seen
+    assert package.workspace.get("driver") is not None
+    assert ("content", manifest) in package.outside.seen
+
+
+def test_a_verdict_depends_on_what_was_read(workspace: Path) -> None:
+    package = one(workspace / "src/bringup")
+    assert said(package, "LF006")
+    seen = package.outside.seen
+    assert holds(seen)
+    setup = workspace / "src/group/driver-of-2026/setup.py"
+    setup.write_text(SETUP.replace("drive =", "dirve ="))
+    assert not holds(seen)
+    assert not said(one(workspace / "src/bringup"), "LF006")
+
+
+def test_too_many_directories(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 3)
+    package = one(workspace / "src/bringup")
+    assert package.workspace.names == ["bringup"]
+    assert not said(package, "LF006")
+
+
+def test_package_outside_of_a_workspace(tmp_path: Path) -> None:
+    write(tmp_path, {"bringup/package.xml": MANIFEST.format(name="bringup", needs="driver")})
+    write(tmp_path, {"driver/package.xml": MANIFEST.format(name="driver", needs="launch")})
+    assert one(tmp_path / "bringup").workspace.names == ["bringup"]
+
+
+def test_source_directory_inside_of_another(workspace: Path) -> None:
+    inner = workspace / "src/repository/src/inner"
+    write(inner, {"package.xml": MANIFEST.format(name="inner", needs="driver")})
+    assert one(inner, "inner").workspace.names == ["inner"]
+    os.mkdir(workspace / "install")
+    assert one(inner, "inner").workspace.names == ["bringup", "driver", "inner"]

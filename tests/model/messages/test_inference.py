@@ -1,0 +1,137 @@
+"""What is known about messages in Python code: only what is certain."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from scaffold.model.messages.inference import MessageTypes
+from scaffold.model.package import Package
+
+NODE = """\
+from geometry_msgs.msg import PoseArray, Twist
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, SetBool_Request
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.create_subscription(String, 'a', self.on_text, 10)
+        self.create_subscription(String, 'b', self.on_both, 10)
+        self.create_subscription(Twist, 'c', self.on_both, 10)
+        self.create_subscription(String, 'd', self.on_raw, 10, raw=True)
+        self.create_subscription(PoseArray, 'e', lambda poses: poses, 10)
+        self.create_service(SetBool, 'f', self.on_set)
+        self.last = None
+        self.twist = Twist()
+
+    def on_text(self, msg):
+        self.last = msg
+        return {}
+
+    def on_both(self, msg):
+        return {}
+
+    def on_raw(self, msg):
+        return {}
+
+    def on_set(self, request, response):
+        return {}
+
+    def on_array(self, other):
+        poses = PoseArray()
+        first = poses.poses[0]
+        mixed = Twist()
+        mixed = other
+        asked = Twist()
+        if isinstance(asked, Twist):
+            pass
+        for pose in poses.poses:
+            return {}
+"""
+
+
+def type_in(line: str, expression: str) -> str | None:
+    """Return what an expression in a ``return`` below a line of NODE is."""
+    head, _, tail = NODE.partition(line)
+    text = head + line + tail.replace("return {}", f"return {expression}", 1)
+    types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
+    returned = [
+        node.value
+        for node in types.module.walk(ast.Return)
+        if node.value is not None and types.module.text(node.value) == expression
+    ]
+    found = types.type_of(returned[0])
+    return found.name if found else None
+
+
+@pytest.mark.parametrize(
+    ("line", "expression", "expected"),
+    [
+        ("def on_text", "msg", "std_msgs/msg/String"),
+        ("def on_text", "self.last", "std_msgs/msg/String"),
+        ("def on_text", "self.twist.linear", "geometry_msgs/msg/Vector3"),
+        ("def on_text", "self.other", None),
+        ("def on_text", "SetBool_Request()", "std_srvs/srv/SetBool.Request"),
+        ("def on_text", "SetBool()", None),
+        ("def on_text", "String", None),
+        ("def on_both", "msg", None),
+        ("def on_raw", "msg", None),
+        ("def on_set", "request", "std_srvs/srv/SetBool.Request"),
+        ("def on_set", "response", "std_srvs/srv/SetBool.Response"),
+        ("def on_array", "first.position", "geometry_msgs/msg/Point"),
+        ("def on_array", "pose.orientation", "geometry_msgs/msg/Quaternion"),
+        ("def on_array", "poses.poses", None),
+        ("def on_array", "poses.poses[1:]", None),
+        ("def on_array", "poses.poses[0].position.x", None),
+        ("def on_array", "mixed", None),
+        ("def on_array", "asked", None),
+        ("def on_array", "other", None),
+    ],
+)
+def test_types(line: str, expression: str, expected: str | None) -> None:
+    assert type_in(line, expression) == expected
+
+
+@pytest.mark.parametrize(
+    "around",
+    [
+        "import pytest\ndef test():\n    with pytest.raises(AttributeError):\n        {}",
+        "try:\n    {}\nexcept AttributeError:\n    pass",
+        "def test(self):\n    self.assertRaises(TypeError, lambda: {})",
+    ],
+)
+def test_expected_mistakes_are_tolerated(around: str) -> None:
+    text = "from std_msgs.msg import String\n" + around.format("String().text")
+    package = Package.of({"node.py": text})
+    types = MessageTypes.of(package, "node.py")
+    (wrong,) = (node for node in types.module.walk(ast.Attribute) if node.attr == "text")
+    assert types.is_tolerated(wrong)
+
+
+def test_code_for_ros_1_is_passed_over() -> None:
+    text = "from std_msgs.msg import String\nString().text\n"
+    files = {"node.py": text, "old.py": f"import rospy\n{text}"}
+    (types,) = MessageTypes.of_package(Package.of(files))
+    assert types.module.path == "node.py"
+
+
+def test_other_mistakes_are_not_tolerated() -> None:
+    text = "from std_msgs.msg import String\ntry:\n    pass\nexcept E:\n    String().text\n"
+    types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
+    (wrong,) = (node for node in types.module.walk(ast.Attribute) if node.attr == "text")
+    assert not types.is_tolerated(wrong)
+
+
+def test_values_are_found_once_and_in_order() -> None:
+    text = (
+        "from std_msgs.msg import Header, String\n\nheader = Header(frame_id='a')\n"
+        "header.frame_id, other = 'b', String(data='c')\nother.data += 'd'\n"
+    )
+    types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
+    found = [(item.field.name, types.module.text(item.value)) for item in types.assigned]
+    assert found == [("frame_id", "'a'"), ("frame_id", "'b'"), ("data", "'c'")]

@@ -1,0 +1,24 @@
+"""What functions return, and whether they may end without it."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from scaffold.model.python.returns import may_end
+
+
+@pytest.mark.parametrize(
+    ("body", "ends"),
+    [
+        ("    return 1\n", False),
+        ("    try:\n        return Answer.YES\n    except OSError:\n        log()\n", False),
+        ("    try:\n        return ask()\n    except OSError:\n        log()\n", True),
+        ("    try:\n        return ask()\n    except OSError:\n        raise\n", False),
+    ],
+)
+def test_handlers_of_what_cannot_fail_are_not_reached(body: str, ends: bool) -> None:
+    function = ast.parse(f"def f():\n{body}").body[0]
+    assert isinstance(function, ast.FunctionDef)
+    assert may_end(function) is ends

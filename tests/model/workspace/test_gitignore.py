@@ -1,0 +1,29 @@
+"""Files that git leaves out are made on each machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scaffold.files.tree import DiskTree
+from scaffold.model.package import Package
+from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.model.workspace.workspace import Workspace
+
+
+@pytest.mark.parametrize(("checkout", "expected"), [("src", True), ("", True), (None, False)])
+def test_the_files_of_the_checkout_count(
+    tmp_path: Path, checkout: str | None, *, expected: bool
+) -> None:
+    directory = tmp_path / "src" / "talker"
+    directory.mkdir(parents=True)
+    (tmp_path / "src" / ".gitignore").write_text("# made by calibration\ncalibrated_*.yaml\n")
+    if checkout is not None:
+        (tmp_path / checkout / ".git").mkdir()
+    package = Package(DiskTree(str(directory)), workspace=Workspace())
+    (tmp_path / "src" / ".gitmodules").write_text('[submodule "a"]\n\tpath = talker/external/a\n')
+    assert is_left_out(package, "config/calibrated_head.yaml") is expected
+    assert is_left_out(package, "external/a/include/a.hpp") is expected
+    assert not is_left_out(package, "external/b/include/b.hpp")
+    assert not is_left_out(package, "config/head.yaml")

@@ -1,0 +1,389 @@
+"""``smoke`` on real packages: built with colcon, run, observed over the middleware, stopped."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import venv
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scaffold.model.discovery import targets
+from scaffold.smoke.isolation import shared_memory
+from scaffold.smoke.report import as_data
+from scaffold.smoke.session import Options, packages_of, smoke
+from tests import PATIENCE
+from tests.smoke.smoke_packages import BAD, GOOD, ONCE, cmake_package, python_package, talker, write
+from tests.smoke_runs import NEEDS_ROS, ROOT, command_line, processes_of, variables, wait_until
+
+pytestmark = [pytest.mark.build, NEEDS_ROS]
+
+Result = dict[str, Any]
+
+TIMEOUT = 20.0
+"""Seconds that executables get to appear; one of those of the tests never does."""
+
+
+@pytest.fixture(scope="session")
+def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a directory of packages: good ones, and one for each way to fail."""
+    root = tmp_path_factory.mktemp("sources")
+    python_package(root, "good_py", GOOD)
+    cmake_package(root, "good_cmake", {"talker": talker("numbers")})
+    python_package(root, "bad_py", BAD)
+    cmake_package(root, "unbuilt_cmake", {"talker": talker("numbers")})
+    lists = root / "unbuilt_cmake" / "CMakeLists.txt"
+    lists.write_text(lists.read_text().replace("(rclpy", "(no_such_package"))
+    python_package(root, "unbuilt_py", {"once": ONCE})
+    write(root, {"unbuilt_py/setup.py": "import no_such_module\n"})
+    python_package(root, "dependent", {"once": ONCE})
+    manifest = root / "dependent" / "package.xml"
+    depend = "<depend>unbuilt_cmake</depend>"
+    manifest.write_text(manifest.read_text().replace("<exec", f"{depend}\n  <exec", 1))
+    python_package(root, "uninstalled", {"once": ONCE})
+    (root / "uninstalled" / "setup.cfg").unlink()
+    return root
+
+
+@pytest.fixture(scope="session")
+def listing(sources: Path) -> dict[str, bytes]:
+    """Return what the sources were before anything was done with them."""
+    return {str(path): path.read_bytes() for path in sorted(sources.rglob("*")) if path.is_file()}
+
+
+@pytest.fixture(scope="session")
+def packages(
+    sources: Path, listing: dict[str, bytes], tmp_path_factory: pytest.TempPathFactory
+) -> dict[str, Result]:
+    """Return the reports on all packages, by name, of one run."""
+    assert listing
+    before = shared_memory.segments()
+    tmp = tmp_path_factory.mktemp("scratch")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TMPDIR", str(tmp))
+        patch.setattr("tempfile.tempdir", None)
+        patch.setenv("RMW_IMPLEMENTATION", "rmw_no_such_thing")
+        patch.setenv("ROS_DOMAIN_ID", "232")
+        found = packages_of(targets.find([str(sources)]))
+        result = smoke(found, Options(duration=2.0, timeout=TIMEOUT, jobs=6))
+    assert processes_of(tmp) == []
+    assert list(tmp.iterdir()) == []
+    assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
+    data = json.loads(json.dumps(as_data(result)))
+    return {package["name"]: package for package in data["packages"]}
+
+
+def is_about_10(rate: float) -> bool:
+    """Tell whether it is that of the talkers, as exactly as a busy machine can be."""
+    return 5.0 < rate < 20.0
+
+
+def executable(packages: dict[str, Result], package: str, name: str) -> Result:
+    found: list[Result] = packages[package]["executables"]
+    return next(one for one in found if one["name"] == name)
+
+
+def bad(packages: dict[str, Result], name: str) -> tuple[Result, str]:
+    """Return an executable that is not in order, and its only problem."""
+    found = executable(packages, "bad_py", name)
+    assert not found["ok"]
+    (problem,) = found["problems"]
+    return found, problem
+
+
+@pytest.mark.parametrize(("package", "name"), [("good_py", "talker"), ("good_cmake", "talker.py")])
+def test_good_publisher(packages: dict[str, Result], package: str, name: str) -> None:
+    assert packages[package]["build"]["ok"]
+    assert packages[package]["build"]["warnings"] == []
+    found = executable(packages, package, name)
+
+    assert (found["ok"], found["problems"], found["nodes"]) == (True, [], ["/talker"])
+    (topic,) = found["topics"]
+    assert (topic["name"], topic["type"]) == ("/numbers", "std_msgs/msg/String")
+    assert (topic["publishers"], topic["subscribers"]) == (1, 0)
+    assert is_about_10(topic["rate_hz"])
+    assert topic["count"] >= 5
+    texts = [message["data"] for message in topic["messages"]]
+    first = int(texts[0].removeprefix("number "))
+    assert texts == [f"number {first + step}" for step in range(5)]
+    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGINT", 0)
+    assert found["stop"]["traceback"] is None
+
+
+def test_schema(packages: dict[str, Result]) -> None:
+    package = packages["good_py"]
+    assert set(package) == {"name", "build", "executables"}
+    assert set(package["build"]) == {"ok", "seconds", "errors", "warnings"}
+    found = executable(packages, "good_py", "talker")
+    assert set(found) == {
+        "name", "ok", "nodes", "topics", "services", "actions", "stop", "problems", "notes",
+    }  # fmt: skip
+    assert set(found["topics"][0]) == {
+        "name", "type", "publishers", "subscribers", "rate_hz", "count", "messages",
+    }  # fmt: skip
+    assert set(found["stop"]) == {"signal", "exit_code", "seconds", "traceback"}
+
+
+def test_namespace_latched_message_and_relay(packages: dict[str, Result]) -> None:
+    found = executable(packages, "good_py", "listener")
+    assert (found["ok"], found["nodes"]) == (True, ["/deep/listener"])
+    topics = {topic["name"]: topic for topic in found["topics"]}
+    assert set(topics) == {"/deep/listener/kept", "/deep/relayed", "/heard"}
+    kept = topics["/deep/listener/kept"]
+    assert (kept["type"], kept["count"]) == ("std_msgs/msg/Float32MultiArray", 1)
+    assert kept["rate_hz"] is None
+    assert kept["messages"][0]["data"] == [0.1] * 16 + ["..."]
+    assert (topics["/heard"]["publishers"], topics["/heard"]["subscribers"]) == (0, 1)
+    assert found["notes"] == ["no message on /deep/relayed: something has to happen first"]
+    assert found["services"] == [
+        {"name": "/deep/answers", "type": "rcl_interfaces/srv/ListParameters"}
+    ]
+
+
+def test_program_that_is_no_node(packages: dict[str, Result]) -> None:
+    found = executable(packages, "good_py", "once")
+    assert (found["ok"], found["nodes"], found["topics"]) == (True, [], [])
+    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
+    assert found["notes"][0].startswith("finished by itself after ")
+
+
+def test_crash_at_start(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "crashes")
+    assert problem.splitlines()[0] == (
+        "crashed at start, exit code 1: RuntimeError: no configuration found"
+    )
+    assert '  File "bad_py/crashes.py", line 8, in read_configuration' in problem
+    assert (found["nodes"], found["stop"]["exit_code"]) == ([], 1)
+
+
+def test_crash_later(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "crashes_later")
+    assert problem.splitlines()[0].endswith("s, exit code 1: ValueError: the counter is worn out")
+    assert problem.startswith("crashed after ")
+    assert found["nodes"] == ["/talker"]
+    assert 1 <= found["topics"][0]["count"] <= 8
+
+
+def test_hangs_before_there_is_a_node(packages: dict[str, Result]) -> None:
+    _, problem = bad(packages, "hangs")
+    lines = problem.splitlines()
+    assert lines[:2] == [f"hangs: no node appeared within {TIMEOUT:g} s", "waiting for the device"]
+    assert "    threading.Event().wait()" in lines
+
+
+def test_ignores_signals(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "ignores")
+    assert problem == "ignored SIGINT: it was still running after 5 s, SIGKILL ended it"
+    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGKILL", -9)
+
+
+def test_leaves_a_process(packages: dict[str, Result]) -> None:
+    _, problem = bad(packages, "parent")
+    assert problem.startswith("leaves a process running: ")
+    assert problem.endswith("-c import time; time.sleep(600)")
+
+
+def test_never_publishes(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "silent")
+    assert problem == "no message on /silent: nothing that runs calls publish"
+    assert found["topics"][0]["count"] == 0
+
+
+def test_wrong_rate(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "slow")
+    assert problem.startswith("/slow comes at ")
+    assert problem.endswith(" Hz: bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
+    assert 1.0 < found["topics"][0]["rate_hz"] < 6.0
+
+
+def test_rate_that_is_wrong_once(packages: dict[str, Result]) -> None:
+    found = executable(packages, "bad_py", "late_once")
+    assert (found["ok"], found["problems"]) == (True, [])
+    (note,) = found["notes"]
+    assert note.startswith("in the first of two runs only: /late_once comes at ")
+    assert is_about_10(found["topics"][0]["rate_hz"])
+
+
+def test_traceback_at_stop(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "traceback")
+    assert problem.splitlines()[0] == (
+        "does not stop cleanly on SIGINT, killed by SIGINT: KeyboardInterrupt"
+    )
+    assert found["stop"]["exit_code"] == -2
+    assert found["stop"]["traceback"].endswith("\nKeyboardInterrupt")
+
+
+def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
+    _, problem = bad(packages, "unspun")
+    assert problem.startswith("finished by itself after ")
+    assert "before any message came on /unspun: bad_py/unspun.py publishes" in problem
+
+
+def test_node_that_leaves_before_it_has_published(packages: dict[str, Result]) -> None:
+    found, problem = bad(packages, "leaves")
+    assert problem.startswith("finished by itself after ")
+    assert problem.endswith(
+        "before any message came on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
+    )
+    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
+
+
+def test_does_not_build(packages: dict[str, Result]) -> None:
+    for name, first, some in (
+        ("unbuilt_cmake", "CMake Error at CMakeLists.txt:5 (find_package):", "no_such_package"),
+        ("unbuilt_py", "Traceback (most recent call last):", "No module named 'no_such_module'"),
+    ):
+        build = packages[name]["build"]
+        assert not build["ok"]
+        assert build["errors"][0] == first
+        assert any(some in line for line in build["errors"])
+        assert packages[name]["executables"] == []
+
+
+def test_dependency_does_not_build(packages: dict[str, Result]) -> None:
+    assert packages["dependent"]["build"] == {
+        "ok": False,
+        "seconds": 0.0,
+        "errors": ["not built: it depends on unbuilt_cmake, which failed"],
+        "warnings": [],
+    }
+
+
+def test_package_that_colcon_ignores(tmp_path: Path) -> None:
+    package = python_package(tmp_path, "ignored", {"once": ONCE})
+    (package / "COLCON_IGNORE").touch()
+    result = smoke(packages_of(targets.find([str(package)])), Options())
+    assert not result.ok
+    assert result.packages[0].build.errors == ("not built: colcon does not find it",)
+
+
+def test_build_that_takes_too_long(sources: Path) -> None:
+    found = packages_of(targets.find([str(sources / "good_py")]))
+    result = smoke(found, Options(build_timeout=0.1))
+    assert not result.ok
+    assert result.packages[0].build.errors[-1] == "the build did not end within 0.1 s"
+
+
+def test_executable_that_ros2_run_does_not_find(packages: dict[str, Result]) -> None:
+    found = executable(packages, "uninstalled", "once")
+    assert found["problems"] == [
+        "ros2 run does not find it: it is declared, but not in lib/uninstalled"
+    ]
+    assert found["stop"]["exit_code"] is None
+
+
+def test_sources_are_not_changed(
+    packages: dict[str, Result], sources: Path, listing: dict[str, bytes]
+) -> None:
+    assert packages
+    assert listing == {
+        str(path): path.read_bytes() for path in sorted(sources.rglob("*")) if path.is_file()
+    }
+
+
+def test_command_line(sources: Path, tmp_path: Path) -> None:
+    workspace = tmp_path / "workspace"
+    done = subprocess.run(
+        command_line(
+            sources / "good_py", "--duration", "1", "--signal", "both", "--format", "json",
+            "--workspace", workspace,
+        ),
+        env=variables(tmp_path),
+        capture_output=True,
+        text=True,
+        check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    data = json.loads(done.stdout)
+    assert set(data) == {"environment", "packages", "ok"}
+    assert set(data["environment"]) == {"kind", "prefix", "rmw"}
+    assert data["ok"] is True
+    talker_ = next(e for e in data["packages"][0]["executables"] if e["name"] == "talker")
+    assert [(s["signal"], s["exit_code"]) for s in talker_["stops"]] == [
+        ("SIGINT", 0), ("SIGTERM", 0),
+    ]  # fmt: skip
+    assert (workspace / "install" / "setup.sh").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["workspace"]
+
+
+def test_text(sources: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        command_line(sources / "good_cmake", sources / "unbuilt_py", "--duration", "1", "--keep"),
+        env=variables(tmp_path),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    (kept,) = tmp_path.iterdir()
+    assert done.stderr == f"kept: {kept}\n"
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith("ROS 2 (")
+    assert "  talker.py: ok" in lines
+    assert "    node /talker" in lines
+    (topic,) = [line.split() for line in lines if line.startswith("    /numbers")]
+    assert topic[:4] == ["/numbers", "std_msgs/msg/String", "1", "publisher"]
+    assert is_about_10(float(topic[4]))
+    assert topic[5] == "Hz"
+    assert any(line.startswith('      {data: "number ') for line in lines)
+    assert any(line.startswith("    stopped by SIGINT in ") for line in lines)
+    assert "unbuilt_py: does not build" in lines
+    assert "  ModuleNotFoundError: No module named 'no_such_module'" in lines
+    assert lines[-1].startswith("2 packages, 1 executable: unbuilt_py not built in ")
+    assert "\033" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
+)
+def test_interrupted(sources: Path, tmp_path: Path, number: signal.Signals, code: int) -> None:
+    with subprocess.Popen(
+        command_line(sources / "good_py", "--duration", "300"),
+        env=variables(tmp_path),
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as run:
+        wait_until(lambda: any("lib/good_py/talker" in one for one in processes_of(tmp_path)))
+        run.send_signal(number)
+        said = run.communicate(timeout=PATIENCE)
+    assert run.returncode == code
+    wait_until(lambda: processes_of(tmp_path) == [])
+    if number != signal.SIGKILL:
+        assert said == ("", f"ros2-scaffold: interrupted by {number.name}\n")
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_interrupted_during_the_build(sources: Path, tmp_path: Path) -> None:
+    with subprocess.Popen(
+        command_line(sources / "good_py"), env=variables(tmp_path), stderr=subprocess.PIPE
+    ) as run:
+        wait_until(lambda: any("setup.py" in one for one in processes_of(tmp_path)))
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=PATIENCE)
+    assert run.returncode == 130
+    assert processes_of(tmp_path) == []
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(Path("/opt/ros").exists(), reason="there is a ROS 2 installation")
+def test_without_ros(sources: Path, tmp_path: Path) -> None:
+    python = tmp_path / "bare" / "bin" / "python"
+    venv.create(tmp_path / "bare", symlinks=True)
+    done = subprocess.run(
+        [python, "-m", "scaffold.cli.main", "smoke", sources / "good_py"],
+        env={"PATH": os.defpath, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "ros2-scaffold: error: no ROS 2 environment found: source the setup file of a ROS 2 "
+        "installation, install ROS 2 Jazzy, or run: pipx install --force '.[ros]' "
+        "(in a clone of its repository)\n"
+    )
