@@ -27,11 +27,10 @@ def _own_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
     """Return a content directory with an extra that writes a CITATION file."""
-    extra = tmp_path / "team" / "templates" / "citation"
+    extra = tmp_path / "team" / "templates" / "extras" / "citation"
     extra.mkdir(parents=True)
     (extra / "template.yaml").write_text(
         "summary: A citation file\n"
-        "role: extra\n"
         "questions:\n"
         "  year_of_paper: { default: 2026, help: when it came out }\n"
         "examples:\n"
@@ -63,7 +62,7 @@ def test_good_ones(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_one_that_makes_a_bad_package(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    extra = team / "templates" / "citation"
+    extra = team / "templates" / "extras" / "citation"
     (extra / "{{ package }}").mkdir()
     (extra / "{{ package }}" / "cite.py.jinja").write_text('{{ header }}\n\nX = "x"\n')
     assert main(["templates", "test", str(team)]) == 1
@@ -74,13 +73,13 @@ def test_one_that_makes_a_bad_package(team: Path, capsys: pytest.CaptureFixture[
 
 
 def test_one_that_cannot_be_rendered(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (team / "templates" / "citation" / "CITATION.cff.jinja").write_text("{{ who }}\n")
+    (team / "templates" / "extras" / "citation" / "CITATION.cff.jinja").write_text("{{ who }}\n")
     assert main(["templates", "test", str(team)]) == 1
     assert "    template 'citation/CITATION.cff.jinja'" in capsys.readouterr().out
 
 
 def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = team / "templates" / "citation" / "template.yaml"
+    path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().partition("examples:")[0])
     assert main(["templates", "test", str(team)]) == 1
     said = capsys.readouterr()
@@ -100,10 +99,10 @@ def test_building(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     said = capsys.readouterr().out
     assert "citation: plain, ament_cmake: built\n" in said
     assert "citation: plain, ament_python: built\n" in said
-    program = team / "templates" / "cpp_broken" / "src"
+    program = team / "templates" / "programs" / "cpp_broken" / "src"
     program.mkdir(parents=True)
     (program.parent / "template.yaml").write_text(
-        "summary: does not compile\nrole: program\nbuild_types: [ament_cmake]\n"
+        "summary: does not compile\nbuild_types: [ament_cmake]\n"
         "questions: { program_name: { type: program, default: broken, help: its name } }\n"
         "examples: { alone: { package: broken_program } }\n"
     )

@@ -927,10 +927,10 @@ def assert_refused(
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
     """A content directory with one more kind of node."""
-    kind = tmp_path / "team" / "templates" / "blinker"
+    kind = tmp_path / "team" / "templates" / "nodes" / "blinker"
     (kind / "{{ package }}").mkdir(parents=True)
     (kind / "template.yaml").write_text(
-        "summary: blinks\nrole: node\n"
+        "summary: blinks\n"
         "questions:\n"
         "  node_name: {type: node, default: blinker, help: its name}\n"
         "  lamp: {default: red, help: which lamp}\n"
@@ -973,7 +973,7 @@ def test_templates_of_a_team(team: Path) -> None:
 
 def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> None:
     (tmp_path / "work" / "answers.yaml").write_text("node_kind: blinker\nlamp: green\n")
-    (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
+    (team / "nodes" / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
         "#!/usr/bin/env python3\n{{ header }}\n\nLAMP = {{ node.lamp | literal }}\n"
     )
     (team / "_licenses" / "Ours-1.0").mkdir(parents=True)
@@ -1003,7 +1003,7 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
     ],
 )
 def test_broken_templates(team: Path, path: str, text: str, message: str) -> None:
-    file = team / "blinker" / path
+    file = team / "nodes" / "blinker" / path
     file.parent.mkdir(exist_ok=True)
     file.write_text(text)
     roots = [*ROOTS, str(team)]
@@ -1021,40 +1021,62 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
     ("manifest", "message"),
     [
         ("[", "template.yaml: while parsing"),
-        ("- a", "must be a mapping with the keys summary, role"),
-        ("role: node", "the key 'summary' is missing"),
-        ("summary: x\nrole: knot", "role must be one of package, build_type, node"),
-        ("summary: x\nrole: node\nfiles: []", "unknown key 'files'"),
-        ("summary: x\nrole: node\ninclude: []", "include must be a dict"),
+        ("- a", "must be a mapping with the keys summary, questions"),
+        ("groups: []", "the key 'summary' is missing"),
+        ("summary: x\nrole: node", "unknown key 'role'"),
+        ("summary: x\nfiles: []", "unknown key 'files'"),
+        ("summary: x\ninclude: []", "include must be a dict"),
         (
-            "summary: x\nrole: node\ndepends: {run: [a]}",
+            "summary: x\ndepends: {run: [a]}",
             "depends must map buildtool, build, build_export, depend, exec, test",
         ),
-        ("summary: x\nrole: node\nquestions: {a: 1}", "the question 'a' must be a mapping"),
+        ("summary: x\nquestions: {a: 1}", "the question 'a' must be a mapping"),
         (
-            "summary: x\nrole: node\nquestions: {a: {help: x, typ: text}}",
+            "summary: x\nquestions: {a: {help: x, typ: text}}",
             "a has an unknown key 'typ'",
         ),
         (
-            "summary: x\nrole: node\nquestions: {a: {help: x, type: txt}}",
+            "summary: x\nquestions: {a: {help: x, type: txt}}",
             "a has the unknown type 'txt'",
         ),
         (
-            "summary: x\nrole: extra\nquestions: {a: {help: x, choices: none}}",
+            (
+                "summary: x\nquestions: {node_name: {help: x, type: node}, "
+                "a: {help: x, choices: none}}"
+            ),
             "a must have a list of choices, or a role",
         ),
         (
-            "summary: x\nrole: extra\nquestions: {topic: {help: x, type: rate}}",
+            (
+                "summary: x\nquestions: {node_name: {help: x, type: node}, "
+                "topic: {help: x, type: rate}}"
+            ),
             "topic has the type topic, but rate in",
         ),
     ],
 )
 def test_broken_manifests(team: Path, manifest: str, message: str) -> None:
-    (team / "blinker" / "template.yaml").write_text(manifest)
+    (team / "nodes" / "blinker" / "template.yaml").write_text(manifest)
     with pytest.raises(ContentError) as told:
         template.load([*ROOTS, str(team)])
     assert message in str(told.value)
     assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("place", "message"),
+    [
+        ("lamp", "lamp: a template must be in build_types, nodes, interfaces"),
+        ("node/lamp", "node/lamp: a template must be in build_types, nodes, interfaces"),
+        ("extras/blinker", "nodes/blinker: {team}/extras/blinker has the same name"),
+    ],
+)
+def test_templates_where_no_role_is_certain(team: Path, place: str, message: str) -> None:
+    (team / place).mkdir(parents=True)
+    (team / place / "template.yaml").write_text("summary: x\n")
+    with pytest.raises(ContentError) as raised:
+        template.load([*ROOTS, str(team)])
+    assert message.format(team=team) in str(raised.value)
 
 
 def test_a_package_that_the_checker_rejects_is_a_defect(
@@ -1062,7 +1084,9 @@ def test_a_package_that_the_checker_rejects_is_a_defect(
 ) -> None:
     (tmp_path / "work" / "ros2-scaffold.toml").write_text(f'content = ["{team.parent}"]\n')
     trust.add(str(tmp_path / "work"))
-    (team / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text("import os\n")
+    (team / "nodes" / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
+        "import os\n"
+    )
     assert main(["new", "talker", "--node-kind", "blinker"]) == 3
     said = capsys.readouterr()
     assert "talker/blinker.py:1:1: F401 " in said.err

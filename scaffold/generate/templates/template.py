@@ -2,14 +2,15 @@
 
 A package is made of layers: the one for every package, one for its build type, those of its parts
 (nodes, interfaces, programs) and of its extras. The name of a directory is the name of the
-template; a later content directory replaces a template of the same name.
+template, and the folder that it lies in is its role; a later content directory replaces a
+template of the same name.
 """
 
 from __future__ import annotations
 
 import marshal
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from typing import Any
 
@@ -47,6 +48,14 @@ class Role(Enum):
     """Something that a package may have besides: a launch file, a CI workflow."""
 
 
+FOLDERS = {
+    "build_types": Role.BUILD_TYPE,
+    "nodes": Role.NODE,
+    "interfaces": Role.INTERFACE,
+    "programs": Role.PROGRAM,
+    "extras": Role.EXTRA,
+}
+"""Where the templates of a role are; ``package`` is itself the one for every package."""
 PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
 """What a package has several of; the value of the role is the variable in its files."""
 
@@ -106,7 +115,6 @@ class Template(NamedTuple):
 
 _KEYS: Mapping[str, type[Any]] = {
     "summary": str,
-    "role": str,
     "questions": dict,
     "executable_name": str,
     "parameter_file": str,
@@ -141,21 +149,19 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
     """Return the templates of the content directories by name.
 
     Raises:
-        ContentError: a manifest cannot be used, or two templates ask different questions under
-            one name.
+        ContentError: a manifest cannot be used, a template is in no folder of a role, or two
+            templates ask different questions under one name.
     """
-    directories: dict[str, str] = {}
+    places: dict[str, tuple[str, Role]] = {}
     for root in roots:
-        for name in sorted(os.listdir(root)):
-            if os.path.isfile(os.path.join(root, name, MANIFEST)):
-                directories[name] = os.path.join(root, name)
-    manifests = _manifests([directories[name] for name in sorted(directories)])
+        places |= _places(root)
+    manifests = _manifests([places[name][0] for name in sorted(places)])
     found = {
-        name: _load_one(name, directories[name], manifest)
-        for name, manifest in zip(sorted(directories), manifests, strict=True)
+        name: _load_one(name, *places[name], manifest)
+        for name, manifest in zip(sorted(places), manifests, strict=True)
     }
     if found[BASE].role is not Role.PACKAGE if BASE in found else True:
-        raise ContentError(f"no template {BASE!r} with role: package in {', '.join(roots)}")
+        raise ContentError(f"no template {BASE!r} for every package in {', '.join(roots)}")
     _refuse_ambiguous_questions(found)
     known = licenses.names(roots)
     return {name: _with_choices(template, found, known) for name, template in found.items()}
@@ -164,6 +170,34 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
 def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
     """Return the names of the templates of a role."""
     return tuple(name for name, template in templates.items() if template.role is role)
+
+
+def _places(root: str) -> dict[str, tuple[str, Role]]:
+    """Return the directories of the templates in a content directory, and their roles."""
+    found: dict[str, tuple[str, Role]] = {}
+    for folder in sorted(os.listdir(root)):
+        place = os.path.join(root, folder)
+        if folder == BASE and os.path.isfile(os.path.join(place, MANIFEST)):
+            found[BASE] = place, Role.PACKAGE
+            continue
+        if os.path.isfile(os.path.join(place, MANIFEST)):
+            raise ContentError(f"{place}: a template must be in {', '.join(FOLDERS)}")
+        for name in _templates(place):
+            directory = os.path.join(place, name)
+            if folder not in FOLDERS:
+                raise ContentError(f"{directory}: a template must be in {', '.join(FOLDERS)}")
+            if name in found:
+                raise ContentError(f"{directory}: {found[name][0]} has the same name")
+            found[name] = directory, FOLDERS[folder]
+    return found
+
+
+def _templates(place: str) -> Iterator[str]:
+    """Yield the names of the directories in a folder that are templates."""
+    if os.path.isdir(place):
+        for name in sorted(os.listdir(place)):
+            if os.path.isfile(os.path.join(place, name, MANIFEST)):
+                yield name
 
 
 def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
@@ -187,13 +221,8 @@ _MOST_KEPT = 16
 """Sets of content directories whose manifests are kept."""
 
 
-def _load_one(name: str, directory: str, manifest: Mapping[str, Any]) -> Template:
+def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]) -> Template:
     path = os.path.join(directory, MANIFEST)
-    try:
-        role = Role(manifest["role"])
-    except ValueError:
-        roles = ", ".join(one.value for one in Role)
-        raise ContentError(f"{path}: role must be one of {roles}") from None
     for kind, depends in manifest.get("depends", {}).items():
         if kind not in DEPEND_KINDS or not all(isinstance(text, str) for text in depends):
             kinds = ", ".join(DEPEND_KINDS)
@@ -238,9 +267,8 @@ def _manifest(path: str) -> dict[str, Any]:
         if not isinstance(value, _KEYS[key]):
             raise ContentError(f"{path}: {key} must be a {_WORDS[_KEYS[key]]}")
         _refuse_others(path, key, value)
-    for key in ("summary", "role"):
-        if key not in manifest:
-            raise ContentError(f"{path}: the key {key!r} is missing")
+    if "summary" not in manifest:
+        raise ContentError(f"{path}: the key 'summary' is missing")
     return manifest
 
 

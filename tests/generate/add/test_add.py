@@ -228,13 +228,12 @@ def test_a_team_adds_extras_of_its_own(tmp_path: Path, *, is_changed: bool) -> N
     team = write(
         tmp_path / "team",
         {
-            "templates/docker/template.yaml": """\
+            "templates/extras/docker/template.yaml": """\
                 summary: A Dockerfile
-                role: extra
                 questions: { base_image: { default: "ros:jazzy", help: the image to start from } }
                 depends: { exec: [ros2launch] }
                 """,
-            "templates/docker/Dockerfile.jinja": """\
+            "templates/extras/docker/Dockerfile.jinja": """\
                 FROM {{ base_image }}
                 {% for node in nodes %}
                 # {{ node.name }}

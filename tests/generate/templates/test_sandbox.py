@@ -20,7 +20,6 @@ from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import foreign, template
 
 MANIFEST = """summary: A lamp
-role: extra
 questions:
   place: { default: "PLACE", help: where it is }
 examples:
@@ -31,7 +30,7 @@ examples:
 @pytest.fixture
 def lamp(tmp_path: Path) -> Path:
     """Return the directory of a template that does nothing yet."""
-    directory = tmp_path / "templates" / "lamp"
+    directory = tmp_path / "templates" / "extras" / "lamp"
     directory.mkdir(parents=True)
     (directory / "template.yaml").write_text(MANIFEST)
     (tmp_path / "secret").write_text("secret\n")
@@ -40,7 +39,7 @@ def lamp(tmp_path: Path) -> Path:
 
 def said(lamp: Path) -> str:
     """Return what is wrong with the first example of the template."""
-    roots = content.roots("templates", (str(lamp.parents[1]),))
+    roots = content.roots("templates", (str(lamp.parents[2]),))
     rules = registry.load(content.roots("rules"))
     first = next(iter(examples.check(["lamp"], roots, template.load(roots), rules)))
     assert len(first.defects) == 1
@@ -83,12 +82,12 @@ def test_paths_that_leave_the_package(lamp: Path, place: str) -> None:
 
 
 def test_links_out_of_the_templates(lamp: Path) -> None:
-    (lamp / "lamp.txt.jinja").symlink_to(lamp.parents[1] / "secret")
+    (lamp / "lamp.txt.jinja").symlink_to(lamp.parents[2] / "secret")
     assert "a link to" in said(lamp)
 
 
 def test_links_to_directories_out_of_the_templates(lamp: Path) -> None:
-    (lamp / "docs").symlink_to(lamp.parents[1])
+    (lamp / "docs").symlink_to(lamp.parents[2])
     assert "a link to" in said(lamp)
 
 
@@ -165,7 +164,7 @@ def test_a_greedy_template_is_one_line_and_nothing_is_written(
 
 def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text("text\n")
-    roots = content.roots("templates", (str(lamp.parents[1]),))
+    roots = content.roots("templates", (str(lamp.parents[2]),))
     engine = foreign.ForeignEngine(roots, {"lamp": str(lamp)}, is_tutorial=False)
     assert engine.text("{{ 1 + 1 }}", {}) == "2"
     process = engine._process  # noqa: SLF001  what a kernel out of memory does

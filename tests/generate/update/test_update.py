@@ -40,7 +40,7 @@ def package(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
     """Return a directory with the templates of now, which a test changes."""
-    for name in ("publisher", "package", "ament_cmake"):
+    for name in ("nodes/publisher", "package", "build_types/ament_cmake"):
         shutil.copytree(TEMPLATES / name, tmp_path / "team" / "templates" / name)
     return tmp_path / "team"
 
@@ -55,7 +55,7 @@ def change(team: Path, pattern: str, old: str, new: str) -> None:
 
 def node_of(team: Path) -> str:
     """Return the name of the publisher's template."""
-    (path,) = (team / "templates" / "publisher" / "{{ package }}").iterdir()
+    (path,) = (team / "templates" / "nodes" / "publisher" / "{{ package }}").iterdir()
     return path.name
 
 
