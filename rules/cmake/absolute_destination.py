@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.parser import Command
+from scaffold.api.cmake import Command
 
 _LISTS = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
 

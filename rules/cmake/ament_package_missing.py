@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.ament import PACKAGE_COMMANDS, has_unknown_commands, uses_ament
+from scaffold.api.cmake import PACKAGE_COMMANDS, has_unknown_commands, uses_ament
 
 _LISTS = (
     "cmake_minimum_required(VERSION 3.8)\nproject(talker)\nfind_package(ament_cmake REQUIRED)\n"

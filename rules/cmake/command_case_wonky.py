@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.ament import lint_cmake
 
 
 class CommandCaseWonky(Rule):

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import uses_ament
-from scaffold.model.cmake.targets import BUILT_IN, OF_AMENT
+from scaffold.api.cmake import BUILT_IN, OF_AMENT, uses_ament
 
 _OF_ROS1 = {
     "add_action_files": "rosidl_generate_interfaces",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.ament import lint_cmake
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
-from scaffold.files.tree import CMAKE_LISTS
+from scaffold.api.ament import lint_cmake
+from scaffold.api.files import CMAKE_LISTS
 
 
 class CommandUnclosed(Rule):

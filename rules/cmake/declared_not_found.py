@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.catalog import ROS_PACKAGES
-from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.api.catalog import ROS_PACKAGES
+from scaffold.api.cmake import has_unknown_commands
 
 KINDS = ("build_depend", "buildtool_depend")
 _NOT_FOUND_BY_NAME = (

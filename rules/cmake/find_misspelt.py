@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
-from scaffold.model.catalog import similar_package
-from scaffold.model.cmake.lists import Argument
+from scaffold.api.catalog import similar_package
+from scaffold.api.cmake import Argument
 
 _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.catalog import ROS_PACKAGES, provided_by
-from scaffold.model.manifest import requirements
+from scaffold.api.catalog import ROS_PACKAGES, provided_by
+from scaffold.api.manifest import requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.catalog import ROS_PACKAGES, provided_by
-from scaffold.source import ViewError
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api.catalog import ROS_PACKAGES, provided_by
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(std_msgs REQUIRED)\n"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, nearest
 
 _KINDS = (
     "TARGETS",

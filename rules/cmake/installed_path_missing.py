@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import is_made_by_build, runs_if_exists
-from scaffold.model.cmake.lists import Install, InstallItem
-from scaffold.model.workspace.gitignore import is_left_out
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.cmake import Install, InstallItem, is_made_by_build, runs_if_exists
+from scaffold.api.workspace import is_left_out
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.rosidl import Generation, generations
-from scaffold.model.interfaces.definitions import KINDS, Definitions
-from scaffold.model.interfaces.files import interface_files
+from scaffold.api.cmake import Generation, generations
+from scaffold.api.interfaces import KINDS, Definitions, interface_files
 
 _LISTS = (
     "project(my_msgs)\nfind_package(geometry_msgs REQUIRED)\nfind_package(std_msgs REQUIRED)\n"

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.catalog import provided_by
-from scaffold.model.cmake.ament import has_unknown_commands
-from scaffold.model.cmake.lists import CMakeLists
-from scaffold.model.cmake.rosidl import generations
-from scaffold.model.interfaces.definitions import KINDS
+from scaffold.api.catalog import provided_by
+from scaffold.api.cmake import CMakeLists, generations, has_unknown_commands
+from scaffold.api.interfaces import KINDS
 
 _TOOLS = ("ament_cmake", "ament_lint", "rosidl_", "Python3", "Eigen3")
 """What brings no interfaces along, except for those that all interfaces use."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.rosidl import generations
-from scaffold.model.interfaces.definitions import nearest_word
-from scaffold.model.interfaces.syntax import SECTIONS
+from scaffold.api.cmake import generations
+from scaffold.api.interfaces import SECTIONS, nearest_word
 
 _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
 

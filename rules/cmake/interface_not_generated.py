@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, Severity
-from scaffold.model.cmake.ament import uses_ament
-from scaffold.model.cmake.rosidl import Generation, generations, may_generate_more
-from scaffold.model.interfaces.files import is_commented_out, standing, words_of_users
+from scaffold.api.cmake import Generation, generations, may_generate_more, uses_ament
+from scaffold.api.interfaces import is_commented_out, standing, words_of_users
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.rosidl import generations
+from scaffold.api.cmake import generations
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(%s msg/Beat.msg)\n"
 _MESSAGE = {"msg/Beat.msg": "int32 count\n"}

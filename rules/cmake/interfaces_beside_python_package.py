@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.rosidl import generations, is_interface_package
+from scaffold.api.cmake import generations, is_interface_package
 
 _LISTS = (
     "project(my_robot)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.lists import Install
+from scaffold.api.cmake import Install
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
 _RIGHT = "lib/${PROJECT_NAME}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Report, Rule
-from scaffold.model.cmake.ament import is_only_imported, programs
+from scaffold.api.cmake import is_only_imported, programs
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _NODE = "#!/usr/bin/env python3\n"

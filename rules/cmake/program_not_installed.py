@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import has_unknown_commands, is_used_by_build, programs
-from scaffold.model.install.modules import is_started, paths_imported_by
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
+from scaffold.api.install import is_started, paths_imported_by
 
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.ament import is_only_imported, programs, runs_with_python
+from scaffold.api.cmake import is_only_imported, programs, runs_with_python
 
 SHEBANG = "#!/usr/bin/env python3"
 ENV_WORDS = 2

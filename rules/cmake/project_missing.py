@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import uses_ament
+from scaffold.api.cmake import uses_ament
 
 _LISTS = (
     "cmake_minimum_required(VERSION 3.8)\n{}find_package(ament_cmake REQUIRED)\nament_package()\n"

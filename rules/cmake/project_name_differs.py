@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.package_name import other_name
+from scaffold.api.manifest import other_name
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
 

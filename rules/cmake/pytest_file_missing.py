@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
 
 COMMANDS = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
 _LISTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"

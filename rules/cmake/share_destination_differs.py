@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.lists import Install
-from scaffold.model.launch.files import DATA_DIRECTORIES
+from scaffold.api.cmake import Install
+from scaffold.api.launch import DATA_DIRECTORIES
 
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
 _WANTED = "share/${PROJECT_NAME}"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.cmake.ament import installs_directory
-from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
+from scaffold.api.cmake import installs_directory
+from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 _LAUNCH = "def generate_launch_description():\n    pass\n"

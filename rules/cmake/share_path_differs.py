@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.launch.files import DATA_DIRECTORIES
+from scaffold.api.launch import DATA_DIRECTORIES
 
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
 _LISTS = "project(talker)\ninstall(DIRECTORY {} DESTINATION share/${{PROJECT_NAME}}{})\n"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.lists import Install
+from scaffold.api.cmake import Install
 
 _LISTS = (
     "project(talker)\ninstall(DIRECTORY config DESTINATION share/${{PROJECT_NAME}}{})\n"

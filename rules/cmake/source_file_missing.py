@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.workspace.gitignore import is_left_out
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.workspace import is_left_out
 
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
 _MAKERS = (

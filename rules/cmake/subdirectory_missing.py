@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.api.workspace import is_left_out
 
 _LISTS = "project(talker)\nadd_subdirectory({})\n"
 

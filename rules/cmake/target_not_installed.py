@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.api.cmake import has_unknown_commands
 
 _LISTS = (
     "project(talker)\nfind_package(ament_cmake REQUIRED)\nadd_executable(talk src/talk.cpp)\n"

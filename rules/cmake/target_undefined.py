@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.ament import has_unknown_commands
-from scaffold.model.cmake.targets import TAKING_TARGETS, defined_targets, targets_named_once
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.cmake import (
+    TAKING_TARGETS,
+    defined_targets,
+    has_unknown_commands,
+    targets_named_once,
+)
 
 _LISTS = (
     "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.cmake.lists import CMakeLists
-from scaffold.model.cmake.parser import Argument
+from scaffold.api.cmake import Argument, CMakeLists
 
 _WANTED = "PROJECT_NAME"
 _OTHERS = frozenset({"PACKAGE_NAME", "PKG_NAME", "PACKAGE", "PROJECT", "PROJECTNAME"})

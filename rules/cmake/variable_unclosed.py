@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.cmake.parser import Argument
+from scaffold.api.cmake import Argument
 
 _LISTS = (
     "project(talker)\ninstall(PROGRAMS talker/node.py\n"

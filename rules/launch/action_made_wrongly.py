@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile
 
 _ACTIONS = frozenset(
     {*NODES, "DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription"}

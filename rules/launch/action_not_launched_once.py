@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.actions import HANDLERS, Entity, entities
-from scaffold.model.launch.python_file import NODES, LaunchFile
+from scaffold.api.launch import HANDLERS, NODES, Entity, LaunchFile, entities
 
 _PROCESSES = (*NODES, "ExecuteProcess")
 _LAUNCH = (

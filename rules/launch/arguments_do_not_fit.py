@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.launch.signatures import signature
+from scaffold.api.launch import LaunchFile, signature
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import TimerAction\n"

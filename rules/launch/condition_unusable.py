@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile
-from scaffold.model.launch.substitutions import failure
+from scaffold.api.launch import LaunchCall, LaunchFile, failure
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")

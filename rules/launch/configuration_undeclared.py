@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+from scaffold.api.launch import LaunchCall, LaunchFile, may_be_set_elsewhere, set_names
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.configurations import may_be_set_elsewhere
-from scaffold.model.launch.execution_order import later_declarations, steps
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.api.launch import LaunchFile, later_declarations, may_be_set_elsewhere, steps
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

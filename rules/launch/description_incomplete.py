@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import FUNCTION, NODES, LaunchFile
+from scaffold.api.launch import FUNCTION, NODES, LaunchFile
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
 _LAUNCH = (

@@ -6,9 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.actions import CALLBACKS, HANDLERS, function_of
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile
-from scaffold.model.launch.signatures import ACTIONS
+from scaffold.api.launch import ACTIONS, CALLBACKS, HANDLERS, LaunchCall, LaunchFile, function_of
 
 _OF_PROCESSES = ("OnProcessExit", "OnProcessIO", "OnProcessStart")
 _NO_PROCESSES = frozenset(

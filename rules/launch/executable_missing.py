@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.references import package_uses
-from scaffold.model.programs.executables import programs_of
+from scaffold.api.launch import package_uses
+from scaffold.api.programs import programs_of
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import Import
+from scaffold.api.python import Import
 
 _NAMES: Mapping[str, str] = {
     "launch": "LaunchContext LaunchDescription LaunchDescriptionSource LaunchService actions "

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.includes import given_arguments
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.api.launch import LaunchFile, given_arguments
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"

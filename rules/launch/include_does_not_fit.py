@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.includes import Included, given_arguments, included
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+from scaffold.api.launch import Included, LaunchCall, LaunchFile, given_arguments, included
 
 _INCLUDED = (
     "from launch import LaunchDescription\n"

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchFile
 
 _OLD = {
     "node_executable": "executable",

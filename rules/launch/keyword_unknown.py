@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.launch.signatures import signature
+from scaffold.api.launch import LaunchFile, signature
 
 _OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
 _LAUNCH = (

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.api.launch import LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"

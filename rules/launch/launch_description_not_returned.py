@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile, returns
+from scaffold.api.launch import LaunchFile, returns
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.launch.python_file import FUNCTION, LaunchFile
+from scaffold.api.launch import FUNCTION, LaunchFile
 
 _LAUNCH = (
     "from launch import LaunchDescription\n\n\n"

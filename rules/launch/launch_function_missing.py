@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.launch.python_file import FUNCTION, LaunchFile
+from scaffold.api.launch import FUNCTION, LaunchFile
 
 _LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchFile
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _NAMESPACE = r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)"

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.formats import xml as xml_tree
-from scaffold.formats.xml import Element
+from scaffold.api.formats import Element, xml_tree
 
 _TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "nothing like it"}
 _ATTRIBUTES: Mapping[tuple[str, str], str] = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.install.share import share_of
-from scaffold.model.launch.nodes import StartedNode, consumers
-from scaffold.model.parameters.files import ParameterFile, parameter_file
+from scaffold.api.install import share_of
+from scaffold.api.launch import StartedNode, consumers
+from scaffold.api.parameters import ParameterFile, parameter_file
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.substitutions import PathJoinSubstitution\n"

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.actions import entities, what_it_is
-from scaffold.model.launch.python_file import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchFile, entities, what_it_is
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"

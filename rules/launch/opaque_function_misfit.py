@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.actions import function_of
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile
-from scaffold.model.python.signatures import misfit_of_context
+from scaffold.api.launch import LaunchCall, LaunchFile, function_of
+from scaffold.api.python import misfit_of_context
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\n"

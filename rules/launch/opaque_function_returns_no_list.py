@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.actions import function_of
-from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.launch.signatures import ACTIONS
-from scaffold.model.python.returns import returned
+from scaffold.api.launch import ACTIONS, LaunchFile, function_of
+from scaffold.api.python import returned
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.launch.references import Use, meant_package, package_uses
-from scaffold.model.manifest.package_name import other_name
+from scaffold.api.launch import Use, meant_package, package_uses
+from scaffold.api.manifest import other_name
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.launch.references import exists, meant_package, package_uses
-from scaffold.model.manifest.requirements import declared
+from scaffold.api.launch import exists, meant_package, package_uses
+from scaffold.api.manifest import declared
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import SHARE, LaunchFile
-from scaffold.model.python.values import PathValue
+from scaffold.api.launch import SHARE, LaunchFile
+from scaffold.api.python import PathValue
 
 _LAUNCH = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"

@@ -7,9 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
-from scaffold.model.launch.markup_file import markup_files
-from scaffold.model.launch.nodes import consumers
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.api.launch import LaunchFile, consumers, markup_files
 
 _HOME = (
     r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|~?/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.share_paths import paths_of, why_missing
+from scaffold.api.launch import paths_of, why_missing
 
 _LAUNCH = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"

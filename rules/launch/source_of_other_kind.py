@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.api.launch import LaunchFile
 
 _ENDINGS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".launch.xml", ".launch.yaml", ".launch.yml", ".xml"),

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.launch.substitutions import text_uses
+from scaffold.api.launch import LaunchFile, text_uses
 
 _SHOWN = frozenset({"in an f-string", "for str()", "to be filled in", "for format()"})
 """Uses that do not fail: the text tells what the object is."""

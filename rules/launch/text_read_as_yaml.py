@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.launch.nodes import started_nodes
-from scaffold.model.launch.parameter_values import value_given
-from scaffold.model.parameters.declared import declared_by
+from scaffold.api.launch import started_nodes, value_given
+from scaffold.api.parameters import declared_by
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

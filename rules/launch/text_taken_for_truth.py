@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.launch.substitutions import truth_tests
+from scaffold.api.launch import LaunchFile, truth_tests
 
 _TRUTHS = frozenset({"true", "false", "0", "1"})
 _LAUNCH = (

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
-from scaffold.model.launch.signatures import ACTIONS
+from scaffold.api.launch import ACTIONS, NODES, LaunchCall, LaunchFile
 
 _NODE = ("executable", "package", "name", "namespace", "exec_name")
 _TEXTS: Mapping[str, tuple[str, ...]] = {

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
-from scaffold.model.python.values import is_known
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+from scaffold.api.python import is_known
 
 _LAUNCH = (
     "from launch import LaunchDescription\n"

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.python_file import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchFile
 
 _LISTS = ("arguments", "ros_arguments", "cmd")
 _TWO_TEXTS = r"""(['"])((?:(?!\1)[^\\])*)\1\s+(['"])-"""

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.tests import is_test_case, methods, test_modules
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import is_test_case, methods, test_modules
 
 _GONE = {
     "assertEquals": "assertEqual",

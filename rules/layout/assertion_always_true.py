@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.module import PythonModule
-from scaffold.model.tests import test_functions, test_modules
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import test_functions, test_modules
 
 _MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
 _TEST = "def ready():\n    return False\n\n\ndef test_text():\n    assert {}\n"

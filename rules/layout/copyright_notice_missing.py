@@ -83,8 +83,7 @@ class CopyrightNoticeMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament import copyright as notices
-        from scaffold.ament.copyright import copyright_use
+        from scaffold.api.ament import copyright_use, notices
 
         found = [header for header in notices.headers(package) if not header.holders]
         if not found:

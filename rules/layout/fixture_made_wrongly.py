@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.tests import Fixture, arguments, fixtures, own_fixtures
+from scaffold.api.tests import Fixture, arguments, fixtures, own_fixtures
 
 _SCOPES = ("function", "class", "module", "package", "session")
 """From the narrowest to the widest."""

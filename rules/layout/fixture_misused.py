@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.tests import (
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import (
     LAUNCH,
     Fixture,
     arguments,

@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.returns import is_generator, may_end, returned
-from scaffold.model.tests import LAUNCH, is_test_case, marks, may_start, methods
+from scaffold.api.python import PythonModule, is_generator, may_end, returned
+from scaffold.api.tests import LAUNCH, is_test_case, marks, may_start, methods
 
 _MARKS = ("launch_test", "rostest")
 _TEST = (

@@ -80,8 +80,7 @@ class LicenceHeaderUnknown(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament import copyright as notices
-        from scaffold.ament.copyright import copyright_use
+        from scaffold.api.ament import copyright_use, notices
 
         found = [one for one in notices.headers(package) if one.holders and not one.licence]
         if not found:
@@ -100,7 +99,7 @@ class LicenceHeaderUnknown(Rule):
 
 
 def _reason(text: str) -> str:
-    from scaffold.ament.copyright import departure
+    from scaffold.api.ament import departure
 
     if not text:
         return "no licence header stands below the notice"

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.tests import keywords, marks, test_functions, test_modules
+from scaffold.api.tests import keywords, marks, test_functions, test_modules
 
 _MEANT = {
     **dict.fromkeys(

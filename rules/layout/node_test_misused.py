@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.tests import TestFunction, arguments, made_name, node_tests, test_functions
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import TestFunction, arguments, made_name, node_tests, test_functions
 
 _TEST = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

@@ -108,7 +108,7 @@ class RepositoryFileMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament.copyright import REPOSITORY_FILES, copyright_use
+        from scaffold.api.ament import REPOSITORY_FILES, copyright_use
 
         if not _is_repository(package):
             return
@@ -132,7 +132,7 @@ def _is_repository(package: Package) -> bool:
 
 
 def _wrong(package: Package, name: str) -> str:
-    from scaffold.ament.copyright import identify_file
+    from scaffold.api.ament import identify_file
 
     if not package.has(name):
         return f"the repository has no {name}"

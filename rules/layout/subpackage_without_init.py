@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.python.module import Import
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.setup_py.setup_py import FindPackages
+from scaffold.api.python import UNKNOWN, Import
+from scaffold.api.setup_py import FindPackages
 
 _TESTS = frozenset({"test", "tests"})
 _FILES = {

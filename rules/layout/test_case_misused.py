@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.tests import LAUNCH, arguments, is_test_case, marks, methods, test_modules
+from scaffold.api.python import FunctionNode, PythonModule
+from scaffold.api.tests import LAUNCH, arguments, is_test_case, marks, methods, test_modules
 
 _SET_UP = ("setUp", "tearDown", "setUpClass", "tearDownClass")
 _PLAIN = {"setUp": "setup_method", "tearDown": "teardown_method"}

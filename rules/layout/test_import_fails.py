@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import Import, PythonModule
-from scaffold.model.tests import test_modules
+from scaffold.api.python import Import, PythonModule
+from scaffold.api.tests import test_modules
 
 _PATHS = ("import-mode", "importmode", "pythonpath", "sys.path", "rootdir", "site.addsitedir")
 _TEST = "{}\n\n\ndef test_make():\n    assert make()\n"

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.module import PythonModule
-from scaffold.model.tests import test_functions, test_modules
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import test_functions, test_modules
 
 _TEST = "def ready():\n    return False\n\n\ndef test_text():\n{}"
 _OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"

@@ -5,10 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.source import ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api.python import FunctionNode, PythonModule
 
 _TEST = (
     "import pytest\n\n\n"

@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.tests import (
+from scaffold.api.python import FunctionNode, PythonModule
+from scaffold.api.tests import (
     fixture_decorator,
     fixtures,
     has_other_ways,

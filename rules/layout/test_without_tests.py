@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.module import PythonModule
+from scaffold.api.python import PythonModule
 
 _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
 

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.guards import is_harmless
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import is_harmless
 
 _NODE = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"

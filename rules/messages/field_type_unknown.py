@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.definitions import Definitions, nearest_word
-from scaffold.model.interfaces.files import interface_files
-from scaffold.model.interfaces.types import FieldType
+from scaffold.api.interfaces import Definitions, FieldType, interface_files, nearest_word
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
 

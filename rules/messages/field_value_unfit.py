@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.fields import Misfits
-from scaffold.model.messages.inference import MessageTypes
+from scaffold.api.messages import MessageTypes, Misfits
 
 _CODE = (
     "from rclpy.node import Node\n"

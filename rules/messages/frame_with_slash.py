@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
+from scaffold.api.messages import MessageTypes
 
 _FIELDS = ("frame_id", "child_frame_id")
 _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_async"})

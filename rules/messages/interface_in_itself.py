@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.files import interface_files
-from scaffold.source import Location
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
+from scaffold.api.interfaces import interface_files
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Node.msg msg/Tree.msg)\n"
 _MANIFEST = "<package><name>my_msgs</name></package>\n"

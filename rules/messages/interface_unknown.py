@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.definitions import KINDS, Definitions, nearest_word
-from scaffold.model.messages.inference import MessageTypes, interfaces_named
+from scaffold.api.interfaces import KINDS, Definitions, nearest_word
+from scaffold.api.messages import MessageTypes, interfaces_named
 
 _MISSPELT = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
 _MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "actions": "action"}

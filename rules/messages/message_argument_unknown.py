@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.definitions import nearest_word
-from scaffold.model.messages.inference import MessageClass, MessageTypes
+from scaffold.api.interfaces import nearest_word
+from scaffold.api.messages import MessageClass, MessageTypes
 
 _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
 

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.definitions import nearest_word
-from scaffold.model.messages.inference import PARTS, MessageClass, MessageTypes
-from scaffold.model.python.guards import is_for_ros1
+from scaffold.api.interfaces import nearest_word
+from scaffold.api.messages import PARTS, MessageClass, MessageTypes
+from scaffold.api.python import is_for_ros1
 
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
 _NODE = (

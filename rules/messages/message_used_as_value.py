@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.guards import is_for_ros1, is_harmless
+from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import is_for_ros1, is_harmless
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Float32MultiArray, String\n\n\n"

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.programs.topics import is_private, is_remapped, one_sided
-from scaffold.model.rclpy.entities import Endpoint, Publisher
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.programs import is_private, is_remapped, one_sided
+from scaffold.api.rclpy import Endpoint, Publisher, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

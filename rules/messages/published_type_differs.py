@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.rclpy.entities import Client, Endpoint, Publisher
+from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import Client, Endpoint, Publisher
 
 _SENDS = {"publish": Publisher, "call_async": Client, "call": Client}
 _NODE = (

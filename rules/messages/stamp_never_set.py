@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.messages.stamps import unstamped
+from scaffold.api.messages import MessageTypes, unstamped
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.messages.fields import rclpy_time
-from scaffold.model.messages.inference import MessageTypes
+from scaffold.api.messages import MessageTypes, rclpy_time
 
 _CODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.programs.topics import one_sided
-from scaffold.model.rclpy.entities import Endpoint
+from scaffold.api.programs import one_sided
+from scaffold.api.rclpy import Endpoint
 
 _SHORTEST = 5
 _NODE = (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.programs.topics import services_of, topics_of
-from scaffold.model.rclpy.entities import Endpoint
+from scaffold.api.messages import MessageTypes
+from scaffold.api.programs import services_of, topics_of
+from scaffold.api.rclpy import Endpoint
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Bool, String\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import Import, PythonModule
+from scaffold.api.python import Import, PythonModule
 
 _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.interfaces.files import interface_files
-from scaffold.model.interfaces.reserved_names import reserved, reserved_constant, reserved_type
+from scaffold.api.interfaces import interface_files, reserved, reserved_constant, reserved_type
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.names import topic_problem
+from scaffold.api.rclpy import rclpy_files, topic_problem
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.install.modules import (
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, nearest
+from scaffold.api.install import (
     absolute_name,
     file_of,
     may_be_made,
@@ -13,8 +13,7 @@ from scaffold.model.install.modules import (
     modules_of,
     own_roots,
 )
-from scaffold.model.python.module import Import, PythonModule
-from scaffold.suggestions import nearest
+from scaffold.api.python import Import, PythonModule
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"

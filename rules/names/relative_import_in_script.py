@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.cmake.ament import programs
+from scaffold.api.cmake import programs
 
 _LISTS = (
     "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n"

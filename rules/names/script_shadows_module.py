@@ -6,8 +6,8 @@ import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.catalog import ROS_PACKAGES
-from scaffold.model.cmake.ament import programs
+from scaffold.api.catalog import ROS_PACKAGES
+from scaffold.api.cmake import programs
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/{}.py DESTINATION lib/${{PROJECT_NAME}})\n"
 

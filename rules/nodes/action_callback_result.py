@@ -6,10 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.returns import is_generator, may_end, returned
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.entities import ActionServer
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import FunctionNode, is_generator, may_end, returned
+from scaffold.api.rclpy import ActionServer
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 _NODE = (

@@ -7,9 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.rclpy.entities import ActionClient
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import ActionClient, NodeFacts
 
 _WHOLE = r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*"
 _NODE = (

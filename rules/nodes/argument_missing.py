@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
 
 _FUNCTIONS = {
     "rclpy.spin": ("node",),

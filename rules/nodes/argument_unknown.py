@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.rclpy.api_signatures import Excess, excess_arguments
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import Excess, NodeFacts, excess_arguments, rclpy_files
 
 _CODE = (
     "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"

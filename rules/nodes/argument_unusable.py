@@ -7,9 +7,17 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.values import UNKNOWN, kind_of
-from scaffold.model.rclpy.entities import Argument, Client, Endpoint, Entity, Parameter, Service
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import UNKNOWN, kind_of
+from scaffold.api.rclpy import (
+    Argument,
+    Client,
+    Endpoint,
+    Entity,
+    NodeFacts,
+    Parameter,
+    Service,
+    rclpy_files,
+)
 
 _TYPES = ("msg_type", "srv_type", "action_type")
 _NAMES = ("topic", "srv_name", "action_name")

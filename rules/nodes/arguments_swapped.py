@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.rclpy.entities import Endpoint, Entity, Timer
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import Endpoint, Entity, NodeFacts, Timer, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

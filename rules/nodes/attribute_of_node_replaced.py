@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.python import FunctionNode
+from scaffold.api.rclpy import NodeClass, rclpy_files
 
 PROPERTIES = frozenset(
     {"clients", "context", "default_callback_group", "executor", "guards", "handle", "publishers"}

@@ -5,19 +5,20 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.api import NODE, known_names
-from scaffold.model.rclpy.attributes import (
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import (
+    NODE,
+    NodeClass,
+    NodeFacts,
     defined_by,
     given_from_outside,
     is_read_in_full,
+    known_names,
     names_of_bases,
+    rclpy_files,
     used_by_classes,
 )
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
-from scaffold.suggestions import nearest
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.api import class_of, has, known_names
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import NodeFacts, class_of, has, known_names, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

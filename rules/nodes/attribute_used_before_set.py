@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.api import NODE, has
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import NODE, NodeClass, NodeFacts, has, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

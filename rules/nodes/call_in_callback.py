@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.blocking import has_more_threads, in_callbacks, in_constructors
-from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.programs import has_more_threads, in_callbacks, in_constructors
+from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"

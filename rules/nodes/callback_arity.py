@@ -6,17 +6,18 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.callbacks import numbers_taken
-from scaffold.model.rclpy.entities import (
+from scaffold.api.rclpy import (
     ActionServer,
     Callback,
     Entity,
+    NodeFacts,
     Service,
     Subscription,
     Timer,
+    class_of,
+    numbers_taken,
+    rclpy_files,
 )
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

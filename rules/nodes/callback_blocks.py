@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.programs.blocking import has_more_threads, in_callbacks
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.programs import has_more_threads, in_callbacks
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 SHORT = 0.05
 """Seconds of sleep that nobody notices."""

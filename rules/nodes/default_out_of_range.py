@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.entities import Parameter
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.parameters.objects import is_of_node
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import Parameter, is_of_node, rclpy_files
 
 _RIGHT = {"integer": "integer_range", "double": "floating_point_range"}
 _NODE = (

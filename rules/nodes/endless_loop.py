@@ -6,13 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.blocking import (
-    Executed,
-    has_more_threads,
-    in_callbacks,
-    in_constructors,
-)
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.programs import Executed, has_more_threads, in_callbacks, in_constructors
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"

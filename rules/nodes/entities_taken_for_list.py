@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
 
 _PROPERTIES = (
     *("clients", "guards", "publishers", "services", "subscriptions", "timers", "waitables"),

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.executors import used_of_executor
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.programs import used_of_executor
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"

@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.api import PARAMETER, class_of
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.parameters.objects import FIELDS
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import FIELDS, PARAMETER, class_of, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.values import PathValue
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.python import PathValue
+from scaffold.api.rclpy import rclpy_files
 
 _READERS = frozenset(
     {"open", "io.open", "pathlib.Path", "cv2.imread", "numpy.load", "numpy.loadtxt"}

@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_asked_about
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import FunctionNode, PythonModule, is_asked_about
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
 WAITS = frozenset({"spin_until_future_complete", "spin_once", "done", "wait", "spin", "join"})

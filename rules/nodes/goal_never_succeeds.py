@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.entities import ActionServer
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import FunctionNode
+from scaffold.api.rclpy import ActionServer, NodeFacts, rclpy_files
 
 _ENDS = frozenset({"abort", "canceled"})
 _NODE = (

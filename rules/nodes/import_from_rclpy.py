@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import PLACES
+from scaffold.api.rclpy import PLACES
 
 
 class ImportFromRclpy(Rule):

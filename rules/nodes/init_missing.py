@@ -6,8 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.programs.entry_points import Run, files_of, run_of, starts_of
-from scaffold.model.programs.initialization import calls_others, late_init, may_init
+from scaffold.api.programs import (
+    Run,
+    calls_others,
+    files_of,
+    late_init,
+    may_init,
+    run_of,
+    starts_of,
+)
 
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n\n\n"

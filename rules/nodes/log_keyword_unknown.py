@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.logging import is_of_rclpy
+from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
 
 _METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _KNOWN = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name")

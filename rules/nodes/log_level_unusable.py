@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.python.values import is_known
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.logging import is_of_rclpy
+from scaffold.api.python import is_harmless, is_known
+from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
 
 _SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
 _SET = "rclpy.logging.set_logger_level"

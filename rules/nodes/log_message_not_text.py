@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.logging import is_of_rclpy
+from scaffold.api.python import UNKNOWN
+from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = (

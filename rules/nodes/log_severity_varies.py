@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.rclpy import rclpy_files
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"

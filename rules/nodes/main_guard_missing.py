@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
-from scaffold.model.cmake.ament import programs
-from scaffold.model.python.module import PythonModule
+from scaffold.api.cmake import programs
+from scaffold.api.python import PythonModule
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _MAIN = "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n"

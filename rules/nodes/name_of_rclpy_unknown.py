@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.python.module import Import, PythonModule
-from scaffold.model.rclpy.api import PLACES, first_unknown, known_names
+from scaffold.api.python import Import, PythonModule, is_harmless
+from scaffold.api.rclpy import PLACES, first_unknown, known_names
 
 _CODE = "import rclpy\nfrom rclpy.{} import {}\n\nrclpy.{}()\nQOS = ReliabilityPolicy.{}\n"
 _RIGHT = _CODE.format("qos", "ReliabilityPolicy", "init", "RELIABLE")

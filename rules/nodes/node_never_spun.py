@@ -6,9 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.entities import RclpyCall
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeOwner
+from scaffold.api.rclpy import NodeFacts, NodeOwner, RclpyCall, rclpy_files
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (

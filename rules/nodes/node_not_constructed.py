@@ -6,9 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import NODE, has
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.rclpy import NODE, NodeClass, NodeFacts, has, rclpy_files
 
 _MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
 _NODE = (

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
 _NODE = (

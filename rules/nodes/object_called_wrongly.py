@@ -7,8 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import class_of, has, is_method
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeFacts, class_of, has, is_method, rclpy_files
 
 _WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
 _PRESETS = "rclpy.qos.qos_profile_"

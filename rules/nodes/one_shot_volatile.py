@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.programs.publishing import publish_calls
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.programs import publish_calls
+from scaffold.api.rclpy import NodeClass, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n"

@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.python.signatures import misfit
-from scaffold.model.rclpy.called_functions import called_function
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.python import is_harmless, misfit
+from scaffold.api.rclpy import called_function, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

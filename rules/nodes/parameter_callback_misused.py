@@ -6,11 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.returns import returned
-from scaffold.model.rclpy.entities import Callback
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.callbacks import RESULT
-from scaffold.model.rclpy.parameters.objects import CALLBACKS, callback_arguments
+from scaffold.api.python import returned
+from scaffold.api.rclpy import (
+    CALLBACKS,
+    RESULT,
+    Callback,
+    NodeFacts,
+    callback_arguments,
+    rclpy_files,
+)
 
 _OF_ONE = frozenset({"name", "value", "type_", "get_parameter_value"})
 _OF_MAPPINGS = frozenset({"get", "items", "keys", "values"})

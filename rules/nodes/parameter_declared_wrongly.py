@@ -6,12 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.rclpy.entities import Parameter
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
-from scaffold.model.rclpy.parameters.objects import is_of_node
+from scaffold.api.python import UNKNOWN, is_harmless
+from scaffold.api.rclpy import (
+    DESCRIPTOR,
+    NodeFacts,
+    Parameter,
+    is_of_node,
+    message_made,
+    rclpy_files,
+)
 
 _RANGES = ("floating_point_range", "integer_range")
 _NODE = (

@@ -6,11 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.api import PARAMETER, class_of
-from scaffold.model.rclpy.entities import Parameter
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.objects import is_of_node
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import PARAMETER, NodeFacts, Parameter, class_of, is_of_node, rclpy_files
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "the type is Parameter.Type.{}"

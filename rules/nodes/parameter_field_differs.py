@@ -6,14 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.parameters.declared import Declared, declared_by
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.objects import (
+from scaffold.api.parameters import Declared, declared_by
+from scaffold.api.python import UNKNOWN
+from scaffold.api.rclpy import (
     FIELDS,
+    NodeFacts,
     is_listed_parameter,
     name_asked,
     parameter_read,
+    rclpy_files,
 )
 
 _NODE = (

@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.rclpy.api import PARAMETER
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import UNKNOWN
+from scaffold.api.rclpy import PARAMETER, NodeFacts, rclpy_files
 
 _KINDS = {
     "BOOL": bool,

@@ -6,9 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.entities import ParameterRead
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.values import stands_for_value
+from scaffold.api.rclpy import NodeFacts, ParameterRead, rclpy_files, stands_for_value
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -5,17 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.parameters.declared import declared_alone, declared_by, has_always
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
-from scaffold.model.rclpy.parameters.objects import (
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.parameters import declared_alone, declared_by, has_always
+from scaffold.api.rclpy import (
+    NodeClass,
+    NodeFacts,
     is_listed_parameter,
     name_asked,
     names_compared,
+    rclpy_files,
     types_compared,
 )
-from scaffold.suggestions import nearest
 
 _TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
 _NODE = (

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.parameters.declared import declared_alone, has_always
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.entities import Parameter, ParameterRead
-from scaffold.model.rclpy.parameters.objects import names_used_by
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.parameters import declared_alone, has_always
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import Parameter, ParameterRead, names_used_by
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

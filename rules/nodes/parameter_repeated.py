@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.rclpy import rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -6,12 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.returns import is_generator, may_end_with_items, returned
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.entities import Callback
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.callbacks import wrong_value
-from scaffold.model.rclpy.parameters.objects import CALLBACKS
+from scaffold.api.python import FunctionNode, is_generator, may_end_with_items, returned
+from scaffold.api.rclpy import CALLBACKS, Callback, NodeFacts, rclpy_files, wrong_value
 
 _ON, _POST, _PRE = CALLBACKS
 _NODE = (

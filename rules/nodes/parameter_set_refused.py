@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.parameters.declared import Declared, declared_by
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.objects import ParameterMade, parameters_set
+from scaffold.api.parameters import Declared, declared_by
+from scaffold.api.rclpy import NodeFacts, ParameterMade, parameters_set, rclpy_files
 
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor\n"

@@ -6,10 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.parameters.declared import declared_by
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.parameters.objects import parameter_read
+from scaffold.api.parameters import declared_by
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import NodeFacts, parameter_read, rclpy_files
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.api import PARAMETER, class_of
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import PARAMETER, NodeFacts, class_of, rclpy_files
 
 _METHODS = ("set_parameters", "set_parameters_atomically")
 _NODE = (

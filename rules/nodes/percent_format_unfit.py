@@ -7,9 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.fields import Kinds
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.guards import is_harmless
+from scaffold.api.messages import Kinds, MessageTypes
+from scaffold.api.python import is_harmless
 
 _PLACE = r"%(?:%|[-+ #0]*(?:\*|[1-9]\d*)?(?:\.(?:\*|\d+))?[diouxXeEfFgGcrsa])"
 _SINGLE = frozenset({"bool", "float", "int", "str"})

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
 _TERMINAL |= {"readline", "termios", "tty", "typer"}

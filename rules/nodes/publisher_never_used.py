@@ -5,10 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.python.values import Unknown
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.source import ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api.python import Unknown
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.topics import topics_of
-from scaffold.model.rclpy.entities import Endpoint, Publisher
-from scaffold.model.rclpy.qos import conflict_of
+from scaffold.api.programs import topics_of
+from scaffold.api.rclpy import Endpoint, Publisher, conflict_of
 
 _NODE = (
     "from rclpy.node import Node\n"

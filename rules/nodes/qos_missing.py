@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.entities import Publisher, Subscription
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.rclpy import Publisher, Subscription, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"

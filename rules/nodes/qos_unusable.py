@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.values import kind_of
-from scaffold.model.rclpy.entities import Endpoint
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import kind_of
+from scaffold.api.rclpy import Endpoint, NodeFacts, rclpy_files
 
 _POLICIES = {
     "reliability": "ReliabilityPolicy",

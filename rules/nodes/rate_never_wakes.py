@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.blocking import waits_alone
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.api.programs import waits_alone
+from scaffold.api.rclpy import NodeFacts
 
 _NODE = (
     "import threading\n\nimport rclpy\n\n\n"

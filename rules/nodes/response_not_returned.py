@@ -6,10 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.returns import is_generator, may_end, returned, value_set_before
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.entities import Service
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
+from scaffold.api.rclpy import Service
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.blocking import in_callbacks, in_constructors, waits_alone
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.api.programs import in_callbacks, in_constructors, waits_alone
+from scaffold.api.rclpy import NodeFacts
 
 _CODE = (
     "import rclpy\nfrom std_srvs.srv import Trigger\n\n\n"

@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.references import Use, meant_package
-from scaffold.model.manifest.package_name import other_name
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.launch import Use, meant_package
+from scaffold.api.manifest import other_name
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import rclpy_files
 
 _FUNCTIONS = frozenset(
     f"ament_index_python{module}.{function}"

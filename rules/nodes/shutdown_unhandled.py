@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.entities import RclpyCall
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeFacts, RclpyCall, rclpy_files
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
 _HANDLED = (

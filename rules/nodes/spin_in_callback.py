@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.blocking import in_callbacks
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.programs import in_callbacks
+from scaffold.api.rclpy import rclpy_files
 
 MOST = 2
 """Arguments that name no executor: the node, and a future."""

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.programs.executors import Shutdowns
-from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.entities import RclpyCall
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.programs import Shutdowns
+from scaffold.api.rclpy import NodeFacts, RclpyCall, class_of, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"

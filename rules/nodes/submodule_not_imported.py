@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.module import PythonModule
+from scaffold.api.python import PythonModule
 
 SUBMODULES = frozenset(
     {

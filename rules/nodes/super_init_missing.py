@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.guards import is_asked_about
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
+from scaffold.api.python import is_asked_about
+from scaffold.api.rclpy import NodeFacts, rclpy_files
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (

@@ -7,10 +7,8 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.returns import is_generator, may_end, returned
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.rclpy.file import NodeFacts, rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.api.python import FunctionNode, is_generator, may_end, returned
+from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
 
 _TRANSITIONS = (
     *("on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error"),

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.programs.blocking import in_callbacks, in_constructors
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.api.programs import in_callbacks, in_constructors
+from scaffold.api.rclpy import rclpy_files
 
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
 _NODE = (

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.formats.xml import Attribute, Element
-from scaffold.model.manifest.structure import Structure, structure
+from scaffold.api.formats import Attribute, Element
+from scaffold.api.manifest import Structure, structure
 
 
 class AttributeUnknown(Rule):

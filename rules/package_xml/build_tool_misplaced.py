@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.catalog import BUILD_TOOLS
+from scaffold.api.catalog import BUILD_TOOLS
 
 KINDS = ("depend", "exec_depend", "build_export_depend")
 _MANIFEST = '<package format="3">\n  <{0}>ament_cmake</{0}>\n</package>\n'

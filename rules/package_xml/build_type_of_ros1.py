@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
-from scaffold.model.cmake.ament import uses_ament
+from scaffold.api.cmake import uses_ament
 
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n'

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.conditions import ConditionError, holds
+from scaffold.api.manifest import ConditionError, holds
 
 _MANIFEST = '<package format="3">\n  <depend condition="{}">rclpy</depend>\n</package>\n'
 

@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.structure import FORMATS, GROUPS, collapse, structure
-from scaffold.model.manifest.values import CONDITION, GROUP_CONDITION, fits
+from scaffold.api.manifest import (
+    CONDITION,
+    FORMATS,
+    GROUP_CONDITION,
+    GROUPS,
+    collapse,
+    fits,
+    structure,
+)
 
 DEPEND = '<package format="{}">\n  <depend condition="{}">rclpy</depend>\n</package>\n'
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.catalog import keys_of_module, module_of_key
+from scaffold.api.catalog import keys_of_module, module_of_key
 
 
 class DependencyIsIndexName(Rule):

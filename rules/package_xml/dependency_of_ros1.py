@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.catalog import ROS1_PACKAGES
-from scaffold.model.cmake.ament import uses_ament
+from scaffold.api.catalog import ROS1_PACKAGES
+from scaffold.api.cmake import uses_ament
 
 _CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.catalog import ROS1_PACKAGES, ROS_PACKAGES, module_of_key, similar_package
+from scaffold.api.catalog import ROS1_PACKAGES, ROS_PACKAGES, module_of_key, similar_package
 
 PACKAGE = "[a-z][a-z0-9_]*"
 KINDS = frozenset(

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest.structure import LIMITS, structure
-from scaffold.model.manifest.values import LIMIT, fits
+from scaffold.api.manifest import LIMIT, LIMITS, fits, structure
 
 
 class DependencyVersionMalformed(Rule):

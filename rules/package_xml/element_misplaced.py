@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Safety, Severity
-from scaffold.model.manifest.structure import Misplaced, structure
+from scaffold.api.manifest import Misplaced, structure
 
 RIGHT = """\
 <package format="3">
@@ -82,7 +82,7 @@ class ElementMisplaced(Rule):
 
 
 def _fix(package: Package) -> Fix | None:
-    from scaffold.model.manifest import edit as manifest_edit
+    from scaffold.api.manifest import manifest_edit
 
     manifest = package.manifest
     edit = None if structure(package).unknown else manifest_edit.reorder(manifest)

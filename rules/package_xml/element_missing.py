@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.structure import REQUIRED, structure
+from scaffold.api.manifest import REQUIRED, structure
 
 ALL = """\
 <package format="3">

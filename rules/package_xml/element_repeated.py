@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.structure import structure
+from scaffold.api.manifest import structure
 
 ONE = '<package format="3">\n  <name>talker</name>\n'
 

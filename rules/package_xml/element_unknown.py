@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.manifest.structure import Structure, Unknown, structure
+from scaffold.api.manifest import Structure, Unknown, structure
 
 HEAD = '<package format="{}">\n  <name>talker</name>\n'
 IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
@@ -94,7 +94,7 @@ def _explain(found: Structure, unknown: Unknown) -> tuple[str, str | None]:
 
 
 def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
-    from scaffold.model.manifest import edit as manifest_edit
+    from scaffold.api.manifest import manifest_edit
 
     edits = manifest_edit.rename(package.manifest, unknown.element, tag)
     return Fix(f"write <{tag}>", edits, Safety.UNSAFE)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.structure import collapse, structure
-from scaffold.model.manifest.values import EMAIL, fits
+from scaffold.api.manifest import EMAIL, collapse, fits, structure
 
 
 class EmailMalformed(Rule):

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.manifest import XmlModel
-from scaffold.model.manifest.structure import FORMATS
+from scaffold.api.manifest import FORMATS, XmlModel
 
 LINE = (
     '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" '

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.catalog import provided_by, similar_package
-from scaffold.model.manifest.requirements import declared, needs
+from scaffold.api.catalog import provided_by, similar_package
+from scaffold.api.manifest import declared, needs
 
 _INTERFACES = ("_msgs", "_srvs")
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'

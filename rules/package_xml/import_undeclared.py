@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.requirements import declared, needs
+from scaffold.api.manifest import declared, needs
 
 
 class ImportUndeclared(Rule):

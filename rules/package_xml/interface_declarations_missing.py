@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.cmake.rosidl import generations, is_interface_package
-from scaffold.model.manifest.manifest import Manifest
+from scaffold.api.cmake import generations, is_interface_package
+from scaffold.api.manifest import Manifest
 
 GROUP = "rosidl_interface_packages"
 _GENERATORS = ("rosidl_default_generators", "rosidl_core_generators")

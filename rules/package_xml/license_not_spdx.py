@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.manifest.spdx import spdx_of
+from scaffold.api.manifest import spdx_of
 
 
 class LicenseNotSpdx(Rule):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
+from scaffold.api.manifest import is_placeholder, is_placeholder_address
 
 
 class MaintainerPlaceholder(Rule):

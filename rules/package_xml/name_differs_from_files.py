@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.manifest.package_name import other_name
+from scaffold.api.manifest import other_name
 
 _MANIFEST = '<package format="3">\n  <name>{}</name>\n</package>\n'
 _FILES = {"CMakeLists.txt": "project(talker)\n", "talker/__init__.py": ""}

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest.structure import structure
-from scaffold.model.manifest.values import is_uri
+from scaffold.api.manifest import is_uri, structure
 
 
 class UrlMalformed(Rule):

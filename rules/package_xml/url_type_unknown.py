@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest.structure import collapse, structure
-from scaffold.model.manifest.values import URL_TYPES
+from scaffold.api.manifest import URL_TYPES, collapse, structure
 
 
 class UrlTypeUnknown(Rule):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.manifest.structure import structure
-from scaffold.model.manifest.values import VERSION, fits
+from scaffold.api.manifest import VERSION, fits, structure
 
 
 class VersionMalformed(Rule):

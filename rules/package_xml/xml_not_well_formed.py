@@ -44,7 +44,7 @@ class XmlNotWellFormed(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament import xmllint
+        from scaffold.api.ament import xmllint
 
         for path in xmllint.of_package(package):
             if path != MANIFEST:

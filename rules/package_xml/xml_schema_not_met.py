@@ -58,7 +58,7 @@ class XmlSchemaNotMet(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament import xmllint
+        from scaffold.api.ament import xmllint
 
         for verdict in xmllint.verdicts(package):
             if verdict.is_checked:

@@ -66,7 +66,7 @@ class XmlSchemaUnchecked(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        from scaffold.ament import xmllint
+        from scaffold.api.ament import xmllint
 
         for verdict in xmllint.verdicts(package):
             if not verdict.is_checked:

@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.parameter_files import nodes_for
-from scaffold.model.parameters.declared import declared_by
-from scaffold.model.parameters.files import parameter_file, parameter_paths, value_type
-from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
+from scaffold.api.launch import nodes_for
+from scaffold.api.parameters import (
+    a_type,
+    agreed_type,
+    declared_by,
+    narrow_default,
+    parameter_file,
+    parameter_paths,
+    value_type,
+)
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.formats import yaml as yaml_tree
-from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
-from scaffold.model.parameters.files import parameter_paths
-from scaffold.source import ParseError
+from scaffold.api import Diagnostic, Example, Package, ParseError, Report, Rule, Severity
+from scaffold.api.formats import Mapping, Scalar, Sequence, YamlNode, yaml_tree
+from scaffold.api.parameters import parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
 

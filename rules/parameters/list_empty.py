@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.formats.yaml import Sequence
-from scaffold.model.launch.parameter_files import nodes_for
-from scaffold.model.parameters.declared import declared_by, place_of
-from scaffold.model.parameters.files import parameter_file, parameter_paths
-from scaffold.model.python.guards import is_harmless
-from scaffold.model.rclpy.entities import ParameterRead
-from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.api.formats import Sequence
+from scaffold.api.launch import nodes_for
+from scaffold.api.parameters import declared_by, parameter_file, parameter_paths, place_of
+from scaffold.api.python import is_harmless
+from scaffold.api.rclpy import NodeClass, NodeOwner, ParameterRead
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.formats.yaml import Scalar, Sequence
-from scaffold.model.parameters.files import mixed, parameter_file, parameter_paths, scalar_type
+from scaffold.api.formats import Scalar, Sequence
+from scaffold.api.parameters import mixed, parameter_file, parameter_paths, scalar_type
 
 _FILE = "talker:\n  ros__parameters:\n    gains: {}\n"
 

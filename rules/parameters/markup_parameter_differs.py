@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
-from scaffold.model.parameters.declared import declared_by, place_of
-from scaffold.model.programs.executables import nodes_of
-from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.launch import MarkupNode, is_known, markup_files
+from scaffold.api.parameters import declared_by, place_of
+from scaffold.api.programs import nodes_of
+from scaffold.api.rclpy import NodeClass, NodeOwner
 
 _WORDS = {
     r"[+-]?(?:0|[1-9]\d*)": "integer",

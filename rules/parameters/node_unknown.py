@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.parameter_files import names_alike, node_names, use_of
-from scaffold.model.parameters.declared import own_nodes
-from scaffold.model.parameters.files import ParameterFile, parameter_file, parameter_paths
+from scaffold.api.launch import names_alike, node_names, use_of
+from scaffold.api.parameters import ParameterFile, own_nodes, parameter_file, parameter_paths
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

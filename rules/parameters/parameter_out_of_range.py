@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.nodes import started_nodes
-from scaffold.model.launch.parameter_files import nodes_for
-from scaffold.model.launch.parameter_values import value_given
-from scaffold.model.parameters.declared import Declared, declared_by, place_of
-from scaffold.model.parameters.files import number_of, parameter_file, parameter_paths
+from scaffold.api.launch import nodes_for, started_nodes, value_given
+from scaffold.api.parameters import (
+    Declared,
+    declared_by,
+    number_of,
+    parameter_file,
+    parameter_paths,
+    place_of,
+)
 
 _NODE = (
     "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"

@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.formats.yaml import Scalar
-from scaffold.model.launch.nodes import consumers
-from scaffold.model.launch.parameter_files import nodes_for
-from scaffold.model.launch.parameter_values import value_given
-from scaffold.model.parameters.declared import declared_by
-from scaffold.model.parameters.files import Entry, parameter_file, parameter_paths, value_type
-from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
+from scaffold.api.formats import Scalar
+from scaffold.api.launch import consumers, nodes_for, value_given
+from scaffold.api.parameters import (
+    Entry,
+    a_type,
+    agreed_type,
+    declared_by,
+    narrow_default,
+    parameter_file,
+    parameter_paths,
+    value_type,
+)
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

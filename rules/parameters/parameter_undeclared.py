@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.nodes import StartedNode, started_nodes
-from scaffold.model.launch.parameter_files import is_loaded, nodes_for, use_of
-from scaffold.model.parameters.declared import Declared, declared_by
-from scaffold.model.parameters.files import parameter_file, parameter_paths
-from scaffold.suggestions import nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api.launch import StartedNode, is_loaded, nodes_for, started_nodes, use_of
+from scaffold.api.parameters import Declared, declared_by, parameter_file, parameter_paths
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

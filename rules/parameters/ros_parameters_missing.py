@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.launch.nodes import consumers
-from scaffold.model.launch.parameter_files import is_loaded, use_of
-from scaffold.model.parameters.files import KEY, Misplaced, parameter_file, parameter_paths
+from scaffold.api.launch import consumers, is_loaded, use_of
+from scaffold.api.parameters import KEY, Misplaced, parameter_file, parameter_paths
 
 _FILE = "talker:\n  {}:\n    rate: 2.0\n"
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.nodes import StartedNode
-from scaffold.model.launch.parameter_files import use_of
-from scaffold.model.parameters.files import Section, parameter_file, parameter_paths
+from scaffold.api.launch import StartedNode, use_of
+from scaffold.api.parameters import Section, parameter_file, parameter_paths
 
 _CONTROL = "controller_manager"
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.api.parameters import parameter_file, parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
 

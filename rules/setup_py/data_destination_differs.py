@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.launch.files import DATA_DIRECTORIES
-from scaffold.model.python.values import Glob
-from scaffold.model.setup_py.setup_py import DataFile
+from scaffold.api.launch import DATA_DIRECTORIES
+from scaffold.api.python import Glob
+from scaffold.api.setup_py import DataFile
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n"

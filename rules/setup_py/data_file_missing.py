@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.values import Glob
-from scaffold.model.setup_py.package_data import matches
+from scaffold.api.python import Glob
+from scaffold.api.setup_py import matches
 
 _SETUP = (
     "from glob import glob\n\nfrom setuptools import setup\n\n"

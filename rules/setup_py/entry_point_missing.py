@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.setup_py.setup_py import EntryPoint
+from scaffold.api.setup_py import EntryPoint
 
 _SETUP = (
     "from setuptools import setup\n\n"

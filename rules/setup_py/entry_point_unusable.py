@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.model.rclpy.file import node_facts
-from scaffold.model.setup_py.setup_py import EntryPoint
+from scaffold.api.rclpy import node_facts
+from scaffold.api.setup_py import EntryPoint
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.package_name import other_name
+from scaffold.api.manifest import other_name
 
 INDEX = "share/ament_index/resource_index/packages"
 _MANIFEST = (

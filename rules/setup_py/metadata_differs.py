@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.manifest.manifest import Manifest
-from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
-from scaffold.model.manifest.spdx import spdx_of
+from scaffold.api.manifest import Manifest, is_placeholder, is_placeholder_address, spdx_of
 
 _MANIFEST = (
     '<package format="3">\n'

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.python.values import Unknown
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
+from scaffold.api.python import Unknown
+from scaffold.api.setup_py import FindPackages, SetupPy
 
 _SETUP = (
     "from setuptools import find_packages, setup\n\nsetup(\n    name='talker',\n{}"

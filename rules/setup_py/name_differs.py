@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.model.manifest.package_name import other_name
-from scaffold.model.setup_py import edit as setup_edit
+from scaffold.api.manifest import other_name
+from scaffold.api.setup_py import setup_edit
 
 _MANIFEST = '<package format="3"><name>talker</name></package>\n'
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.install.modules import names_imported
-from scaffold.model.python.module import PythonModule
-from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.setup_py.setup_py import SetupPy
+from scaffold.api.install import names_imported
+from scaffold.api.python import PythonModule
+from scaffold.api.rclpy import rclpy_files
+from scaffold.api.setup_py import SetupPy
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"

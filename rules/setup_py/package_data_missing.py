@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.model.install.resources import own_files
-from scaffold.model.setup_py.package_data import matches, package_data
+from scaffold.api.install import own_files
+from scaffold.api.setup_py import matches, package_data
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n{})\n"

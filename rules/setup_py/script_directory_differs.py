@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.manifest.package_name import other_name
-from scaffold.model.setup_py.console_scripts import node_scripts
+from scaffold.api.manifest import other_name
+from scaffold.api.setup_py import node_scripts
 
 KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
 _MANIFEST = "<package><name>talker</name></package>\n"

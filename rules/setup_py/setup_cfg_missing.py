@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.setup_py.console_scripts import node_scripts
+from scaffold.api.setup_py import node_scripts
 
 _CFG = "[develop]\nscript_dir=$base/lib/{0}\n[install]\ninstall_scripts=$base/lib/{0}\n"
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
-from scaffold.model.setup_py.package_data import installed_data
+from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
+from scaffold.api.setup_py import installed_data
 
 _MANIFEST = (
     "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"

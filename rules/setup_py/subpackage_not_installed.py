@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.model.python.values import Unknown
-from scaffold.model.setup_py.setup_py import FindPackages
+from scaffold.api.python import Unknown
+from scaffold.api.setup_py import FindPackages
 
 _SETUP = "from setuptools import {}\n\nsetup(\n    name='talker',\n    packages={},\n)\n"
 _FILES = {

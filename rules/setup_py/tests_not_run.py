@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.model.setup_py import edit as setup_edit
+from scaffold.api.setup_py import setup_edit
 
 EXTRAS = ("test", "tests", "testing")
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"

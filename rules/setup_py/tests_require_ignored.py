@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.model.setup_py import edit as setup_edit
+from scaffold.api.setup_py import setup_edit
 
 _NEW = "extras_require={'test': ['pytest']}"
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    {},\n)\n"

@@ -6,7 +6,8 @@ from scaffold.check.rule import Example, Report, Rule
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.package import Package
-from scaffold.source import Location, Source, ViewError
+from scaffold.source import Location, ParseError, Source, ViewError
+from scaffold.suggestions import nearest
 
 __all__ = [
     "CreateFile",
@@ -17,6 +18,7 @@ __all__ = [
     "Location",
     "MakeExecutable",
     "Package",
+    "ParseError",
     "Remove",
     "Report",
     "Rule",
@@ -24,4 +26,5 @@ __all__ = [
     "Severity",
     "Source",
     "ViewError",
+    "nearest",
 ]

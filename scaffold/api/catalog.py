@@ -1,0 +1,23 @@
+"""Names that ROS knows: packages, keys of rosdep, and what they bring along."""
+
+from __future__ import annotations
+
+from scaffold.model.catalog import (
+    BUILD_TOOLS,
+    ROS1_PACKAGES,
+    ROS_PACKAGES,
+    keys_of_module,
+    module_of_key,
+    provided_by,
+    similar_package,
+)
+
+__all__ = [
+    "BUILD_TOOLS",
+    "ROS1_PACKAGES",
+    "ROS_PACKAGES",
+    "keys_of_module",
+    "module_of_key",
+    "provided_by",
+    "similar_package",
+]

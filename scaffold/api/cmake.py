@@ -1,0 +1,58 @@
+"""CMakeLists.txt: commands, what they install, find and generate."""
+
+from __future__ import annotations
+
+from scaffold.model.cmake.ament import (
+    PACKAGE_COMMANDS,
+    has_unknown_commands,
+    installs_directory,
+    is_made_by_build,
+    is_only_imported,
+    is_used_by_build,
+    programs,
+    runs_if_exists,
+    runs_with_python,
+    uses_ament,
+)
+from scaffold.model.cmake.lists import CMakeLists, Install, InstallItem
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.rosidl import (
+    Generation,
+    generations,
+    is_interface_package,
+    may_generate_more,
+)
+from scaffold.model.cmake.targets import (
+    BUILT_IN,
+    OF_AMENT,
+    TAKING_TARGETS,
+    defined_targets,
+    targets_named_once,
+)
+
+__all__ = [
+    "BUILT_IN",
+    "OF_AMENT",
+    "PACKAGE_COMMANDS",
+    "TAKING_TARGETS",
+    "Argument",
+    "CMakeLists",
+    "Command",
+    "Generation",
+    "Install",
+    "InstallItem",
+    "defined_targets",
+    "generations",
+    "has_unknown_commands",
+    "installs_directory",
+    "is_interface_package",
+    "is_made_by_build",
+    "is_only_imported",
+    "is_used_by_build",
+    "may_generate_more",
+    "programs",
+    "runs_if_exists",
+    "runs_with_python",
+    "targets_named_once",
+    "uses_ament",
+]

@@ -1,0 +1,19 @@
+"""XML and YAML with the place of every part."""
+
+from __future__ import annotations
+
+from scaffold.formats import xml as xml_tree
+from scaffold.formats import yaml as yaml_tree
+from scaffold.formats.xml import Attribute, Element
+from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
+
+__all__ = [
+    "Attribute",
+    "Element",
+    "Mapping",
+    "Scalar",
+    "Sequence",
+    "YamlNode",
+    "xml_tree",
+    "yaml_tree",
+]

@@ -1,0 +1,31 @@
+"""What a package installs, and where."""
+
+from __future__ import annotations
+
+from scaffold.model.install.modules import (
+    absolute_name,
+    file_of,
+    is_started,
+    may_be_made,
+    meant_module,
+    modules_of,
+    names_imported,
+    own_roots,
+    paths_imported_by,
+)
+from scaffold.model.install.resources import own_files
+from scaffold.model.install.share import share_of
+
+__all__ = [
+    "absolute_name",
+    "file_of",
+    "is_started",
+    "may_be_made",
+    "meant_module",
+    "modules_of",
+    "names_imported",
+    "own_files",
+    "own_roots",
+    "paths_imported_by",
+    "share_of",
+]

@@ -1,0 +1,41 @@
+"""Definitions of messages, services and actions."""
+
+from __future__ import annotations
+
+from scaffold.model.interfaces.definitions import KINDS, Definitions, nearest_word
+from scaffold.model.interfaces.files import (
+    interface_files,
+    is_commented_out,
+    problems,
+    standing,
+    words_of_users,
+)
+from scaffold.model.interfaces.reserved_names import (
+    escape_problem,
+    reserved,
+    reserved_constant,
+    reserved_type,
+)
+from scaffold.model.interfaces.syntax import SECTIONS, ProblemKind
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+
+__all__ = [
+    "FLOATS",
+    "INTEGER_RANGES",
+    "KINDS",
+    "SECTIONS",
+    "TEXTS",
+    "Definitions",
+    "FieldType",
+    "ProblemKind",
+    "escape_problem",
+    "interface_files",
+    "is_commented_out",
+    "nearest_word",
+    "problems",
+    "reserved",
+    "reserved_constant",
+    "reserved_type",
+    "standing",
+    "words_of_users",
+]

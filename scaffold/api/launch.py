@@ -1,0 +1,87 @@
+"""Launch files in Python, XML and YAML."""
+
+from __future__ import annotations
+
+from scaffold.model.launch.actions import (
+    CALLBACKS,
+    HANDLERS,
+    Entity,
+    entities,
+    function_of,
+    what_it_is,
+)
+from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
+from scaffold.model.launch.execution_order import later_declarations, steps
+from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
+from scaffold.model.launch.includes import Included, given_arguments, included
+from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
+from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
+from scaffold.model.launch.parameter_files import (
+    is_loaded,
+    names_alike,
+    node_names,
+    nodes_for,
+    use_of,
+)
+from scaffold.model.launch.parameter_values import value_given
+from scaffold.model.launch.python_file import (
+    FUNCTION,
+    NODES,
+    SHARE,
+    LaunchCall,
+    LaunchFile,
+    returns,
+)
+from scaffold.model.launch.references import Use, exists, meant_package, package_uses
+from scaffold.model.launch.share_paths import paths_of, why_missing
+from scaffold.model.launch.signatures import ACTIONS, signature
+from scaffold.model.launch.substitutions import failure, text_uses, truth_tests
+
+__all__ = [
+    "ACTIONS",
+    "CALLBACKS",
+    "DATA_DIRECTORIES",
+    "FUNCTION",
+    "HANDLERS",
+    "NODES",
+    "SHARE",
+    "Entity",
+    "Included",
+    "LaunchCall",
+    "LaunchFile",
+    "MarkupNode",
+    "StartedNode",
+    "Use",
+    "consumers",
+    "data_files",
+    "entities",
+    "exists",
+    "failure",
+    "function_of",
+    "given_arguments",
+    "included",
+    "is_known",
+    "is_loaded",
+    "is_named",
+    "later_declarations",
+    "launch_files",
+    "markup_files",
+    "may_be_set_elsewhere",
+    "meant_package",
+    "names_alike",
+    "node_names",
+    "nodes_for",
+    "package_uses",
+    "paths_of",
+    "returns",
+    "set_names",
+    "signature",
+    "started_nodes",
+    "steps",
+    "text_uses",
+    "truth_tests",
+    "use_of",
+    "value_given",
+    "what_it_is",
+    "why_missing",
+]

@@ -1,0 +1,48 @@
+"""What the programs of a package do when they run."""
+
+from __future__ import annotations
+
+from scaffold.model.programs.blocking import (
+    Executed,
+    has_more_threads,
+    in_callbacks,
+    in_constructors,
+    waits_alone,
+)
+from scaffold.model.programs.entry_points import Run, files_of, run_of, starts_of
+from scaffold.model.programs.executables import nodes_of, programs_of
+from scaffold.model.programs.executors import Shutdowns, used_of_executor
+from scaffold.model.programs.initialization import calls_others, late_init, may_init
+from scaffold.model.programs.publishing import publish_calls
+from scaffold.model.programs.topics import (
+    is_private,
+    is_remapped,
+    one_sided,
+    services_of,
+    topics_of,
+)
+
+__all__ = [
+    "Executed",
+    "Run",
+    "Shutdowns",
+    "calls_others",
+    "files_of",
+    "has_more_threads",
+    "in_callbacks",
+    "in_constructors",
+    "is_private",
+    "is_remapped",
+    "late_init",
+    "may_init",
+    "nodes_of",
+    "one_sided",
+    "programs_of",
+    "publish_calls",
+    "run_of",
+    "services_of",
+    "starts_of",
+    "topics_of",
+    "used_of_executor",
+    "waits_alone",
+]

@@ -1,0 +1,38 @@
+"""Python files: names, scopes, calls, and values that are certain."""
+
+from __future__ import annotations
+
+from scaffold.model.python.guards import is_asked_about, is_for_ros1, is_harmless
+from scaffold.model.python.module import Import, PythonModule
+from scaffold.model.python.returns import (
+    is_generator,
+    may_end,
+    may_end_with_items,
+    returned,
+    value_set_before,
+)
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.model.python.signatures import misfit, misfit_of_context
+from scaffold.model.python.values import UNKNOWN, Glob, PathValue, Unknown, is_known, kind_of
+
+__all__ = [
+    "UNKNOWN",
+    "FunctionNode",
+    "Glob",
+    "Import",
+    "PathValue",
+    "PythonModule",
+    "Unknown",
+    "is_asked_about",
+    "is_for_ros1",
+    "is_generator",
+    "is_harmless",
+    "is_known",
+    "kind_of",
+    "may_end",
+    "may_end_with_items",
+    "misfit",
+    "misfit_of_context",
+    "returned",
+    "value_set_before",
+]

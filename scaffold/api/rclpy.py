@@ -1,0 +1,124 @@
+"""What the rclpy code of a file says: nodes, publishers, timers, callbacks."""
+
+from __future__ import annotations
+
+from scaffold.model.rclpy.api import (
+    NODE,
+    PARAMETER,
+    PLACES,
+    class_of,
+    first_unknown,
+    has,
+    is_method,
+    known_names,
+)
+from scaffold.model.rclpy.api_signatures import Excess, excess_arguments
+from scaffold.model.rclpy.attributes import (
+    defined_by,
+    given_from_outside,
+    is_read_in_full,
+    names_of_bases,
+    used_by_classes,
+)
+from scaffold.model.rclpy.callbacks import numbers_taken
+from scaffold.model.rclpy.called_functions import called_function
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Argument,
+    Callback,
+    Client,
+    Endpoint,
+    Entity,
+    Parameter,
+    ParameterRead,
+    Publisher,
+    RclpyCall,
+    Service,
+    Subscription,
+    Timer,
+)
+from scaffold.model.rclpy.file import NodeFacts, node_facts, rclpy_files
+from scaffold.model.rclpy.logging import is_of_rclpy
+from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
+from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.model.rclpy.parameters.callbacks import RESULT, wrong_value
+from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
+from scaffold.model.rclpy.parameters.objects import (
+    CALLBACKS,
+    FIELDS,
+    ParameterMade,
+    callback_arguments,
+    is_listed_parameter,
+    is_of_node,
+    name_asked,
+    names_compared,
+    names_used_by,
+    parameter_read,
+    parameters_set,
+    types_compared,
+)
+from scaffold.model.rclpy.parameters.values import objects_used, stands_for_value
+from scaffold.model.rclpy.qos import conflict_of
+
+__all__ = [
+    "CALLBACKS",
+    "DESCRIPTOR",
+    "FIELDS",
+    "NODE",
+    "PARAMETER",
+    "PLACES",
+    "RESULT",
+    "ActionClient",
+    "ActionServer",
+    "Argument",
+    "Callback",
+    "Client",
+    "Endpoint",
+    "Entity",
+    "Excess",
+    "NodeClass",
+    "NodeFacts",
+    "NodeOwner",
+    "Parameter",
+    "ParameterMade",
+    "ParameterRead",
+    "Publisher",
+    "RclpyCall",
+    "Service",
+    "Subscription",
+    "Timer",
+    "callback_arguments",
+    "called_function",
+    "class_of",
+    "conflict_of",
+    "defined_by",
+    "excess_arguments",
+    "first_unknown",
+    "given_from_outside",
+    "has",
+    "is_listed_parameter",
+    "is_method",
+    "is_of_node",
+    "is_of_rclpy",
+    "is_read_in_full",
+    "known_names",
+    "message_made",
+    "name_asked",
+    "names_compared",
+    "names_of_bases",
+    "names_used_by",
+    "namespace_problem",
+    "node_facts",
+    "node_problem",
+    "numbers_taken",
+    "objects_used",
+    "parameter_read",
+    "parameters_set",
+    "rclpy_files",
+    "stands_for_value",
+    "topic_problem",
+    "types_compared",
+    "used_by_classes",
+    "wrong_value",
+]

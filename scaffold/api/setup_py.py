@@ -1,0 +1,20 @@
+"""setup.py and setup.cfg."""
+
+from __future__ import annotations
+
+from scaffold.model.setup_py import edit as setup_edit
+from scaffold.model.setup_py.console_scripts import node_scripts
+from scaffold.model.setup_py.package_data import installed_data, matches, package_data
+from scaffold.model.setup_py.setup_py import DataFile, EntryPoint, FindPackages, SetupPy
+
+__all__ = [
+    "DataFile",
+    "EntryPoint",
+    "FindPackages",
+    "SetupPy",
+    "installed_data",
+    "matches",
+    "node_scripts",
+    "package_data",
+    "setup_edit",
+]
