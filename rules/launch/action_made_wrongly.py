@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile
 
 _ACTIONS = frozenset(
@@ -27,7 +27,7 @@ def _launch(node: str, actions: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(node, actions)}
 
 
-class ActionMadeWrongly(Rule):
+class ActionMadeWrongly(LaunchRule):
     """An action lacks the program that it starts, or a list of actions is none.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
@@ -73,14 +73,13 @@ class ActionMadeWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                problem = _problem(launch, call)
-                if problem:
-                    yield self.report(call, problem)
-                if call.kind in _ACTIONS:
-                    yield from self._check_action(launch, call)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            problem = _problem(launch, call)
+            if problem:
+                yield self.report(call, problem)
+            if call.kind in _ACTIONS:
+                yield from self._check_action(launch, call)
 
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)

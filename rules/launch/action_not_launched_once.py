@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import HANDLERS, NODES, Entity, LaunchFile, entities
 
 _PROCESSES = (*NODES, "ExecuteProcess")
@@ -20,7 +20,7 @@ _LAUNCH = (
 )
 
 
-class ActionNotLaunchedOnce(Rule):
+class ActionNotLaunchedOnce(LaunchRule):
     """A node is launched twice, or is only watched and never launched.
 
     **Why.** One action object is one process: ``ExecuteLocal action 'second-2': executed more than
@@ -58,25 +58,24 @@ class ActionNotLaunchedOnce(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            if len(launch.find("LaunchDescription")) > 1:
-                continue  # each may be returned in another case
-            items: dict[ast.expr, Entity] = {item.node: item for item in entities(launch)}
-            for name, made, loads in _nodes(launch):
-                places = [items[load] for load in loads if load in items]
-                listed = [one for one in places if one.holder == "LaunchDescription"]
-                again = [
-                    *(one for one in places if one.holder in HANDLERS),
-                    *listed[1:],
-                ]
-                for one in again if listed else ():
-                    if not _repeats(launch, one.node):
-                        message = f"{name} is launched twice: here, and in the LaunchDescription"
-                        yield self.report(launch.location(one.node), message)
-                if loads and all(_is_target(launch, load) for load in loads):
-                    message = f"a handler watches {name}, which is in no list: it is never launched"
-                    yield self.report(launch.location(made), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        if len(launch.find("LaunchDescription")) > 1:
+            return  # each may be returned in another case
+        items: dict[ast.expr, Entity] = {item.node: item for item in entities(launch)}
+        for name, made, loads in _nodes(launch):
+            places = [items[load] for load in loads if load in items]
+            listed = [one for one in places if one.holder == "LaunchDescription"]
+            again = [
+                *(one for one in places if one.holder in HANDLERS),
+                *listed[1:],
+            ]
+            for one in again if listed else ():
+                if not _repeats(launch, one.node):
+                    message = f"{name} is launched twice: here, and in the LaunchDescription"
+                    yield self.report(launch.location(one.node), message)
+            if loads and all(_is_target(launch, load) for load in loads):
+                message = f"a handler watches {name}, which is in no list: it is never launched"
+                yield self.report(launch.location(made), message)
 
 
 def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]:

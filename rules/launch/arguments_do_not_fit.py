@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, signature
 
 _LAUNCH = (
@@ -17,7 +17,7 @@ _LAUNCH = (
 )
 
 
-class ArgumentsDoNotFit(Rule):
+class ArgumentsDoNotFit(LaunchRule):
     """An action or a substitution lacks an argument, or gets one more than it takes.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: TimerAction.__init__() missing 1 required
@@ -54,20 +54,19 @@ class ArgumentsDoNotFit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                known = signature(call.kind)
-                if known is None or call.is_open:
-                    continue
-                count, most = len(call.call.args), len(known.positional)
-                if count > most and call.kind != "LaunchDescription":
-                    yield self.report(call, _too_many(call.kind, known.positional))
-                    continue
-                missing = [name for name in known.required if name not in call.given]
-                if missing and known.names.issuperset(call.words):
-                    names = " and ".join(f"{name}=..." for name in missing)
-                    yield self.report(call, f"{call.kind} needs {names}: TypeError")
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            known = signature(call.kind)
+            if known is None or call.is_open:
+                continue
+            count, most = len(call.call.args), len(known.positional)
+            if count > most and call.kind != "LaunchDescription":
+                yield self.report(call, _too_many(call.kind, known.positional))
+                continue
+            missing = [name for name in known.required if name not in call.given]
+            if missing and known.names.issuperset(call.words):
+                names = " and ".join(f"{name}=..." for name in missing)
+                yield self.report(call, f"{call.kind} needs {names}: TypeError")
 
 
 def _too_many(kind: str, positional: tuple[str, ...]) -> str:

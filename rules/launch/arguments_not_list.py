@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _LAUNCH = (
@@ -15,7 +15,7 @@ _LAUNCH = (
 )
 
 
-class ArgumentsNotList(Rule):
+class ArgumentsNotList(LaunchRule):
     """``arguments=`` of a node is one string.
 
     **Why.** launch goes through it letter by letter: the program gets ``-``, ``-``, ``r``, ``o``
@@ -56,14 +56,13 @@ class ArgumentsNotList(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES):
-                for name in ("arguments", "ros_arguments"):
-                    node = call.given.get(name)
-                    if node is None or not isinstance(launch.evaluator.evaluate(node), str):
-                        continue
-                    _, end = launch.module.span(node)
-                    fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
-                    message = f"{name} is one string, which launch takes apart letter by letter"
-                    yield self.report(launch.location(node), message, fix)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES):
+            for name in ("arguments", "ros_arguments"):
+                node = call.given.get(name)
+                if node is None or not isinstance(launch.evaluator.evaluate(node), str):
+                    continue
+                _, end = launch.module.span(node)
+                fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
+                message = f"{name} is one string, which launch takes apart letter by letter"
+                yield self.report(launch.location(node), message, fix)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile
 
 _PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
@@ -25,7 +25,7 @@ def _launch(command: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(command)}
 
 
-class CommandWordsJoined(Rule):
+class CommandWordsJoined(LaunchRule):
     """There is no space between a program and its first argument in a ``Command``.
 
     **Why.** The parts of a command are joined as they are, so that ``xacro`` and its file become
@@ -62,12 +62,11 @@ class CommandWordsJoined(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("Command"):
-                problem = _joined(launch, call.call.args[0]) if call.call.args else ""
-                if problem:
-                    yield self.report(call, problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("Command"):
+            problem = _joined(launch, call.call.args[0]) if call.call.args else ""
+            if problem:
+                yield self.report(call, problem)
 
 
 def _joined(launch: LaunchFile, node: ast.expr) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchCall, LaunchFile, failure
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
@@ -25,7 +25,7 @@ _LAUNCH = (
 )
 
 
-class ConditionUnusable(Rule):
+class ConditionUnusable(LaunchRule):
     """A condition is about something that launch cannot read as true or false.
 
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for what Python decides,
@@ -83,23 +83,22 @@ class ConditionUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*_CONDITIONS, *_BY_NAME):
-                node = next(iter(call.given.values()), None)
-                problem = "" if node is None else _problem(launch, call, node)
-                if problem and node is not None:
-                    yield self.report(launch.location(node), problem)
-            for call in launch.calls:
-                listed = call.given.get("condition")
-                is_value = call.kind == "IfElseSubstitution"
-                if isinstance(listed, ast.List | ast.Tuple) and not is_value:
-                    message = "a condition is one object such as IfCondition(...), not a list"
-                    yield self.report(launch.location(listed), message)
-            for call in launch.find("PythonExpression"):
-                why = failure(launch, call.given.get("expression"))
-                if why:
-                    yield self.report(call, why)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*_CONDITIONS, *_BY_NAME):
+            node = next(iter(call.given.values()), None)
+            problem = "" if node is None else _problem(launch, call, node)
+            if problem and node is not None:
+                yield self.report(launch.location(node), problem)
+        for call in launch.calls:
+            listed = call.given.get("condition")
+            is_value = call.kind == "IfElseSubstitution"
+            if isinstance(listed, ast.List | ast.Tuple) and not is_value:
+                message = "a condition is one object such as IfCondition(...), not a list"
+                yield self.report(launch.location(listed), message)
+        for call in launch.find("PythonExpression"):
+            why = failure(launch, call.given.get("expression"))
+            if why:
+                yield self.report(call, why)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import FUNCTION, NODES, LaunchFile
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
@@ -21,7 +21,7 @@ _LAUNCH = (
 _RIGHT = ("", "description.add_action(Node(package='talker', executable='other'))", "")
 
 
-class DescriptionIncomplete(Rule):
+class DescriptionIncomplete(LaunchRule):
     """A launch file makes an action that it does not return, or cannot be asked for what it makes.
 
     **Why.** An action that is in no list is never executed, without a word; ``ros2 launch`` calls
@@ -71,25 +71,24 @@ class DescriptionIncomplete(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            function = launch.function
-            if function is not None:
-                arguments = function.node.args
-                given = [*arguments.posonlyargs, *arguments.args]
-                if len(given) > len(arguments.defaults):
-                    message = f"`ros2 launch` calls {FUNCTION} without arguments: TypeError"
-                    yield self.report(function, message)
-            for call in launch.calls:
-                is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
-                if is_dropped and call.kind in _EXECUTED:
-                    yield self.report(call, f"this {call.kind} is in no list: it is never executed")
-            for statement in launch.module.walk(ast.Return):
-                if function is None or (
-                    launch.module.enclosing_function(statement) is not function.node
-                ):
-                    continue
-                match statement.value:
-                    case ast.Call(func=ast.Attribute(attr="add_action" | "add_entity")):
-                        message = "add_action() returns nothing: return the LaunchDescription"
-                        yield self.report(launch.location(statement), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        function = launch.function
+        if function is not None:
+            arguments = function.node.args
+            given = [*arguments.posonlyargs, *arguments.args]
+            if len(given) > len(arguments.defaults):
+                message = f"`ros2 launch` calls {FUNCTION} without arguments: TypeError"
+                yield self.report(function, message)
+        for call in launch.calls:
+            is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
+            if is_dropped and call.kind in _EXECUTED:
+                yield self.report(call, f"this {call.kind} is in no list: it is never executed")
+        for statement in launch.module.walk(ast.Return):
+            if function is None or (
+                launch.module.enclosing_function(statement) is not function.node
+            ):
+                continue
+            match statement.value:
+                case ast.Call(func=ast.Attribute(attr="add_action" | "add_entity")):
+                    message = "add_action() returns nothing: return the LaunchDescription"
+                    yield self.report(launch.location(statement), message)

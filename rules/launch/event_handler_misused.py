@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import ACTIONS, CALLBACKS, HANDLERS, LaunchCall, LaunchFile, function_of
 
 _OF_PROCESSES = ("OnProcessExit", "OnProcessIO", "OnProcessStart")
@@ -28,7 +28,7 @@ _LAUNCH = (
 )
 
 
-class EventHandlerMisused(Rule):
+class EventHandlerMisused(LaunchRule):
     """An event handler watches what is no process, or calls a function that takes other arguments.
 
     **Why.** ``ros2 launch`` stops: ``action_matcher must be an 'ExecuteLocal' instance or a
@@ -72,13 +72,12 @@ class EventHandlerMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                for name, node in call.given.items():
-                    problem = _problem(launch, call, name, node)
-                    if problem:
-                        yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            for name, node in call.given.items():
+                problem = _problem(launch, call, name, node)
+                if problem:
+                    yield self.report(launch.location(node), problem)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, given_arguments
 
 _LAUNCH = (
@@ -26,7 +26,7 @@ def _launch(arguments: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(arguments)}
 
 
-class IncludeArgumentUnusable(Rule):
+class IncludeArgumentUnusable(LaunchRule):
     """The arguments of an include are no pairs, or a value is no text.
 
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable``, ``not enough values to
@@ -86,17 +86,16 @@ class IncludeArgumentUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("IncludeLaunchDescription"):
-                for name, _, value in given_arguments(launch, call) or ():
-                    problem = _value_problem(launch, value)
-                    if problem:
-                        yield self.report(launch.location(value), f"{name!r} gets {problem}")
-                node = call.given.get("launch_arguments")
-                problem = "" if node is None else _shape_problem(node)
-                if problem and node is not None:
-                    yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("IncludeLaunchDescription"):
+            for name, _, value in given_arguments(launch, call) or ():
+                problem = _value_problem(launch, value)
+                if problem:
+                    yield self.report(launch.location(value), f"{name!r} gets {problem}")
+            node = call.given.get("launch_arguments")
+            problem = "" if node is None else _shape_problem(node)
+            if problem and node is not None:
+                yield self.report(launch.location(node), problem)
 
 
 def _shape_problem(node: ast.expr) -> str:

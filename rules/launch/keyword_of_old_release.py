@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _OLD = {
@@ -23,7 +23,7 @@ _LAUNCH = (
 )
 
 
-class KeywordOfOldRelease(Rule):
+class KeywordOfOldRelease(LaunchRule):
     """A node has keywords that were renamed in Foxy and are gone since Galactic.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required keyword-only argument:
@@ -65,22 +65,21 @@ class KeywordOfOldRelease(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES, "ComposableNode"):
-                if _is_for_release(launch, call.call):
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES, "ComposableNode"):
+            if _is_for_release(launch, call.call):
+                continue
+            for old, word in call.words.items():
+                new = _OLD.get(old)
+                if new is None:
                     continue
-                for old, word in call.words.items():
-                    new = _OLD.get(old)
-                    if new is None:
-                        continue
-                    start, _ = launch.module.span(word)
-                    at = launch.module.source.location(start, start + len(old))
-                    fix = None
-                    if new not in call.words:
-                        edit = Edit(launch.path, start, start + len(old), new)
-                        fix = Fix(f"write {new}", (edit,))
-                    yield self.report(at, f"{call.kind} has no {old}; it is {new} now", fix)
+                start, _ = launch.module.span(word)
+                at = launch.module.source.location(start, start + len(old))
+                fix = None
+                if new not in call.words:
+                    edit = Edit(launch.path, start, start + len(old), new)
+                    fix = Fix(f"write {new}", (edit,))
+                yield self.report(at, f"{call.kind} has no {old}; it is {new} now", fix)
 
 
 def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:

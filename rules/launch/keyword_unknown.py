@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, signature
 
 _OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
@@ -17,7 +17,7 @@ _LAUNCH = (
 )
 
 
-class KeywordUnknown(Rule):
+class KeywordUnknown(LaunchRule):
     """An action or a substitution gets a keyword argument that it does not have.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: Action.__init__() got an unexpected keyword
@@ -45,15 +45,14 @@ class KeywordUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                known = signature(call.kind)
-                for name, word in call.words.items() if known is not None else ():
-                    if known is None or name in known.names or name in _OLD:
-                        continue
-                    near = get_close_matches(name, sorted(known.names), 1, 0.6)
-                    hint = f"; {near[0]!r} is meant" if near else ""
-                    start, _ = launch.module.span(word)
-                    at = launch.module.source.location(start, start + len(name))
-                    yield self.report(at, f"{call.kind} has no argument {name!r}{hint}")
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            known = signature(call.kind)
+            for name, word in call.words.items() if known is not None else ():
+                if known is None or name in known.names or name in _OLD:
+                    continue
+                near = get_close_matches(name, sorted(known.names), 1, 0.6)
+                hint = f"; {near[0]!r} is meant" if near else ""
+                start, _ = launch.module.span(word)
+                at = launch.module.source.location(start, start + len(name))
+                yield self.report(at, f"{call.kind} has no argument {name!r}{hint}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import LaunchFile
 
 _LAUNCH = (
@@ -16,7 +16,7 @@ _LAUNCH = (
 )
 
 
-class LaunchArgumentsNotPairs(Rule):
+class LaunchArgumentsNotPairs(LaunchRule):
     """``launch_arguments=`` of an include is a dictionary, not its items.
 
     **Why.** launch goes through it in pairs: ``ValueError: too many values to unpack (expected
@@ -45,16 +45,15 @@ class LaunchArgumentsNotPairs(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("IncludeLaunchDescription"):
-                node = call.given.get("launch_arguments")
-                if node is None or not self._is_dictionary(launch, node):
-                    continue
-                _, end = launch.module.span(node)
-                fix = Fix("add .items()", (Edit(launch.path, end, end, ".items()"),))
-                message = "launch_arguments is a dictionary; launch takes pairs: add .items()"
-                yield self.report(launch.location(node), message, fix)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("IncludeLaunchDescription"):
+            node = call.given.get("launch_arguments")
+            if node is None or not self._is_dictionary(launch, node):
+                continue
+            _, end = launch.module.span(node)
+            fix = Fix("add .items()", (Edit(launch.path, end, end, ".items()"),))
+            message = "launch_arguments is a dictionary; launch takes pairs: add .items()"
+            yield self.report(launch.location(node), message, fix)
 
     def _is_dictionary(self, launch: LaunchFile, node: ast.expr) -> bool:
         if isinstance(node, ast.Name):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Location, Report
 from scaffold.api.launch import LaunchFile, returns
 
 _LAUNCH = (
@@ -15,7 +15,7 @@ _LAUNCH = (
 )
 
 
-class LaunchDescriptionNotReturned(Rule):
+class LaunchDescriptionNotReturned(LaunchRule):
     """``generate_launch_description`` does not return a ``LaunchDescription``.
 
     **Why.** ``ros2 launch``: ``'NoneType' object has no attribute
@@ -65,15 +65,14 @@ class LaunchDescriptionNotReturned(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            function = launch.function
-            if function is None or not isinstance(function.node, ast.FunctionDef):
-                continue
-            node = function.node
-            if node.decorator_list or any(launch.module.below(node, ast.Yield, ast.YieldFrom)):
-                continue
-            yield from self._check(launch, node, function.location)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        function = launch.function
+        if function is None or not isinstance(function.node, ast.FunctionDef):
+            return
+        node = function.node
+        if node.decorator_list or any(launch.module.below(node, ast.Yield, ast.YieldFrom)):
+            return
+        yield from self._check(launch, node, function.location)
 
     def _check(
         self, launch: LaunchFile, node: ast.FunctionDef, at: Location

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
@@ -19,7 +19,7 @@ _LAUNCH = (
 )
 
 
-class LaunchNameInvalid(Rule):
+class LaunchNameInvalid(LaunchRule):
     """A launch file gives a node a name or namespace that ROS 2 refuses, or a condition no truth.
 
     **Why.** The node dies at start: ``InvalidNodeNameException``, or ``Couldn't parse remap
@@ -48,22 +48,19 @@ class LaunchNameInvalid(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES, "ComposableNode"):
-                name, space = launch.text(call, "name"), launch.text(call, "namespace")
-                if isinstance(name, str) and not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
-                    message = f"ROS 2 refuses the node name {name!r}: letters, digits and _ only"
-                    yield self.report(launch.location(call.given["name"]), message)
-                is_space = re.fullmatch(
-                    r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)", str(space), re.ASCII
-                )
-                if isinstance(space, str) and not is_space:
-                    message = f"ROS 2 refuses the namespace {space!r}"
-                    yield self.report(launch.location(call.given["namespace"]), message)
-            for call in launch.find(*_CONDITIONS):
-                node = next(iter([*call.given.values(), *call.call.args]), None)
-                value = launch.default_of(node)
-                if isinstance(value, str) and value.lower() not in _TRUTHS:
-                    message = f"the default is {value!r}, which is neither true nor false"
-                    yield self.report(call, message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES, "ComposableNode"):
+            name, space = launch.text(call, "name"), launch.text(call, "namespace")
+            if isinstance(name, str) and not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
+                message = f"ROS 2 refuses the node name {name!r}: letters, digits and _ only"
+                yield self.report(launch.location(call.given["name"]), message)
+            is_space = re.fullmatch(r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)", str(space), re.ASCII)
+            if isinstance(space, str) and not is_space:
+                message = f"ROS 2 refuses the namespace {space!r}"
+                yield self.report(launch.location(call.given["namespace"]), message)
+        for call in launch.find(*_CONDITIONS):
+            node = next(iter([*call.given.values(), *call.call.args]), None)
+            value = launch.default_of(node)
+            if isinstance(value, str) and value.lower() not in _TRUTHS:
+                message = f"the default is {value!r}, which is neither true nor false"
+                yield self.report(call, message)

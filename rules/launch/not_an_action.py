@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile, entities, what_it_is
 
 _LAUNCH = (
@@ -24,7 +24,7 @@ _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "
 """What a handler takes instead of a list."""
 
 
-class NotAnAction(Rule):
+class NotAnAction(LaunchRule):
     """A list of actions holds something else.
 
     **Why.** ``ros2 launch`` stops: ``'list' object has no attribute 'describe_sub_entities'``;
@@ -82,20 +82,19 @@ class NotAnAction(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for item in entities(launch):
-                what = what_it_is(launch, item.node)
-                if what and not (item.is_alone and what in _ALONE):
-                    message = f"{what}, and {item.holder} takes actions{_hint(what)}"
-                    yield self.report(launch.location(item.node), message)
-            for call in launch.calls:
-                listed = call.given.get("composable_node_descriptions")
-                for node in listed.elts if isinstance(listed, ast.List) else ():
-                    found = launch.call_of(node)
-                    if found is not None and found.kind in NODES:
-                        message = f"this is a {found.kind}, and a container takes ComposableNode"
-                        yield self.report(launch.location(node), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for item in entities(launch):
+            what = what_it_is(launch, item.node)
+            if what and not (item.is_alone and what in _ALONE):
+                message = f"{what}, and {item.holder} takes actions{_hint(what)}"
+                yield self.report(launch.location(item.node), message)
+        for call in launch.calls:
+            listed = call.given.get("composable_node_descriptions")
+            for node in listed.elts if isinstance(listed, ast.List) else ():
+                found = launch.call_of(node)
+                if found is not None and found.kind in NODES:
+                    message = f"this is a {found.kind}, and a container takes ComposableNode"
+                    yield self.report(launch.location(node), message)
 
 
 def _hint(what: str) -> str:

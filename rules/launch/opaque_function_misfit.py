@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchCall, LaunchFile, function_of
 from scaffold.api.python import misfit_of_context
 
@@ -21,7 +21,7 @@ def _launch(takes: str, given: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(takes, given)}
 
 
-class OpaqueFunctionMisfit(Rule):
+class OpaqueFunctionMisfit(LaunchRule):
     """The function of an OpaqueFunction takes other arguments than it is given.
 
     **Why.** ``ros2 launch`` stops: ``set_up() takes 0 positional arguments but 1 was given``,
@@ -87,23 +87,20 @@ class OpaqueFunctionMisfit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("OpaqueFunction"):
-                given = call.given.get("function") or next(iter(call.call.args), None)
-                if given is None:
-                    continue
-                if _is_call_of_own(launch, given):
-                    message = (
-                        f"{launch.module.text(given)} is called here: pass the function itself"
-                    )
-                    yield self.report(call, message)
-                function = function_of(launch, given)
-                if function is None or function.decorator_list:
-                    continue
-                problem = _problem(call, function.args)
-                if problem:
-                    yield self.report(launch.location(given), f"{function.name} {problem}")
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("OpaqueFunction"):
+            given = call.given.get("function") or next(iter(call.call.args), None)
+            if given is None:
+                continue
+            if _is_call_of_own(launch, given):
+                message = f"{launch.module.text(given)} is called here: pass the function itself"
+                yield self.report(call, message)
+            function = function_of(launch, given)
+            if function is None or function.decorator_list:
+                continue
+            problem = _problem(call, function.args)
+            if problem:
+                yield self.report(launch.location(given), f"{function.name} {problem}")
 
 
 def _problem(call: LaunchCall, arguments: ast.arguments) -> str:

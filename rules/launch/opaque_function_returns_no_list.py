@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import ACTIONS, LaunchFile, function_of
 from scaffold.api.python import returned
 
@@ -17,7 +17,7 @@ _LAUNCH = (
 )
 
 
-class OpaqueFunctionReturnsNoList(Rule):
+class OpaqueFunctionReturnsNoList(LaunchRule):
     """The function of an OpaqueFunction returns one action, or a launch description.
 
     **Why.** ``ros2 launch`` stops: ``'Node' object is not iterable``, ``'LaunchDescription' object
@@ -51,14 +51,13 @@ class OpaqueFunctionReturnsNoList(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            given = [call.given.get("function") for call in launch.find("OpaqueFunction")]
-            for function in dict.fromkeys(function_of(launch, one) for one in given):
-                if function is None or function.decorator_list:
-                    continue
-                for statement in returned(function):
-                    found = launch.call_of(statement.value)
-                    if found is not None and found.kind in {*ACTIONS, "LaunchDescription"}:
-                        message = f"{function.name} returns one {found.kind}, not a list: TypeError"
-                        yield self.report(launch.location(statement), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        given = [call.given.get("function") for call in launch.find("OpaqueFunction")]
+        for function in dict.fromkeys(function_of(launch, one) for one in given):
+            if function is None or function.decorator_list:
+                continue
+            for statement in returned(function):
+                found = launch.call_of(statement.value)
+                if found is not None and found.kind in {*ACTIONS, "LaunchDescription"}:
+                    message = f"{function.name} returns one {found.kind}, not a list: TypeError"
+                    yield self.report(launch.location(statement), message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _LAUNCH = (
@@ -16,7 +16,7 @@ _LAUNCH = (
 )
 
 
-class ParametersNotList(Rule):
+class ParametersNotList(LaunchRule):
     """``parameters=`` of a node is not a list.
 
     **Why.** ``ros2 launch`` stops: ``'Node' expected 'parameters' to be one of [<class 'list'>]``;
@@ -68,21 +68,20 @@ class ParametersNotList(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES):
-                node = call.given.get("parameters")
-                what = self._what(launch, node) if node is not None else None
-                if node is None or what is None:
-                    continue
-                start, end = launch.module.span(node)
-                star = "*" if what == "a tuple" else ""
-                edits = (
-                    Edit(launch.path, start, start, f"[{star}"),
-                    Edit(launch.path, end, end, "]"),
-                )
-                message = f"parameters is {what}; {call.kind} takes a list alone"
-                yield self.report(launch.location(node), message, Fix("make it a list", edits))
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES):
+            node = call.given.get("parameters")
+            what = self._what(launch, node) if node is not None else None
+            if node is None or what is None:
+                continue
+            start, end = launch.module.span(node)
+            star = "*" if what == "a tuple" else ""
+            edits = (
+                Edit(launch.path, start, start, f"[{star}"),
+                Edit(launch.path, end, end, "]"),
+            )
+            message = f"parameters is {what}; {call.kind} takes a list alone"
+            yield self.report(launch.location(node), message, Fix("make it a list", edits))
 
     def _what(self, launch: LaunchFile, node: ast.expr) -> str | None:
         if isinstance(node, ast.Name):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import SHARE, LaunchFile
 from scaffold.api.python import PathValue
 
@@ -16,7 +16,7 @@ _LAUNCH = (
 )
 
 
-class PathJoinedWrongly(Rule):
+class PathJoinedWrongly(LaunchRule):
     """A path below a share directory is joined with a slash too many, or without one.
 
     **Why.** ``os.path.join(share, '/config')`` is ``/config``; ``share + 'config'`` is
@@ -72,25 +72,24 @@ class PathJoinedWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.module.walk(ast.Call):
-                if launch.module.qualified_name(call.func) != "os.path.join" or not call.args:
-                    continue
-                first = _text(launch, call.args[0])
-                for part in call.args[1:]:
-                    text = _text(launch, part)
-                    if text.startswith("/") and not text.startswith(SHARE) and first:
-                        message = f"{text!r} begins with a slash, which drops all in front of it"
-                        yield self.report(launch.location(part), message)
-            for sum_ in launch.module.walk(ast.BinOp):
-                if isinstance(sum_.op, ast.Add) and _runs_on(launch, sum_.left, sum_.right):
-                    right = _text(launch, sum_.right)
-                    message = f"a slash is missing between the share directory and {right!r}"
-                    yield self.report(launch.location(sum_), message)
-            for node in _run_on_in_lists(launch):
-                message = "parts are joined as they are: a slash is missing in front of this"
-                yield self.report(launch.location(node), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.module.walk(ast.Call):
+            if launch.module.qualified_name(call.func) != "os.path.join" or not call.args:
+                continue
+            first = _text(launch, call.args[0])
+            for part in call.args[1:]:
+                text = _text(launch, part)
+                if text.startswith("/") and not text.startswith(SHARE) and first:
+                    message = f"{text!r} begins with a slash, which drops all in front of it"
+                    yield self.report(launch.location(part), message)
+        for sum_ in launch.module.walk(ast.BinOp):
+            if isinstance(sum_.op, ast.Add) and _runs_on(launch, sum_.left, sum_.right):
+                right = _text(launch, sum_.right)
+                message = f"a slash is missing between the share directory and {right!r}"
+                yield self.report(launch.location(sum_), message)
+        for node in _run_on_in_lists(launch):
+            message = "parts are joined as they are: a slash is missing in front of this"
+            yield self.report(launch.location(node), message)
 
 
 def _run_on_in_lists(launch: LaunchFile) -> Iterator[ast.expr]:

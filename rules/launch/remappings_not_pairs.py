@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _LAUNCH = (
@@ -19,7 +19,7 @@ def _launch(remappings: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(remappings)}
 
 
-class RemappingsNotPairs(Rule):
+class RemappingsNotPairs(LaunchRule):
     """``remappings=`` of a node is no list of pairs.
 
     **Why.** ``ros2 launch`` stops with ``ValueError: not enough values to unpack``; a dictionary of
@@ -68,13 +68,12 @@ class RemappingsNotPairs(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES):
-                node = call.given.get("remappings")
-                problem = _problem(node) if node is not None else ""
-                if problem and node is not None:
-                    yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES):
+            node = call.given.get("remappings")
+            problem = _problem(node) if node is not None else ""
+            if problem and node is not None:
+                yield self.report(launch.location(node), problem)
 
 
 def _problem(node: ast.expr) -> str:

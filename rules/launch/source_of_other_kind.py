@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile
 
 _ENDINGS: Mapping[str, tuple[str, ...]] = {
@@ -24,7 +24,7 @@ _LAUNCH = (
 )
 
 
-class SourceOfOtherKind(Rule):
+class SourceOfOtherKind(LaunchRule):
     """A launch file is included with the source for another kind of file.
 
     **Why.** ``ros2 launch`` stops: ``InvalidLaunchFileError``, with ``invalid syntax`` where Python
@@ -52,12 +52,11 @@ class SourceOfOtherKind(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for kind, endings in _ENDINGS.items():
-                for source in launch.find(kind):
-                    path = launch.text(source, "launch_file_path")
-                    if isinstance(path, str) and path.endswith(endings):
-                        name = path.rpartition("/")[2]
-                        meant = "write AnyLaunchDescriptionSource"
-                        yield self.report(source, f"{kind} cannot read {name}: {meant}")
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for kind, endings in _ENDINGS.items():
+            for source in launch.find(kind):
+                path = launch.text(source, "launch_file_path")
+                if isinstance(path, str) and path.endswith(endings):
+                    name = path.rpartition("/")[2]
+                    meant = "write AnyLaunchDescriptionSource"
+                    yield self.report(source, f"{kind} cannot read {name}: {meant}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, text_uses
 
 _SHOWN = frozenset({"in an f-string", "for str()", "to be filled in", "for format()"})
@@ -22,7 +22,7 @@ _LAUNCH = (
 )
 
 
-class SubstitutionUsedAsText(Rule):
+class SubstitutionUsedAsText(LaunchRule):
     """A substitution such as LaunchConfiguration is used as text.
 
     **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument
@@ -94,15 +94,14 @@ class SubstitutionUsedAsText(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for node, kind, what in text_uses(launch):
-                if what in _SHOWN and _is_printed(launch, node):
-                    continue
-                message = f"a {kind} has no text yet {what}"
-                if not what.endswith("true"):
-                    message += ": it is filled in when actions run"
-                yield self.report(launch.location(node), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for node, kind, what in text_uses(launch):
+            if what in _SHOWN and _is_printed(launch, node):
+                continue
+            message = f"a {kind} has no text yet {what}"
+            if not what.endswith("true"):
+                message += ": it is filled in when actions run"
+            yield self.report(launch.location(node), message)
 
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:

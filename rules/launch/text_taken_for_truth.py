@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, truth_tests
 
 _TRUTHS = frozenset({"true", "false", "0", "1"})
@@ -23,7 +23,7 @@ _LAUNCH = (
 )
 
 
-class TextTakenForTruth(Rule):
+class TextTakenForTruth(LaunchRule):
     """The text of a launch argument decides as if it were a truth value.
 
     **Why.** ``use:=false`` gives the text ``'false'``, which Python takes for true; ``'true' ==
@@ -57,18 +57,17 @@ class TextTakenForTruth(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for node in [*truth_tests(launch.module), *_made_bool(launch)]:
-                text = _default(launch, node)
-                if text is not None and text.lower() in _TRUTHS:
-                    message = f"this is a text such as {text!r}, which is always true for Python"
-                    yield self.report(launch.location(node), message)
-            for comparison in launch.module.walk(ast.Compare):
-                other = _compared_with(comparison)
-                if other and _performed(launch, comparison.left) is not None:
-                    message = f"this is a text, which never equals {other}"
-                    yield self.report(launch.location(comparison), message)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for node in [*truth_tests(launch.module), *_made_bool(launch)]:
+            text = _default(launch, node)
+            if text is not None and text.lower() in _TRUTHS:
+                message = f"this is a text such as {text!r}, which is always true for Python"
+                yield self.report(launch.location(node), message)
+        for comparison in launch.module.walk(ast.Compare):
+            other = _compared_with(comparison)
+            if other and _performed(launch, comparison.left) is not None:
+                message = f"this is a text, which never equals {other}"
+                yield self.report(launch.location(comparison), message)
 
 
 def _compared_with(comparison: ast.Compare) -> str:

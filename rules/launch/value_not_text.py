@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import ACTIONS, NODES, LaunchCall, LaunchFile
 
 _NODE = ("executable", "package", "name", "namespace", "exec_name")
@@ -41,7 +41,7 @@ _LAUNCH = (
 )
 
 
-class ValueNotText(Rule):
+class ValueNotText(LaunchRule):
     """Where launch needs a text, it gets a number, or the action that declares an argument.
 
     **Why.** ``ros2 launch`` stops: ``'int' object is not iterable``, ``'DeclareLaunchArgument'
@@ -77,13 +77,12 @@ class ValueNotText(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                for node in _texts(call):
-                    problem = _problem(launch, call, node)
-                    if problem:
-                        yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            for node in _texts(call):
+                problem = _problem(launch, call, node)
+                if problem:
+                    yield self.report(launch.location(node), problem)
 
 
 def _texts(call: LaunchCall) -> Iterator[ast.expr]:

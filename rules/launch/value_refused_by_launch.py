@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile
 from scaffold.api.python import is_known
 
@@ -21,7 +21,7 @@ _LAUNCH = (
 )
 
 
-class ValueRefusedByLaunch(Rule):
+class ValueRefusedByLaunch(LaunchRule):
     """A period, a choice or a command is of a kind that launch refuses.
 
     **Why.** ``ros2 launch`` stops: ``'TimerAction' expected 'period' to be one of ... float``,
@@ -68,13 +68,12 @@ class ValueRefusedByLaunch(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                for name, node in call.given.items():
-                    problem = _problem(launch, call, name, node)
-                    if problem:
-                        yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            for name, node in call.given.items():
+                problem = _problem(launch, call, name, node)
+                if problem:
+                    yield self.report(launch.location(node), problem)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:

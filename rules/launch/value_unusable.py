@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile
 
 _OUTPUTS = frozenset({"screen", "log", "both", "own_log", "full"})
@@ -27,7 +27,7 @@ _CHOICE = (
 )
 
 
-class ValueUnusable(Rule):
+class ValueUnusable(LaunchRule):
     """An action of launch gets a value of a kind that it cannot use.
 
     **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``.
@@ -54,13 +54,12 @@ class ValueUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.calls:
-                for name, node in call.given.items():
-                    problem = _problem(launch, call, name, node)
-                    if problem:
-                        yield self.report(launch.location(node), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.calls:
+            for name, node in call.given.items():
+                problem = _problem(launch, call, name, node)
+                if problem:
+                    yield self.report(launch.location(node), problem)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:

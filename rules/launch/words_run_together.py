@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
 _LISTS = ("arguments", "ros_arguments", "cmd")
@@ -20,7 +20,7 @@ _LAUNCH = (
 )
 
 
-class WordsRunTogether(Rule):
+class WordsRunTogether(LaunchRule):
     """Two arguments of a program are one text: a comma is missing, or a space is no border.
 
     **Why.** Python joins texts that stand side by side: ``'--ros-args' '-r'`` is ``--ros-args-r``.
@@ -76,20 +76,19 @@ class WordsRunTogether(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find(*NODES, "ExecuteProcess"):
-                if "shell" in call.given:
-                    continue
-                for item in _joined_parts(call.given.get("prefix")):
-                    message = "launch joins the parts of a prefix as they are: a space is missing"
-                    yield self.report(launch.location(item), message)
-                for name in _LISTS:
-                    node = call.given.get(name)
-                    for item in node.elts if isinstance(node, ast.List) else ():
-                        problem = _problem(launch, item)
-                        if problem:
-                            yield self.report(launch.location(item), problem)
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES, "ExecuteProcess"):
+            if "shell" in call.given:
+                continue
+            for item in _joined_parts(call.given.get("prefix")):
+                message = "launch joins the parts of a prefix as they are: a space is missing"
+                yield self.report(launch.location(item), message)
+            for name in _LISTS:
+                node = call.given.get(name)
+                for item in node.elts if isinstance(node, ast.List) else ():
+                    problem = _problem(launch, item)
+                    if problem:
+                        yield self.report(launch.location(item), problem)
 
 
 def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Report, TestRule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import is_test_case, methods, test_modules
+from scaffold.api.tests import is_test_case, methods
 
 _GONE = {
     "assertEquals": "assertEqual",
@@ -30,7 +30,7 @@ _TEST = (
 )
 
 
-class AssertMethodMisused(Rule):
+class AssertMethodMisused(TestRule):
     """A test calls an assert method that Python 3.12 does not have, or one that compares nothing.
 
     **Why.** ``AttributeError: 'TestText' object has no attribute 'assertEquals'``.
@@ -67,11 +67,10 @@ class AssertMethodMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for class_ in module.classes.values():
-                if is_test_case(module, class_.node):
-                    yield from self._check_calls(module, class_.node)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for class_ in module.classes.values():
+            if is_test_case(module, class_.node):
+                yield from self._check_calls(module, class_.node)
 
     def _check_calls(self, module: PythonModule, class_: ast.ClassDef) -> Iterator[Diagnostic]:
         own = {method.name for method in methods(class_)}

@@ -5,15 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Report, Severity, TestRule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import test_functions, test_modules
+from scaffold.api.tests import test_functions
 
 _MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
 _TEST = "def ready():\n    return False\n\n\ndef test_text():\n    assert {}\n"
 
 
-class AssertionAlwaysTrue(Rule):
+class AssertionAlwaysTrue(TestRule):
     """A test asserts something that is always true.
 
     **Why.** The test passes whatever happens: a function that is not called is true, and so is a
@@ -50,13 +50,12 @@ class AssertionAlwaysTrue(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for test in test_functions(module):
-                for node in ast.walk(test.node):
-                    problem = _problem(module, node.test) if isinstance(node, ast.Assert) else ""
-                    if problem:
-                        yield self.report(module.location(node), problem)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for node in ast.walk(test.node):
+                problem = _problem(module, node.test) if isinstance(node, ast.Assert) else ""
+                if problem:
+                    yield self.report(module.location(node), problem)
 
 
 def _problem(module: PythonModule, condition: ast.expr) -> str:

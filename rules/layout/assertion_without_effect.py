@@ -5,15 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Report, Severity, TestRule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import test_functions, test_modules
+from scaffold.api.tests import test_functions
 
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
 _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
-class AssertionWithoutEffect(Rule):
+class AssertionWithoutEffect(TestRule):
     """A test states something that nothing looks at.
 
     **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
@@ -70,13 +70,12 @@ class AssertionWithoutEffect(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for test in test_functions(module):
-                for node in ast.walk(test.node):
-                    at, problem = _problem(module, node)
-                    if problem:
-                        yield self.report(module.location(at), problem)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for node in ast.walk(test.node):
+                at, problem = _problem(module, node)
+                if problem:
+                    yield self.report(module.location(at), problem)
 
 
 def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.tests import keywords, marks, test_functions, test_modules
+from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import keywords, marks, test_functions
 
 _MEANT = {
     **dict.fromkeys(
@@ -24,7 +25,7 @@ _TEST = (
 )
 
 
-class MarkMisused(Rule):
+class MarkMisused(TestRule):
     """A mark is misspelt or lacks something.
 
     **Why.** pytest stops: ``Unknown 'parameterize' mark``, ``you need to specify reason=STRING``.
@@ -64,13 +65,12 @@ class MarkMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for test in test_functions(module):
-                for name, decorator in marks(module, test.node):
-                    problem = _mark_problem(name, decorator)
-                    if problem:
-                        yield self.report(module.location(decorator), problem)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for name, decorator in marks(module, test.node):
+                problem = _mark_problem(name, decorator)
+                if problem:
+                    yield self.report(module.location(decorator), problem)
 
 
 def _mark_problem(name: str, decorator: ast.expr) -> str:

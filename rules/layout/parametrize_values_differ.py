@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Report, TestRule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import keywords, marks, test_functions, test_modules
+from scaffold.api.tests import keywords, marks, test_functions
 
 _TEST = (
     "import pytest\n\n\n@pytest.mark.parametrize('word, count', {})\n"
@@ -15,7 +15,7 @@ _TEST = (
 )
 
 
-class ParametrizeValuesDiffer(Rule):
+class ParametrizeValuesDiffer(TestRule):
     """``parametrize`` has no values, or another number of them than of names.
 
     **Why.** pytest stops: ``in "parametrize" the number of names must be equal to the number of
@@ -46,15 +46,14 @@ class ParametrizeValuesDiffer(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for test in test_functions(module):
-                for name, mark in marks(module, test.node):
-                    if name != "parametrize" or not isinstance(mark, ast.Call):
-                        continue
-                    problem = _problem(module, mark)
-                    if problem:
-                        yield self.report(module.location(mark), problem)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for name, mark in marks(module, test.node):
+                if name != "parametrize" or not isinstance(mark, ast.Call):
+                    continue
+                problem = _problem(module, mark)
+                if problem:
+                    yield self.report(module.location(mark), problem)
 
 
 def _problem(module: PythonModule, call: ast.Call) -> str:

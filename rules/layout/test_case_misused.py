@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Report, TestRule
 from scaffold.api.python import FunctionNode, PythonModule
-from scaffold.api.tests import LAUNCH, arguments, is_test_case, marks, methods, test_modules
+from scaffold.api.tests import LAUNCH, arguments, is_test_case, marks, methods
 
 _SET_UP = ("setUp", "tearDown", "setUpClass", "tearDownClass")
 _PLAIN = {"setUp": "setup_method", "tearDown": "teardown_method"}
@@ -19,7 +19,7 @@ _TEST = (
 _CASE = "unittest.TestCase"
 
 
-class TestCaseMisused(Rule):
+class TestCaseMisused(TestRule):
     """A TestCase has a method that unittest never calls, or that it calls in another way.
 
     **Why.** ``set_up`` is never called, nor is ``setUp`` in a class without TestCase:
@@ -67,20 +67,19 @@ class TestCaseMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for class_ in module.classes.values():
-                is_case = is_test_case(module, class_.node)
-                is_plain = class_.name.startswith("Test") and _has_no_base(class_.node)
-                for method in methods(class_.node) if is_case or is_plain else ():
-                    problem = _case_problem(module, method) if is_case else _plain(method)
-                    is_called = (
-                        _is_made(module, class_.name)
-                        if method.name == "__init__"
-                        else module.index.attributes(method.name)
-                    )
-                    if problem and not is_called:
-                        yield self.report(module.name_location(method), problem)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for class_ in module.classes.values():
+            is_case = is_test_case(module, class_.node)
+            is_plain = class_.name.startswith("Test") and _has_no_base(class_.node)
+            for method in methods(class_.node) if is_case or is_plain else ():
+                problem = _case_problem(module, method) if is_case else _plain(method)
+                is_called = (
+                    _is_made(module, class_.name)
+                    if method.name == "__init__"
+                    else module.index.attributes(method.name)
+                )
+                if problem and not is_called:
+                    yield self.report(module.name_location(method), problem)
 
 
 def _is_made(module: PythonModule, name: str) -> bool:

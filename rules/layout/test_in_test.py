@@ -5,16 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Report, Severity, TestRule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import test_functions, test_modules
+from scaffold.api.tests import test_functions
 
 _TEST = "def ready():\n    return False\n\n\ndef test_text():\n{}"
 _OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"
 _MORE = "    assert ready()\n\n    def test_more():\n        assert ready()\n"
 
 
-class TestInTest(Rule):
+class TestInTest(TestRule):
     """A test stands inside of another test, and that does nothing with it.
 
     **Why.** pytest does not collect it: it is never run, whatever it states.
@@ -41,15 +41,14 @@ class TestInTest(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in test_modules(package):
-            for test in test_functions(module):
-                for node in ast.walk(test.node):
-                    is_other = isinstance(node, ast.FunctionDef) and node is not test.node
-                    if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
-                        place = f"{node.name} stands in {test.node.name}"
-                        message = f"{place}: pytest does not collect it"
-                        yield self.report(module.location(node), message)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for node in ast.walk(test.node):
+                is_other = isinstance(node, ast.FunctionDef) and node is not test.node
+                if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
+                    place = f"{node.name} stands in {test.node.name}"
+                    message = f"{place}: pytest does not collect it"
+                    yield self.report(module.location(node), message)
 
 
 def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import is_harmless
 
@@ -30,7 +30,7 @@ _NODE = (
 )
 
 
-class AnswerNotUnwrapped(Rule):
+class AnswerNotUnwrapped(MessageRule):
     """A field of the feedback or the result of an action is read from the message around it.
 
     **Why.** ``AttributeError: 'Fibonacci_FeedbackMessage' object has no attribute 'sequence'``;
@@ -63,14 +63,13 @@ class AnswerNotUnwrapped(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            if not types.facts.action_clients:
-                continue
-            for node in types.module.walk(ast.Attribute):
-                message = _message(types, node)
-                if message and not is_harmless(types.module, node, "AttributeError"):
-                    yield self.report(types.module.location(node), message)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        if not types.facts.action_clients:
+            return
+        for node in types.module.walk(ast.Attribute):
+            message = _message(types, node)
+            if message and not is_harmless(types.module, node, "AttributeError"):
+                yield self.report(types.module.location(node), message)
 
 
 def _message(types: MessageTypes, node: ast.Attribute) -> str:

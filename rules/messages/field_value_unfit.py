@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes, Misfits
 
 _CODE = (
@@ -27,7 +27,7 @@ _CODE = (
 _RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{self.count}'")
 
 
-class FieldValueUnfit(Rule):
+class FieldValueUnfit(MessageRule):
     """A field of a message is given a value that its type cannot hold.
 
     **Why.** Python messages of ROS 2 Jazzy are not checked: the node runs, and subscribers get
@@ -194,12 +194,11 @@ class FieldValueUnfit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            misfits = Misfits(types)
-            for item in types.assigned:
-                said = misfits.misfit(item)
-                if said:
-                    field = f"{item.field.name!r} of {item.owner.name}"
-                    message = f"{field} is {item.field.type}, but {said}"
-                    yield self.report(types.module.location(item.value), message)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        misfits = Misfits(types)
+        for item in types.assigned:
+            said = misfits.misfit(item)
+            if said:
+                field = f"{item.field.name!r} of {item.owner.name}"
+                message = f"{field} is {item.field.type}, but {said}"
+                yield self.report(types.module.location(item.value), message)

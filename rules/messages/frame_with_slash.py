@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report
 from scaffold.api.messages import MessageTypes
 
 _FIELDS = ("frame_id", "child_frame_id")
@@ -20,7 +20,7 @@ _CODE = (
 )
 
 
-class FrameWithSlash(Rule):
+class FrameWithSlash(MessageRule):
     """The name of a frame starts with a slash.
 
     **Why.** tf2 refuses it in every program that uses the message: ``Invalid argument
@@ -60,21 +60,20 @@ class FrameWithSlash(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            # What a test invents as input is not looked up.
-            for node in () if types.module.in_tests else _frames(types):
-                value = types.facts.evaluator.evaluate(node)
-                if not (isinstance(value, str) and value.startswith("/")):
-                    continue
-                fix = None
-                start, _ = types.module.span(node)
-                text = types.module.text(node)
-                if isinstance(node, ast.Constant) and text[:2] in {"'/", '"/'} and value != "/":
-                    edit = Edit(types.module.path, start + 1, start + 2, "")
-                    fix = Fix("remove the slash", (edit,))
-                message = f"the frame {value!r} starts with a '/', which tf2 refuses"
-                yield self.report(types.module.location(node), message, fix)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        # What a test invents as input is not looked up.
+        for node in () if types.module.in_tests else _frames(types):
+            value = types.facts.evaluator.evaluate(node)
+            if not (isinstance(value, str) and value.startswith("/")):
+                continue
+            fix = None
+            start, _ = types.module.span(node)
+            text = types.module.text(node)
+            if isinstance(node, ast.Constant) and text[:2] in {"'/", '"/'} and value != "/":
+                edit = Edit(types.module.path, start + 1, start + 2, "")
+                fix = Fix("remove the slash", (edit,))
+            message = f"the frame {value!r} starts with a '/', which tf2 refuses"
+            yield self.report(types.module.location(node), message, fix)
 
 
 def _frames(types: MessageTypes) -> Iterator[ast.expr]:

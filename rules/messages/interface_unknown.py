@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import KINDS, Definitions, nearest_word
 from scaffold.api.messages import MessageTypes, interfaces_named
 
@@ -12,7 +12,7 @@ _MISSPELT = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "
 _MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "actions": "action"}
 
 
-class InterfaceUnknown(Rule):
+class InterfaceUnknown(MessageRule):
     """Python code imports a message, service or action that its package does not have.
 
     **Why.** The node dies at once: ``ImportError: cannot import name 'Str' from 'std_msgs.msg'``.
@@ -94,12 +94,11 @@ class InterfaceUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            for at, owner, kind, name in interfaces_named(types):
-                message = _flaw(types.definitions, owner, kind, name)
-                if message:
-                    yield self.report(at, message)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for at, owner, kind, name in interfaces_named(types):
+            message = _flaw(types.definitions, owner, kind, name)
+            if message:
+                yield self.report(at, message)
 
 
 def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import nearest_word
 from scaffold.api.messages import MessageClass, MessageTypes
 
 _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
 
 
-class MessageArgumentUnknown(Rule):
+class MessageArgumentUnknown(MessageRule):
     """A message is made with a keyword that is no field, or without keywords.
 
     **Why.** An unknown keyword is ignored without a word: an empty message is published. An
@@ -53,16 +53,15 @@ class MessageArgumentUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            for call in types.module.walk(ast.Call):
-                if not call.args and not call.keywords:
-                    continue
-                owner = types.class_of(call.func)
-                if owner is None or types.is_tolerated(call):
-                    continue
-                for node, said in _flaws(owner, call):
-                    yield self.report(types.module.location(node), said)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for call in types.module.walk(ast.Call):
+            if not call.args and not call.keywords:
+                continue
+            owner = types.class_of(call.func)
+            if owner is None or types.is_tolerated(call):
+                continue
+            for node, said in _flaws(owner, call):
+                yield self.report(types.module.location(node), said)
 
 
 def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import nearest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
 from scaffold.api.python import is_for_ros1
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class MessageFieldUnknown(Rule):
+class MessageFieldUnknown(MessageRule):
     """Code reads or sets something that the message does not have.
 
     **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback the first
@@ -106,14 +106,13 @@ class MessageFieldUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            for node in types.module.walk(ast.Attribute):
-                said = _flaw(types, node)
-                if said and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
-                    start, end = types.module.span(node)
-                    at = types.module.source.location(max(start, end - len(node.attr)), end)
-                    yield self.report(at, said)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for node in types.module.walk(ast.Attribute):
+            said = _flaw(types, node)
+            if said and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
+                start, end = types.module.span(node)
+                at = types.module.source.location(max(start, end - len(node.attr)), end)
+                yield self.report(at, said)
 
 
 def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:

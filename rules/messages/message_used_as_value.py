@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import is_for_ros1, is_harmless
@@ -24,7 +24,7 @@ _NODE = (
 )
 
 
-class MessageUsedAsValue(Rule):
+class MessageUsedAsValue(MessageRule):
     """A message is indexed, called or counted, or a field of a plain type is asked for fields.
 
     **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
@@ -92,13 +92,12 @@ class MessageUsedAsValue(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            for node, problem in _problems(types):
-                if is_for_ros1(types.module, node) or types.is_tolerated(node):
-                    continue
-                if not is_harmless(types.module, node, "TypeError"):
-                    yield self.report(types.module.location(node), problem)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for node, problem in _problems(types):
+            if is_for_ros1(types.module, node) or types.is_tolerated(node):
+                continue
+            if not is_harmless(types.module, node, "TypeError"):
+                yield self.report(types.module.location(node), problem)
 
 
 def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:

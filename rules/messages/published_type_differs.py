@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import Client, Endpoint, Publisher
 
@@ -24,7 +24,7 @@ _NODE = (
 )
 
 
-class PublishedTypeDiffers(Rule):
+class PublishedTypeDiffers(MessageRule):
     """A publisher publishes, or a client sends, a message of another type than its own.
 
     **Why.** ``TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class ...>`` as
@@ -90,24 +90,23 @@ class PublishedTypeDiffers(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            calls = {endpoint.call: endpoint for endpoint in types.facts.endpoints}
-            for call in types.module.walk(ast.Call):
-                endpoint = _sender(types, call, calls)
-                if endpoint is None or endpoint.interface is None or types.is_tolerated(call):
-                    continue
-                wanted = endpoint.interface
-                if isinstance(endpoint, Client):
-                    wanted += ".Request"
-                given = _given(types, call.args[0])
-                if given and given != wanted and types.definitions.find(endpoint.interface):
-                    kind = "client" if isinstance(endpoint, Client) else "publisher"
-                    message = (
-                        f"sends {given}, but the {kind} made in line {endpoint.location.line} "
-                        f"takes {wanted}: TypeError"
-                    )
-                    yield self.report(types.module.location(call.args[0]), message)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        calls = {endpoint.call: endpoint for endpoint in types.facts.endpoints}
+        for call in types.module.walk(ast.Call):
+            endpoint = _sender(types, call, calls)
+            if endpoint is None or endpoint.interface is None or types.is_tolerated(call):
+                continue
+            wanted = endpoint.interface
+            if isinstance(endpoint, Client):
+                wanted += ".Request"
+            given = _given(types, call.args[0])
+            if given and given != wanted and types.definitions.find(endpoint.interface):
+                kind = "client" if isinstance(endpoint, Client) else "publisher"
+                message = (
+                    f"sends {given}, but the {kind} made in line {endpoint.location.line} "
+                    f"takes {wanted}: TypeError"
+                )
+                yield self.report(types.module.location(call.args[0]), message)
 
 
 def _sender(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report
 from scaffold.api.messages import MessageTypes, rclpy_time
 
 _CODE = (
@@ -18,7 +18,7 @@ _CODE = (
 )
 
 
-class TimeNotConverted(Rule):
+class TimeNotConverted(MessageRule):
     """A Time or Duration of rclpy is assigned to a field of a message.
 
     **Why.** ``AttributeError: 'Time' object has no attribute 'sec'`` when the message is
@@ -55,23 +55,22 @@ class TimeNotConverted(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            for value, field in _times(types):
-                kind = rclpy_time(types, value)
-                if kind is None:
-                    continue
-                _, end = types.module.span(value)
-                fix = None
-                if isinstance(value, ast.Call | ast.Name | ast.Attribute):
-                    edit = Edit(types.module.path, end, end, ".to_msg()")
-                    fix = Fix("convert it with .to_msg()", (edit,))
-                given = kind.rpartition("/")[2]
-                message = (
-                    f"{field} is a {kind}, but this is rclpy's own {given}: "
-                    "AttributeError when it is published; append .to_msg()"
-                )
-                yield self.report(types.module.location(value), message, fix)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for value, field in _times(types):
+            kind = rclpy_time(types, value)
+            if kind is None:
+                continue
+            _, end = types.module.span(value)
+            fix = None
+            if isinstance(value, ast.Call | ast.Name | ast.Attribute):
+                edit = Edit(types.module.path, end, end, ".to_msg()")
+                fix = Fix("convert it with .to_msg()", (edit,))
+            given = kind.rpartition("/")[2]
+            message = (
+                f"{field} is a {kind}, but this is rclpy's own {given}: "
+                "AttributeError when it is published; append .to_msg()"
+            )
+            yield self.report(types.module.location(value), message, fix)
 
 
 def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.python import PythonModule
 
 _MODULES = {
     "copy": "copy.copy",
@@ -17,7 +18,7 @@ _MODULES = {
 }
 
 
-class ModuleCalled(Rule):
+class ModuleCalled(PythonRule):
     """A module is called as if it were the function of the same name in it.
 
     **Why.** ``TypeError: 'module' object is not callable``; in setup.py the build stops.
@@ -40,12 +41,11 @@ class ModuleCalled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            if not any(one in module.imports_by_root for one in _MODULES):
-                continue
-            for call in module.walk(ast.Call):
-                name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
-                if name in _MODULES:
-                    message = f"{name!r} is a module here: TypeError; {_MODULES[name]}() is meant"
-                    yield self.report(module.location(call.func), message)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if not any(one in module.imports_by_root for one in _MODULES):
+            return
+        for call in module.walk(ast.Call):
+            name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
+            if name in _MODULES:
+                message = f"{name!r} is a module here: TypeError; {_MODULES[name]}() is meant"
+                yield self.report(module.location(call.func), message)

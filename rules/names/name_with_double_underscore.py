@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.rclpy import rclpy_files, topic_problem
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.rclpy import RclpyFile, topic_problem
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -16,7 +16,7 @@ _NODE = (
 )
 
 
-class NameWithDoubleUnderscore(Rule):
+class NameWithDoubleUnderscore(RclpyRule):
     """The name of a topic, service or action has two underscores in a row.
 
     **Why.** The design forbids it, and no tool says so: middlewares may use ``__`` themselves.
@@ -40,12 +40,11 @@ class NameWithDoubleUnderscore(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for entity in facts.endpoints:
-                argument = entity.name_argument
-                name = entity.name
-                if argument is None or not isinstance(name, str) or topic_problem(name):
-                    continue
-                if "__" in name:
-                    yield self.report(argument, f"the name {name!r} has two underscores in a row")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in facts.endpoints:
+            argument = entity.name_argument
+            name = entity.name
+            if argument is None or not isinstance(name, str) or topic_problem(name):
+                continue
+            if "__" in name:
+                yield self.report(argument, f"the name {name!r} has two underscores in a row")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import namespace_problem, node_problem, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, namespace_problem, node_problem
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -15,7 +15,7 @@ _NODE = (
 )
 
 
-class NodeNameInvalid(Rule):
+class NodeNameInvalid(RclpyRule):
     """A node or its namespace has a name that ROS 2 does not accept.
 
     **Why.** ``rclpy.exceptions.InvalidNodeNameException`` or ``InvalidNamespaceException`` at
@@ -51,17 +51,16 @@ class NodeNameInvalid(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node in facts.nodes:
-                at = node.node_name_location
-                if isinstance(node.node_name, str) and at.path == facts.module.path:
-                    problem = node_problem(node.node_name)
-                    if problem:
-                        message = f"ROS 2 refuses the node name {node.node_name!r}: {problem}"
-                        yield self.report(at, message)
-                if isinstance(node.namespace, str):
-                    problem = namespace_problem(node.namespace)
-                    if problem:
-                        message = f"ROS 2 refuses the namespace {node.namespace!r}: {problem}"
-                        yield self.report(at, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node in facts.nodes:
+            at = node.node_name_location
+            if isinstance(node.node_name, str) and at.path == facts.module.path:
+                problem = node_problem(node.node_name)
+                if problem:
+                    message = f"ROS 2 refuses the node name {node.node_name!r}: {problem}"
+                    yield self.report(at, message)
+            if isinstance(node.namespace, str):
+                problem = namespace_problem(node.namespace)
+                if problem:
+                    message = f"ROS 2 refuses the namespace {node.namespace!r}: {problem}"
+                    yield self.report(at, message)

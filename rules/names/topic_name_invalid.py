@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_asked_about
-from scaffold.api.rclpy import rclpy_files, topic_problem
+from scaffold.api.rclpy import RclpyFile, topic_problem
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -17,7 +17,7 @@ _NODE = (
 )
 
 
-class TopicNameInvalid(Rule):
+class TopicNameInvalid(RclpyRule):
     """A topic, service or action has a name that ROS 2 does not accept.
 
     **Why.** ``rclpy.exceptions.InvalidTopicNameException`` at start.
@@ -68,22 +68,19 @@ class TopicNameInvalid(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for entity in facts.endpoints:
-                argument = entity.name_argument
-                if argument is None or not isinstance(entity.name, str):
-                    continue
-                # An empty default is there to be replaced.
-                if entity.from_parameter and _has_gap(entity.name):
-                    continue
-                if not entity.name and is_asked_about(facts.module, entity.call, argument.node):
-                    continue
-                problem = topic_problem(entity.name)
-                if problem:
-                    yield self.report(
-                        argument, f"ROS 2 refuses the name {entity.name!r}: {problem}"
-                    )
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in facts.endpoints:
+            argument = entity.name_argument
+            if argument is None or not isinstance(entity.name, str):
+                continue
+            # An empty default is there to be replaced.
+            if entity.from_parameter and _has_gap(entity.name):
+                continue
+            if not entity.name and is_asked_about(facts.module, entity.call, argument.node):
+                continue
+            problem = topic_problem(entity.name)
+            if problem:
+                yield self.report(argument, f"ROS 2 refuses the name {entity.name!r}: {problem}")
 
 
 def _has_gap(name: str) -> bool:

@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
-from scaffold.api.rclpy import ActionClient, NodeFacts
+from scaffold.api.rclpy import ActionClient, RclpyFile
 
 _WHOLE = r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*"
 _NODE = (
@@ -24,7 +24,7 @@ _NODE = (
 _GOAL = "Fibonacci.Goal(order=3)"
 
 
-class ActionTypeWrong(Rule):
+class ActionTypeWrong(MessageRule):
     """An action server or client is given something else than its node, a type or a goal.
 
     **Why.** ``AttributeError: type object 'Fibonacci' has no attribute 'handle'``, or rclpy finds
@@ -84,16 +84,15 @@ class ActionTypeWrong(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            facts = types.facts
-            for entity in [*facts.action_servers, *facts.action_clients]:
-                for name in ("node", "action_type"):
-                    argument = entity.argument(name)
-                    problem = _problem(facts, argument.node, name) if argument else ""
-                    if argument and problem:
-                        yield self.report(argument, problem)
-            yield from self._check_goals(types)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        facts = types.facts
+        for entity in [*facts.action_servers, *facts.action_clients]:
+            for name in ("node", "action_type"):
+                argument = entity.argument(name)
+                problem = _problem(facts, argument.node, name) if argument else ""
+                if argument and problem:
+                    yield self.report(argument, problem)
+        yield from self._check_goals(types)
 
     def _check_goals(self, types: MessageTypes) -> Iterator[Diagnostic]:
         clients = {client.call: client for client in types.facts.action_clients}
@@ -111,7 +110,7 @@ class ActionTypeWrong(Rule):
                     yield self.report(types.module.location(call.args[0]), message)
 
 
-def _problem(facts: NodeFacts, node: ast.expr, name: str) -> str:
+def _problem(facts: RclpyFile, node: ast.expr, name: str) -> str:
     """Return what is wrong about the first or the second argument of an action server."""
     full = facts.module.qualified_name(node) or ""
     if name == "node":

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, class_of
 
 _FUNCTIONS = {
     "rclpy.spin": ("node",),
@@ -43,7 +43,7 @@ _NODE = (
 )
 
 
-class ArgumentMissing(Rule):
+class ArgumentMissing(RclpyRule):
     """A function of rclpy is called without an argument that it needs.
 
     **Why.** ``TypeError: Node.create_timer() missing 1 required positional argument: 'callback'``.
@@ -80,22 +80,21 @@ class ArgumentMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                needed = _needed(facts, call)
-                if not needed or any(isinstance(one, ast.Starred) for one in call.args):
-                    continue
-                words = {word.arg for word in call.keywords}
-                missing = [one for one in needed[len(call.args) :] if one not in words]
-                if None in words or not missing or set(missing) <= _LEFT_TO_ND010:
-                    continue
-                name = facts.module.text(call.func).rpartition(".")[2]
-                message = f"{name}() needs {', '.join(missing)} as well: TypeError"
-                yield self.report(facts.module.location(call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            needed = _needed(facts, call)
+            if not needed or any(isinstance(one, ast.Starred) for one in call.args):
+                continue
+            words = {word.arg for word in call.keywords}
+            missing = [one for one in needed[len(call.args) :] if one not in words]
+            if None in words or not missing or set(missing) <= _LEFT_TO_ND010:
+                continue
+            name = facts.module.text(call.func).rpartition(".")[2]
+            message = f"{name}() needs {', '.join(missing)} as well: TypeError"
+            yield self.report(facts.module.location(call), message)
 
 
-def _needed(facts: NodeFacts, call: ast.Call) -> tuple[str, ...]:
+def _needed(facts: RclpyFile, call: ast.Call) -> tuple[str, ...]:
     """Return the parameters without a default of what is called."""
     func = call.func
     name = facts.module.qualified_name(func) or ""

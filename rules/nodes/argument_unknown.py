@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import Excess, NodeFacts, excess_arguments, rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import Excess, RclpyFile, excess_arguments
 
 _CODE = (
     "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
@@ -24,7 +24,7 @@ _CODE = (
 _RIGHT = _CODE.format("", "", "args=", ", timeout_sec=0.1")
 
 
-class ArgumentUnknown(Rule):
+class ArgumentUnknown(RclpyRule):
     """A function of rclpy is given an argument that it does not take.
 
     **Why.** ``TypeError: init() takes 0 positional arguments but 1 was given`` as soon as the
@@ -94,11 +94,10 @@ class ArgumentUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for excess in excess_arguments(facts):
-                fix = _fix(facts, excess)
-                yield self.report(facts.module.location(excess.node), _message(excess), fix)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for excess in excess_arguments(facts):
+            fix = _fix(facts, excess)
+            yield self.report(facts.module.location(excess.node), _message(excess), fix)
 
 
 def _message(excess: Excess) -> str:
@@ -116,7 +115,7 @@ def _message(excess: Excess) -> str:
     return f"{excess.function}() takes {most} positional argument{plural}: TypeError{hint}"
 
 
-def _fix(facts: NodeFacts, excess: Excess) -> Fix | None:
+def _fix(facts: RclpyFile, excess: Excess) -> Fix | None:
     """Name an argument where its name is plain."""
     if excess.keyword or excess.node is not excess.call.args[-1]:
         return None
@@ -132,7 +131,7 @@ def _fix(facts: NodeFacts, excess: Excess) -> Fix | None:
     return Fix(f"give it as {name}=", (Edit(facts.module.path, start, start, f"{name}="),))
 
 
-def _is_command_line(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_command_line(facts: RclpyFile, node: ast.expr) -> bool:
     if isinstance(node, ast.Name) and node.id in {"args", "argv"}:
         return True
     return facts.module.qualified_name(node) == "sys.argv"

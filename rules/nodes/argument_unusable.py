@@ -6,17 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN, kind_of
 from scaffold.api.rclpy import (
     Argument,
     Client,
     Endpoint,
     Entity,
-    NodeFacts,
     Parameter,
+    RclpyFile,
     Service,
-    rclpy_files,
 )
 
 _TYPES = ("msg_type", "srv_type", "action_type")
@@ -42,7 +41,7 @@ _HELPER = {
 }
 
 
-class ArgumentUnusable(Rule):
+class ArgumentUnusable(RclpyRule):
     """A function of rclpy gets a value of a kind that it cannot use.
 
     **Why.** ``TypeError: 'str' object is not callable`` and the like, at start or at the first
@@ -86,16 +85,15 @@ class ArgumentUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for entity in facts.entities:
-                for argument in entity.arguments.values():
-                    problem = _problem(facts, entity, argument)
-                    if problem:
-                        yield self.report(argument, problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in facts.entities:
+            for argument in entity.arguments.values():
+                problem = _problem(facts, entity, argument)
+                if problem:
+                    yield self.report(argument, problem)
 
 
-def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
+def _problem(facts: RclpyFile, entity: Entity, argument: Argument) -> str:
     name, node, value = argument.name, argument.node, argument.value
     problem = ""
     if isinstance(entity, Parameter):
@@ -118,7 +116,7 @@ def _problem(facts: NodeFacts, entity: Entity, argument: Argument) -> str:
     return problem
 
 
-def _service_problem(facts: NodeFacts, node: ast.expr) -> str:
+def _service_problem(facts: RclpyFile, node: ast.expr) -> str:
     """Return what is wrong about a type that should be that of a service."""
     full = facts.module.qualified_name(node) or ""
     if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):

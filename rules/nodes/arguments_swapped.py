@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import Endpoint, Entity, NodeFacts, Timer, rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import Endpoint, Entity, RclpyFile, Timer
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -20,7 +20,7 @@ _NODE = (
 )
 
 
-class ArgumentsSwapped(Rule):
+class ArgumentsSwapped(RclpyRule):
     """The first two arguments of a ``create_...`` call are swapped.
 
     **Why.** ``create_timer`` wants the period first, ``create_publisher`` and its like the type:
@@ -54,21 +54,20 @@ class ArgumentsSwapped(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for entity in facts.entities:
-                wanted = self._wanted(facts, entity)
-                if wanted:
-                    first, second = entity.call.args[:2]
-                    path = facts.module.path
-                    edits = (
-                        Edit(path, *facts.module.span(first), facts.module.text(second)),
-                        Edit(path, *facts.module.span(second), facts.module.text(first)),
-                    )
-                    at = facts.module.location(first)
-                    yield self.report(at, wanted, Fix("swap the arguments", edits))
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in facts.entities:
+            wanted = self._wanted(facts, entity)
+            if wanted:
+                first, second = entity.call.args[:2]
+                path = facts.module.path
+                edits = (
+                    Edit(path, *facts.module.span(first), facts.module.text(second)),
+                    Edit(path, *facts.module.span(second), facts.module.text(first)),
+                )
+                at = facts.module.location(first)
+                yield self.report(at, wanted, Fix("swap the arguments", edits))
 
-    def _wanted(self, facts: NodeFacts, entity: Entity) -> str | None:
+    def _wanted(self, facts: RclpyFile, entity: Entity) -> str | None:
         """Return what is wrong, if the first two arguments are surely swapped."""
         if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
             return None

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 AWAITED = ("asyncio.sleep", "asyncio.wait", "asyncio.wait_for", "asyncio.gather")
 _NODE = (
@@ -20,7 +20,7 @@ _NODE = (
 )
 
 
-class AsyncioInCallback(Rule):
+class AsyncioInCallback(RclpyRule):
     """A callback awaits something of asyncio.
 
     **Why.** rclpy runs coroutines itself, without an event loop of asyncio: ``RuntimeError: no
@@ -48,18 +48,17 @@ class AsyncioInCallback(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            functions = {id(callback.function) for _, callback in facts.callbacks}
-            if "asyncio.run" in facts.module.source.text or "run_until" in facts.module.source.text:
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        functions = {id(callback.function) for _, callback in facts.callbacks}
+        if "asyncio.run" in facts.module.source.text or "run_until" in facts.module.source.text:
+            return
+        for node in facts.module.walk(ast.Await):
+            function = facts.module.enclosing_function(node)
+            if id(function) not in functions or not isinstance(node.value, ast.Call):
                 continue
-            for node in facts.module.walk(ast.Await):
-                function = facts.module.enclosing_function(node)
-                if id(function) not in functions or not isinstance(node.value, ast.Call):
-                    continue
-                name = facts.module.qualified_name(node.value.func)
-                # sleep(0) hands over, which any event loop understands.
-                waits = ast.unparse(node.value) != "asyncio.sleep(0)"
-                if name in AWAITED and waits:
-                    message = f"{name}() needs an event loop of asyncio, which rclpy does not run"
-                    yield self.report(facts.module.location(node), message)
+            name = facts.module.qualified_name(node.value.func)
+            # sleep(0) hands over, which any event loop understands.
+            waits = ast.unparse(node.value) != "asyncio.sleep(0)"
+            if name in AWAITED and waits:
+                message = f"{name}() needs an event loop of asyncio, which rclpy does not run"
+                yield self.report(facts.module.location(node), message)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import NodeClass, rclpy_files
+from scaffold.api.rclpy import NodeClass, RclpyFile
 
 PROPERTIES = frozenset(
     {"clients", "context", "default_callback_group", "executor", "guards", "handle", "publishers"}
@@ -31,7 +31,7 @@ _NODE = (
 )
 
 
-class AttributeOfNodeReplaced(Rule):
+class AttributeOfNodeReplaced(RclpyRule):
     """A node assigns to an attribute that Node has as a property.
 
     **Why.** ``AttributeError: property 'publishers' of 'Talker' object has no setter``; an
@@ -66,18 +66,17 @@ class AttributeOfNodeReplaced(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node in facts.classes:
-                for target in _targets(node):
-                    at = facts.module.location(target)
-                    message = f"Node has {target.attr!r} itself, which this replaces"
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node in facts.classes:
+            for target in _targets(node):
+                at = facts.module.location(target)
+                message = f"Node has {target.attr!r} itself, which this replaces"
+                yield self.report(at, message)
+            for name, method in node.methods.items():
+                if _breaks(name, method):
+                    at = facts.module.name_location(method)
+                    message = f"rclpy itself uses {name} of Node, which this method replaces"
                     yield self.report(at, message)
-                for name, method in node.methods.items():
-                    if _breaks(name, method):
-                        at = facts.module.name_location(method)
-                        message = f"rclpy itself uses {name} of Node, which this method replaces"
-                        yield self.report(at, message)
 
 
 def _breaks(name: str, method: FunctionNode) -> bool:

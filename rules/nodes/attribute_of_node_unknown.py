@@ -10,7 +10,7 @@ from scaffold.api.python import is_harmless
 from scaffold.api.rclpy import (
     NODE,
     NodeClass,
-    NodeFacts,
+    RclpyFile,
     defined_by,
     given_from_outside,
     is_read_in_full,
@@ -117,7 +117,7 @@ def _near(package: Package, name: str, names: set[str]) -> str:
     return nearest(package, name, [one for one in names if not one.startswith(hidden)], 0.7)
 
 
-def _may_fail(facts: NodeFacts, node: ast.Attribute) -> bool:
+def _may_fail(facts: RclpyFile, node: ast.Attribute) -> bool:
     """Tell whether the code is ready for the attribute not to be there."""
     if is_harmless(facts.module, node, "AttributeError"):
         return True

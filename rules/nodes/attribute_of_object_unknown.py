@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import NodeFacts, class_of, has, known_names, rclpy_files
+from scaffold.api.rclpy import RclpyFile, class_of, has, known_names, rclpy_files
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -57,7 +57,7 @@ class AttributeOfObjectUnknown(Rule):
                 if isinstance(node.ctx, ast.Load):
                     yield from self._check(facts, node)
 
-    def _check(self, facts: NodeFacts, node: ast.Attribute) -> Iterator[Diagnostic]:
+    def _check(self, facts: RclpyFile, node: ast.Attribute) -> Iterator[Diagnostic]:
         owner = class_of(facts, node.value)
         if owner is None or has(owner, node.attr) or facts.evaluator.stores(node.attr):
             return

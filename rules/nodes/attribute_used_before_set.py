@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import NODE, NodeClass, NodeFacts, has, rclpy_files
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -20,7 +20,7 @@ _MAKE = "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
 _USE = "        self.pub.publish(String())\n"
 
 
-class AttributeUsedBeforeSet(Rule):
+class AttributeUsedBeforeSet(RclpyRule):
     """The constructor of a node uses an attribute that it sets further down.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start.
@@ -41,17 +41,16 @@ class AttributeUsedBeforeSet(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node in facts.classes:
-                if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
-                    continue
-                for used, line in _used_early(facts, node):
-                    message = f"self.{used.attr} is set in line {line} only: AttributeError"
-                    yield self.report(facts.module.location(used), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node in facts.classes:
+            if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
+                continue
+            for used, line in _used_early(facts, node):
+                message = f"self.{used.attr} is set in line {line} only: AttributeError"
+                yield self.report(facts.module.location(used), message)
 
 
-def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
+def _used_early(facts: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
     """Yield the first use of each attribute that stands above all places that set it."""
     bound = facts.module.index.bindings(node.node)
     told: set[str] = set()
@@ -78,7 +77,7 @@ def _used_early(facts: NodeFacts, node: NodeClass) -> Iterator[tuple[ast.Attribu
             yield used, line
 
 
-def _first_line(facts: NodeFacts, node: NodeClass, name: str) -> int:
+def _first_line(facts: RclpyFile, node: NodeClass, name: str) -> int:
     """Return where an attribute is set first; 0 unless the constructor alone sets it."""
     stores = facts.evaluator.stores(name)
     if {facts.function_of(store.node) for store in stores} != {node.constructor}:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.python import PythonModule
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -15,7 +16,7 @@ _NODE = (
 )
 
 
-class AwaitOutsideAsync(Rule):
+class AwaitOutsideAsync(PythonRule):
     """``await`` stands in a function that is not ``async``.
 
     **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``; colcon
@@ -37,13 +38,12 @@ class AwaitOutsideAsync(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            for node in module.walk(ast.Await):
-                for parent in module.parents(node):
-                    if isinstance(parent, ast.AsyncFunctionDef):
-                        break
-                    if isinstance(parent, ast.FunctionDef | ast.Lambda | ast.Module):
-                        message = "'await' outside of an async function: SyntaxError"
-                        yield self.report(module.location(node), message)
-                        break
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for node in module.walk(ast.Await):
+            for parent in module.parents(node):
+                if isinstance(parent, ast.AsyncFunctionDef):
+                    break
+                if isinstance(parent, ast.FunctionDef | ast.Lambda | ast.Module):
+                    message = "'await' outside of an async function: SyntaxError"
+                    yield self.report(module.location(node), message)
+                    break

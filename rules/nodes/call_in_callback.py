@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import has_more_threads, in_callbacks, in_constructors
-from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
+from scaffold.api.rclpy import RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -26,7 +26,7 @@ _BLOCKING = {
 }
 
 
-class CallInCallback(Rule):
+class CallInCallback(RclpyRule):
     """A callback or constructor calls a service and waits for the answer.
 
     **Why.** The answer is taken by the executor, which waits for the callback: the node stands
@@ -93,20 +93,19 @@ class CallInCallback(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if has_more_threads(facts):
-                continue
-            seen: set[ast.AST] = set()
-            for executed in (*in_callbacks(facts), *in_constructors(facts)):
-                for node, what in _waits(facts, executed.function):
-                    if node not in seen:
-                        seen.add(node)
-                        message = f"{what} in {executed.origin}: the answer cannot come meanwhile"
-                        yield self.report(facts.module.location(node), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if has_more_threads(facts):
+            return
+        seen: set[ast.AST] = set()
+        for executed in (*in_callbacks(facts), *in_constructors(facts)):
+            for node, what in _waits(facts, executed.function):
+                if node not in seen:
+                    seen.add(node)
+                    message = f"{what} in {executed.origin}: the answer cannot come meanwhile"
+                    yield self.report(facts.module.location(node), message)
 
 
-def _waits(facts: NodeFacts, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
+def _waits(facts: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
     for node in facts.module.below(function, ast.Call, ast.While):
         match node:
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
@@ -118,7 +117,7 @@ def _waits(facts: NodeFacts, function: ast.AST) -> Iterator[tuple[ast.AST, str]]
                     yield node, "loops until a future is done"
 
 
-def _loops_until_done(facts: NodeFacts, func: ast.Attribute, loop: ast.AST) -> bool:
+def _loops_until_done(facts: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:
     if func.attr != "done" or "spin" in ast.unparse(loop):
         return False
     return class_of(facts, func.value) == "rclpy.task.Future"

@@ -5,18 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.rclpy import (
     ActionServer,
     Callback,
     Entity,
-    NodeFacts,
+    RclpyFile,
     Service,
     Subscription,
     Timer,
     class_of,
     numbers_taken,
-    rclpy_files,
 )
 
 _NODE = (
@@ -44,7 +43,7 @@ _ASKING = (
 ).replace("def two(self{})", "def two(self, done{})")
 
 
-class CallbackArity(Rule):
+class CallbackArity(RclpyRule):
     """A callback takes another number of arguments than it is given.
 
     **Why.** rclpy refuses the callback of a subscription at once; others end the node with
@@ -84,20 +83,19 @@ class CallbackArity(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for given, callback in _given_callbacks(facts):
-                takes = numbers_taken(callback)
-                if takes is None or any(n in takes for n in given[0]):
-                    continue
-                least, most = takes.start, takes.stop - 1
-                has = str(least) if least == most else f"{least} to {most}"
-                noun = "argument" if has == "1" else "arguments"
-                message = f"{callback.name or 'the callback'} takes {has} {noun}; {given[1]}"
-                yield self.report(callback, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for given, callback in _given_callbacks(facts):
+            takes = numbers_taken(callback)
+            if takes is None or any(n in takes for n in given[0]):
+                continue
+            least, most = takes.start, takes.stop - 1
+            has = str(least) if least == most else f"{least} to {most}"
+            noun = "argument" if has == "1" else "arguments"
+            message = f"{callback.name or 'the callback'} takes {has} {noun}; {given[1]}"
+            yield self.report(callback, message)
 
 
-def _given_callbacks(facts: NodeFacts) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
+def _given_callbacks(facts: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
     """Yield the callbacks of a file, each with what it is given."""
     for entity, callback in facts.callbacks:
         given = _given(entity)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import has_more_threads, in_callbacks
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
 """Seconds of sleep that nobody notices."""
@@ -28,7 +28,7 @@ _NODE = (
 )
 
 
-class CallbackBlocks(Rule):
+class CallbackBlocks(RclpyRule):
     """A callback sleeps, or waits for a key or a server.
 
     **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
@@ -77,19 +77,18 @@ class CallbackBlocks(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if has_more_threads(facts):
-                continue
-            for function, origin in in_callbacks(facts):
-                for call in facts.calls_in(function):
-                    name = _blocking(facts, call)
-                    if name:
-                        message = f"{name} holds up {origin}, and with it all others of the node"
-                        yield self.report(facts.module.location(call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if has_more_threads(facts):
+            return
+        for function, origin in in_callbacks(facts):
+            for call in facts.calls_in(function):
+                name = _blocking(facts, call)
+                if name:
+                    message = f"{name} holds up {origin}, and with it all others of the node"
+                    yield self.report(facts.module.location(call), message)
 
 
-def _blocking(facts: NodeFacts, call: ast.Call) -> str:
+def _blocking(facts: RclpyFile, call: ast.Call) -> str:
     """Return how a call reads that surely takes long; empty for any other."""
     name = facts.module.qualified_name(call.func)
     if name == "time.sleep" and call.args:

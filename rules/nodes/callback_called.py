@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -18,7 +18,7 @@ _NODE = (
 )
 
 
-class CallbackCalled(Rule):
+class CallbackCalled(RclpyRule):
     """A callback is called where it should be passed.
 
     **Why.** It runs once, at once, and its result, ``None``, becomes the callback: ``TypeError:
@@ -47,16 +47,15 @@ class CallbackCalled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for _, callback in facts.callbacks:
-                if not callback.is_called:
-                    continue
-                text = facts.module.text(callback.node)
-                fix = None
-                if text.endswith("()"):
-                    _, end = facts.module.span(callback.node)
-                    edit = Edit(facts.module.path, end - 2, end, "")
-                    fix = Fix("pass it", (edit,))
-                message = f"{text} is called here, and what it returns becomes the callback"
-                yield self.report(callback, message, fix)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for _, callback in facts.callbacks:
+            if not callback.is_called:
+                continue
+            text = facts.module.text(callback.node)
+            fix = None
+            if text.endswith("()"):
+                _, end = facts.module.span(callback.node)
+                edit = Edit(facts.module.path, end - 2, end, "")
+                fix = Fix("pass it", (edit,))
+            message = f"{text} is called here, and what it returns becomes the callback"
+            yield self.report(callback, message, fix)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import Parameter, is_of_node, rclpy_files
+from scaffold.api.rclpy import Parameter, RclpyFile, is_of_node
 
 _RIGHT = {"integer": "integer_range", "double": "floating_point_range"}
 _NODE = (
@@ -19,7 +19,7 @@ _NODE = (
 )
 
 
-class DefaultOutOfRange(Rule):
+class DefaultOutOfRange(RclpyRule):
     """The default of a parameter is not in the range of its own descriptor.
 
     **Why.** The node ends at start: ``InvalidParameterValueException: Invalid parameter value (5.0)
@@ -71,14 +71,13 @@ class DefaultOutOfRange(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for one in (one for one in facts.parameters if is_of_node(facts, one)):
-                message = _problem(one) if one.default_node is not None else ""
-                if message and not is_harmless(
-                    facts.module, one.call, "InvalidParameterValueException"
-                ):
-                    yield self.report(facts.module.location(one.default_node or one.call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for one in (one for one in facts.parameters if is_of_node(facts, one)):
+            message = _problem(one) if one.default_node is not None else ""
+            if message and not is_harmless(
+                facts.module, one.call, "InvalidParameterValueException"
+            ):
+                yield self.report(facts.module.location(one.default_node or one.call), message)
 
 
 def _problem(parameter: Parameter) -> str:

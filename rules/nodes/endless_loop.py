@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import Executed, has_more_threads, in_callbacks, in_constructors
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
@@ -20,7 +20,7 @@ _NODE = (
 _LOOP = "        while rclpy.ok():\n            self.tick()\n\n"
 
 
-class EndlessLoop(Rule):
+class EndlessLoop(RclpyRule):
     """A constructor or a callback of a node loops for ever.
 
     **Why.** The node never comes to ``rclpy.spin``, or never back to it: it may publish, but
@@ -53,20 +53,19 @@ class EndlessLoop(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if has_more_threads(facts):
-                continue
-            seen: set[ast.AST] = set()
-            for executed in (*in_constructors(facts), *in_callbacks(facts)):
-                for loop in _endless(facts, executed):
-                    if loop not in seen:
-                        seen.add(loop)
-                        message = f"this loop never ends, and {executed.origin} never returns"
-                        yield self.report(facts.module.location(loop), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if has_more_threads(facts):
+            return
+        seen: set[ast.AST] = set()
+        for executed in (*in_constructors(facts), *in_callbacks(facts)):
+            for loop in _endless(facts, executed):
+                if loop not in seen:
+                    seen.add(loop)
+                    message = f"this loop never ends, and {executed.origin} never returns"
+                    yield self.report(facts.module.location(loop), message)
 
 
-def _endless(facts: NodeFacts, executed: Executed) -> Iterator[ast.While]:
+def _endless(facts: RclpyFile, executed: Executed) -> Iterator[ast.While]:
     for loop in facts.module.below(executed.function, ast.While):
         if facts.function_of(loop) is not executed.function:
             continue
@@ -74,7 +73,7 @@ def _endless(facts: NodeFacts, executed: Executed) -> Iterator[ast.While]:
             yield loop
 
 
-def _is_for_ever(facts: NodeFacts, test: ast.expr) -> bool:
+def _is_for_ever(facts: RclpyFile, test: ast.expr) -> bool:
     if isinstance(test, ast.Constant):
         return bool(test.value)
     return isinstance(test, ast.Call) and facts.module.qualified_name(test.func) == "rclpy.ok"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _PROPERTIES = (
     *("clients", "guards", "publishers", "services", "subscriptions", "timers", "waitables"),
@@ -26,7 +26,7 @@ def _files(line: str) -> dict[str, str]:
     return {"talker.py": _NODE.format(line)}
 
 
-class EntitiesTakenForList(Rule):
+class EntitiesTakenForList(RclpyRule):
     """``self.publishers``, ``self.timers`` and the like are used as lists or dictionaries.
 
     **Why.** Node has them as properties that give a generator: ``AttributeError: 'generator' object
@@ -76,18 +76,17 @@ class EntitiesTakenForList(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for name in _PROPERTIES:
-                for attribute in facts.module.index.attributes(name):
-                    error = _error(facts, attribute)
-                    is_told = error and not is_harmless(facts.module, attribute, error)
-                    if is_told and _is_of_node(facts, attribute):
-                        message = f"Node has {name} itself, which gives a generator: {error}"
-                        yield self.report(facts.module.location(attribute), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for name in _PROPERTIES:
+            for attribute in facts.module.index.attributes(name):
+                error = _error(facts, attribute)
+                is_told = error and not is_harmless(facts.module, attribute, error)
+                if is_told and _is_of_node(facts, attribute):
+                    message = f"Node has {name} itself, which gives a generator: {error}"
+                    yield self.report(facts.module.location(attribute), message)
 
 
-def _error(facts: NodeFacts, attribute: ast.Attribute) -> str:
+def _error(facts: RclpyFile, attribute: ast.Attribute) -> str:
     """Return the error that ends what a generator is used for."""
     match facts.module.parent(attribute):
         case ast.Attribute(attr=name) if name in _METHODS:
@@ -99,7 +98,7 @@ def _error(facts: NodeFacts, attribute: ast.Attribute) -> str:
     return ""
 
 
-def _is_of_node(facts: NodeFacts, attribute: ast.Attribute) -> bool:
+def _is_of_node(facts: RclpyFile, attribute: ast.Attribute) -> bool:
     """Tell whether nothing but Node itself has the attribute: no class sets or defines it."""
     owner = facts.owner_of(attribute.value)
     while isinstance(owner, NodeClass):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import used_of_executor
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
@@ -23,7 +23,7 @@ _ADD = "    executor.add_node(node)\n"
 _SPIN = "    executor.spin()\n"
 
 
-class ExecutorMisused(Rule):
+class ExecutorMisused(RclpyRule):
     """An executor has no node, is given a class for one, or is never spun.
 
     **Why.** No callback is ever called: an executor without nodes waits for ever, and one that
@@ -70,27 +70,26 @@ class ExecutorMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                added = _added_class(facts, call)
-                if added:
-                    message = f"this adds the class {added}: make a node of it, {added}()"
-                    yield self.report(facts.module.location(call.args[0]), message)
-                used = used_of_executor(facts, call)
-                if used is None:
-                    continue
-                is_spun = any(name.startswith("spin") for name in used)
-                if is_spun and "add_node" not in used:
-                    spin = used["spin"] if "spin" in used else next(iter(used.values()))
-                    message = "this executor has no node: nothing is ever called; add_node() first"
-                    yield self.report(facts.module.location(spin), message)
-                elif "add_node" in used and not is_spun and not facts.spin_calls:
-                    message = "nothing spins this executor: the callbacks of its nodes never run"
-                    yield self.report(facts.module.location(call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            added = _added_class(facts, call)
+            if added:
+                message = f"this adds the class {added}: make a node of it, {added}()"
+                yield self.report(facts.module.location(call.args[0]), message)
+            used = used_of_executor(facts, call)
+            if used is None:
+                continue
+            is_spun = any(name.startswith("spin") for name in used)
+            if is_spun and "add_node" not in used:
+                spin = used["spin"] if "spin" in used else next(iter(used.values()))
+                message = "this executor has no node: nothing is ever called; add_node() first"
+                yield self.report(facts.module.location(spin), message)
+            elif "add_node" in used and not is_spun and not facts.spin_calls:
+                message = "nothing spins this executor: the callbacks of its nodes never run"
+                yield self.report(facts.module.location(call), message)
 
 
-def _added_class(facts: NodeFacts, call: ast.Call) -> str:
+def _added_class(facts: RclpyFile, call: ast.Call) -> str:
     """Return the class of nodes that is handed to ``add_node``, if it is no node."""
     match call:
         case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import FIELDS, PARAMETER, class_of, rclpy_files
+from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -17,7 +17,7 @@ _NODE = (
 )
 
 
-class FieldOfPlainValue(Rule):
+class FieldOfPlainValue(RclpyRule):
     """A field of ``ParameterValue`` is read from ``.value``, which is the value itself.
 
     **Why.** ``AttributeError: 'float' object has no attribute 'double_value'``.
@@ -43,15 +43,14 @@ class FieldOfPlainValue(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for field in FIELDS:
-                for attribute in facts.module.index.attributes(field):
-                    match facts.evaluator.single_value(attribute.value):
-                        case ast.Attribute(attr="value", value=parameter):
-                            is_parameter = class_of(facts, parameter) == PARAMETER
-                        case _:
-                            continue
-                    if is_parameter and not is_harmless(facts.module, attribute, "AttributeError"):
-                        message = f"value is the value already, without {field}: AttributeError"
-                        yield self.report(facts.module.location(attribute), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for field in FIELDS:
+            for attribute in facts.module.index.attributes(field):
+                match facts.evaluator.single_value(attribute.value):
+                    case ast.Attribute(attr="value", value=parameter):
+                        is_parameter = class_of(facts, parameter) == PARAMETER
+                    case _:
+                        continue
+                if is_parameter and not is_harmless(facts.module, attribute, "AttributeError"):
+                    message = f"value is the value already, without {field}: AttributeError"
+                    yield self.report(facts.module.location(attribute), message)

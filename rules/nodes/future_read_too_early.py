@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import FunctionNode, PythonModule, is_asked_about
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
 WAITS = frozenset({"spin_until_future_complete", "spin_once", "done", "wait", "spin", "join"})
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class FutureReadTooEarly(Rule):
+class FutureReadTooEarly(RclpyRule):
     """The result of an asynchronous call is read right after the call.
 
     **Why.** Nothing has answered yet: ``result()`` is None, and ``AttributeError: 'NoneType'
@@ -52,19 +52,18 @@ class FutureReadTooEarly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for function in facts.module.function_nodes:
-                for name in _futures(facts.module, function):
-                    if _waits(facts.module, function):
-                        continue
-                    for call in facts.calls_in(function):
-                        if self._reads(facts, call, name) and not _is_asked(facts, call, name):
-                            at = facts.module.location(call)
-                            message = f"{name} is not done here: its result is None"
-                            yield self.report(at, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for function in facts.module.function_nodes:
+            for name in _futures(facts.module, function):
+                if _waits(facts.module, function):
+                    continue
+                for call in facts.calls_in(function):
+                    if self._reads(facts, call, name) and not _is_asked(facts, call, name):
+                        at = facts.module.location(call)
+                        message = f"{name} is not done here: its result is None"
+                        yield self.report(at, message)
 
-    def _reads(self, facts: NodeFacts, call: ast.Call, name: str) -> bool:
+    def _reads(self, facts: RclpyFile, call: ast.Call, name: str) -> bool:
         match call.func:
             case ast.Attribute(value=ast.Name(id=owner), attr="result"):
                 return owner == name
@@ -84,7 +83,7 @@ class FutureReadTooEarly(Rule):
         )
 
 
-def _is_asked(facts: NodeFacts, call: ast.Call, name: str) -> bool:
+def _is_asked(facts: RclpyFile, call: ast.Call, name: str) -> bool:
     """Tell whether a call is reached only if the future is done, as a condition says."""
     return is_asked_about(facts.module, call, ast.Name(id=name))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import ActionServer, NodeFacts, rclpy_files
+from scaffold.api.rclpy import ActionServer, RclpyFile, rclpy_files
 
 _ENDS = frozenset({"abort", "canceled"})
 _NODE = (
@@ -74,7 +74,7 @@ class GoalNeverSucceeds(Rule):
                         yield self.report(facts.module.location(function.body[-1]), message)
 
 
-def _work(facts: NodeFacts, server: ActionServer) -> FunctionNode | None:
+def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:
     """Return the function that works on goals, if it keeps the handle of the goal to itself."""
     callback = server.callback
     function = callback.function if callback else None

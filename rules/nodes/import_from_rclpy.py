@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import PLACES
 
 
-class ImportFromRclpy(Rule):
+class ImportFromRclpy(PythonRule):
     """A name is imported from rclpy that rclpy does not have.
 
     **Why.** ``ImportError: cannot import name 'Node' from 'rclpy'`` at start.
@@ -29,13 +30,12 @@ class ImportFromRclpy(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            for one in module.imports_by_root.get("rclpy", ()):
-                if one.module != "rclpy":
-                    continue
-                for name in one.names:
-                    place = PLACES.get(name.name)
-                    if place is not None:
-                        message = f"rclpy has no {name.name!r}; import it from {place}"
-                        yield self.report(name, message)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for one in module.imports_by_root.get("rclpy", ()):
+            if one.module != "rclpy":
+                continue
+            for name in one.names:
+                place = PLACES.get(name.name)
+                if place is not None:
+                    message = f"rclpy has no {name.name!r}; import it from {place}"
+                    yield self.report(name, message)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
 _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
 
 
-class InitAsContextManager(Rule):
+class InitAsContextManager(RclpyRule):
     """``with rclpy.init()`` needs a newer ROS than Jazzy.
 
     **Why.** On Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not support the
@@ -38,9 +38,8 @@ class InitAsContextManager(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.init_calls:
-                if call.in_with:
-                    message = "rclpy.init() of Jazzy is no context manager: the node never starts"
-                    yield self.report(call, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.init_calls:
+            if call.in_with:
+                message = "rclpy.init() of Jazzy is no context manager: the node never starts"
+                yield self.report(call, message)

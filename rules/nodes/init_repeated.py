@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, RclpyCall, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _MAIN = (
     "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
 )
 
 
-class InitRepeated(Rule):
+class InitRepeated(RclpyRule):
     """``rclpy.init()`` is called twice in a row.
 
     **Why.** ``RuntimeError: Context.init() must only be called once``.
@@ -37,28 +37,27 @@ class InitRepeated(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            started: RclpyCall | None = None
-            calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location)
-            for call in calls:
-                in_node = call.name == "init" and self._is_in_node(facts, call)
-                if in_node and any(not self._is_in_node(facts, one) for one in facts.init_calls):
-                    message = "rclpy.init() was called before this node is made: RuntimeError"
-                    yield self.report(call, message)
-                    continue
-                if call.name != "init":
-                    started = None
-                    continue
-                if self._has_own_context(call) or facts.is_conditional(call.call):
-                    started = None
-                    continue
-                if started is not None and started.function is call.function:
-                    line = started.location.line
-                    yield self.report(call, f"rclpy.init() was called in line {line} already")
-                started = call
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        started: RclpyCall | None = None
+        calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location)
+        for call in calls:
+            in_node = call.name == "init" and self._is_in_node(facts, call)
+            if in_node and any(not self._is_in_node(facts, one) for one in facts.init_calls):
+                message = "rclpy.init() was called before this node is made: RuntimeError"
+                yield self.report(call, message)
+                continue
+            if call.name != "init":
+                started = None
+                continue
+            if self._has_own_context(call) or facts.is_conditional(call.call):
+                started = None
+                continue
+            if started is not None and started.function is call.function:
+                line = started.location.line
+                yield self.report(call, f"rclpy.init() was called in line {line} already")
+            started = call
 
-    def _is_in_node(self, facts: NodeFacts, call: RclpyCall) -> bool:
+    def _is_in_node(self, facts: RclpyFile, call: RclpyCall) -> bool:
         """Tell whether a method of a node class calls it: then the node exists already."""
         class_ = facts.module.enclosing_class(call.call)
         return class_ is not None and facts.node_class(class_) is not None

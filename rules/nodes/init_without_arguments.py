@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
 
 
-class InitWithoutArguments(Rule):
+class InitWithoutArguments(RclpyRule):
     """``rclpy.init`` is given an empty list of arguments.
 
     **Why.** It replaces the command line: ``--ros-args`` with remappings and parameters, also
@@ -40,17 +40,16 @@ class InitWithoutArguments(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.init_calls:
-                given = [word.value for word in call.call.keywords if word.arg == "args"]
-                given = given or call.call.args[:1]
-                if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
-                    continue
-                own = call.function.args.args if call.function else []
-                fix = None
-                if any(argument.arg == "args" for argument in own):
-                    edit = Edit(facts.module.path, *facts.module.span(given[0]), "args")
-                    fix = Fix("hand on the arguments", (edit,))
-                message = "an empty list replaces the command line: --ros-args have no effect"
-                yield self.report(facts.module.location(given[0]), message, fix)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.init_calls:
+            given = [word.value for word in call.call.keywords if word.arg == "args"]
+            given = given or call.call.args[:1]
+            if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
+                continue
+            own = call.function.args.args if call.function else []
+            fix = None
+            if any(argument.arg == "args" for argument in own):
+                edit = Edit(facts.module.path, *facts.module.span(given[0]), "args")
+                fix = Fix("hand on the arguments", (edit,))
+            message = "an empty list replaces the command line: --ros-args have no effect"
+            yield self.report(facts.module.location(given[0]), message, fix)

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, is_of_rclpy
 
 _METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _KNOWN = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name")
@@ -20,7 +20,7 @@ _NODE = (
 )
 
 
-class LogKeywordUnknown(Rule):
+class LogKeywordUnknown(RclpyRule):
     """A logger gets an option that it does not have, or a text whose braces nobody fills.
 
     **Why.** ``TypeError: parameter "throttle" is not one of the recognized logging options``; a
@@ -72,14 +72,13 @@ class LogKeywordUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for attribute in facts.module.index.attributes("get_logger"):
-                call = _log_call(facts, attribute)
-                if call is not None and is_of_rclpy(facts, attribute):
-                    yield from self._check(facts, call)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for attribute in facts.module.index.attributes("get_logger"):
+            call = _log_call(facts, attribute)
+            if call is not None and is_of_rclpy(facts, attribute):
+                yield from self._check(facts, call)
 
-    def _check(self, facts: NodeFacts, call: ast.Call) -> Iterator[Diagnostic]:
+    def _check(self, facts: RclpyFile, call: ast.Call) -> Iterator[Diagnostic]:
         for word in call.keywords:
             if word.arg is None or word.arg in (*_KNOWN, "message"):
                 continue
@@ -99,7 +98,7 @@ class LogKeywordUnknown(Rule):
                     return
 
 
-def _log_call(facts: NodeFacts, attribute: ast.Attribute) -> ast.Call | None:
+def _log_call(facts: RclpyFile, attribute: ast.Attribute) -> ast.Call | None:
     """Return the call that logs with a logger that is asked for on the spot."""
     logger = facts.module.parent(attribute)
     method = facts.module.parent(logger) if isinstance(logger, ast.Call) else None
@@ -109,7 +108,7 @@ def _log_call(facts: NodeFacts, attribute: ast.Attribute) -> ast.Call | None:
     return None
 
 
-def _adds_number(facts: NodeFacts, node: ast.BinOp) -> bool:
+def _adds_number(facts: RclpyFile, node: ast.BinOp) -> bool:
     if not isinstance(node.op, ast.Add):
         return False
     left = facts.evaluator.evaluate(node.left)
@@ -120,7 +119,7 @@ def _adds_number(facts: NodeFacts, node: ast.BinOp) -> bool:
     return isinstance(left, str) and is_number
 
 
-def _is_bound(facts: NodeFacts, at: ast.Constant, name: str) -> bool:
+def _is_bound(facts: RclpyFile, at: ast.Constant, name: str) -> bool:
     probe = ast.Name(id=name, ctx=ast.Load())
     for node in facts.module.index.names(name):
         if facts.module.enclosing_function(node) is facts.module.enclosing_function(at):

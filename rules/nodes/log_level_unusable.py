@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless, is_known
-from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
+from scaffold.api.rclpy import RclpyFile, is_of_rclpy
 
 _SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
 _SET = "rclpy.logging.set_logger_level"
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class LogLevelUnusable(Rule):
+class LogLevelUnusable(RclpyRule):
     """The level of a logger is a text, or a number that is no severity.
 
     **Why.** ``ValueError: 'debug' is not a valid LoggingSeverity``.
@@ -69,21 +69,20 @@ class LogLevelUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call, level in _levels(facts):
-                value = facts.evaluator.evaluate(level)
-                is_severity = type(value) is int and value in _SEVERITIES
-                if (
-                    is_known(value)
-                    and not is_severity
-                    and not is_harmless(facts.module, call, "ValueError")
-                ):
-                    message = f"a level is a LoggingSeverity, and {value!r} is none: ValueError"
-                    yield self.report(facts.module.location(level), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call, level in _levels(facts):
+            value = facts.evaluator.evaluate(level)
+            is_severity = type(value) is int and value in _SEVERITIES
+            if (
+                is_known(value)
+                and not is_severity
+                and not is_harmless(facts.module, call, "ValueError")
+            ):
+                message = f"a level is a LoggingSeverity, and {value!r} is none: ValueError"
+                yield self.report(facts.module.location(level), message)
 
 
-def _levels(facts: NodeFacts) -> Iterator[tuple[ast.Call, ast.expr]]:
+def _levels(facts: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield the levels that loggers of rclpy are given."""
     for attribute in facts.module.index.attributes("set_level"):
         call = facts.module.parent(attribute)
@@ -96,7 +95,7 @@ def _levels(facts: NodeFacts) -> Iterator[tuple[ast.Call, ast.expr]]:
             yield call, call.args[1]
 
 
-def _is_logger(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_logger(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression asks for a logger: a node, or rclpy itself."""
     match node:
         case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):

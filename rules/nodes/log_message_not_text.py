@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
 from scaffold.api.python import UNKNOWN
-from scaffold.api.rclpy import NodeFacts, is_of_rclpy, rclpy_files
+from scaffold.api.rclpy import RclpyFile, is_of_rclpy
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = (
@@ -18,7 +18,7 @@ _NODE = (
 )
 
 
-class LogMessageNotText(Rule):
+class LogMessageNotText(RclpyRule):
     """A logger is given something that is not text.
 
     **Why.** rclpy does not convert it: ``TypeError`` when the line is reached.
@@ -53,25 +53,24 @@ class LogMessageNotText(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                method = _get_logger(call)
-                if method is None or not call.args or not is_of_rclpy(facts, method):
-                    continue
-                message = call.args[0]
-                if len(call.args) > 1 and not isinstance(message, ast.Starred):
-                    at = facts.module.location(call.args[1])
-                    yield self.report(at, "a logger takes one text; it does not format arguments")
-                elif self._is_no_text(facts, message):
-                    start, end = facts.module.span(message)
-                    path = facts.module.path
-                    edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
-                    at = facts.module.location(message)
-                    problem = "a logger wants text, and this is none: TypeError"
-                    yield self.report(at, problem, Fix("convert it to text", edits))
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            method = _get_logger(call)
+            if method is None or not call.args or not is_of_rclpy(facts, method):
+                continue
+            message = call.args[0]
+            if len(call.args) > 1 and not isinstance(message, ast.Starred):
+                at = facts.module.location(call.args[1])
+                yield self.report(at, "a logger takes one text; it does not format arguments")
+            elif self._is_no_text(facts, message):
+                start, end = facts.module.span(message)
+                path = facts.module.path
+                edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
+                at = facts.module.location(message)
+                problem = "a logger wants text, and this is none: TypeError"
+                yield self.report(at, problem, Fix("convert it to text", edits))
 
-    def _is_no_text(self, facts: NodeFacts, node: ast.expr) -> bool:
+    def _is_no_text(self, facts: RclpyFile, node: ast.expr) -> bool:
         if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):
             return True
         if isinstance(node, ast.Call):

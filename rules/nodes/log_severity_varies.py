@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
@@ -20,7 +20,7 @@ _CHOICE = (
 )
 
 
-class LogSeverityVaries(Rule):
+class LogSeverityVaries(RclpyRule):
     """One log statement is reached with more than one severity.
 
     **Why.** rclpy remembers the severity of each place: ``ValueError: Logger severity cannot be
@@ -47,14 +47,13 @@ class LogSeverityVaries(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            module = facts.module
-            for node in module.walk(ast.IfExp):
-                chosen = {self._severity(one) for one in (node.body, node.orelse)}
-                if None not in chosen and len(chosen) > 1:
-                    message = "this log statement has two severities: rclpy raises ValueError"
-                    yield self.report(module.location(node), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        module = facts.module
+        for node in module.walk(ast.IfExp):
+            chosen = {self._severity(one) for one in (node.body, node.orelse)}
+            if None not in chosen and len(chosen) > 1:
+                message = "this log statement has two severities: rclpy raises ValueError"
+                yield self.report(module.location(node), message)
 
     def _severity(self, node: ast.expr) -> str | None:
         match node:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -19,7 +19,7 @@ _NODE = (
 )
 
 
-class LoopVariableInLambda(Rule):
+class LoopVariableInLambda(RclpyRule):
     """A lambda that is made in a loop reads the loop's variable when it is called.
 
     **Why.** By then the loop is over: all callbacks get the last value.
@@ -50,18 +50,17 @@ class LoopVariableInLambda(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for _, callback in facts.callbacks:
-                function = callback.function
-                if isinstance(function, ast.Lambda) and callback.node is function:
-                    name = _late_name(facts, function)
-                    if name:
-                        message = f"{name} is read when the callback runs: it is the last of the"
-                        yield self.report(callback, f"{message} loop, in all callbacks")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for _, callback in facts.callbacks:
+            function = callback.function
+            if isinstance(function, ast.Lambda) and callback.node is function:
+                name = _late_name(facts, function)
+                if name:
+                    message = f"{name} is read when the callback runs: it is the last of the"
+                    yield self.report(callback, f"{message} loop, in all callbacks")
 
 
-def _late_name(facts: NodeFacts, function: ast.Lambda) -> str:
+def _late_name(facts: RclpyFile, function: ast.Lambda) -> str:
     """Return a variable of the loops around a lambda that its body reads; empty if none."""
     given = {arg.arg for arg in ast.walk(function.args) if isinstance(arg, ast.arg)}
     read = {

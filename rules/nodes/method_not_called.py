@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NODE, NodeFacts, class_of, is_method, rclpy_files
+from scaffold.api.rclpy import NODE, RclpyFile, class_of, is_method, rclpy_files
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
@@ -74,7 +74,7 @@ class MethodNotCalled(Rule):
                     yield self.report(facts.module.location(node), message)
 
 
-def _wants_value(facts: NodeFacts, node: ast.Attribute) -> bool:
+def _wants_value(facts: RclpyFile, node: ast.Attribute) -> bool:
     """Tell whether an expression stands where a method that is not called makes no sense."""
     match facts.module.parent(node):
         case ast.Attribute(attr=attr):
@@ -87,7 +87,7 @@ def _wants_value(facts: NodeFacts, node: ast.Attribute) -> bool:
             return False
 
 
-def _is_method_of_rclpy(facts: NodeFacts, node: ast.Attribute) -> bool:
+def _is_method_of_rclpy(facts: RclpyFile, node: ast.Attribute) -> bool:
     owner = facts.owner_of(node.value)
     if owner is None:
         return is_method(class_of(facts, node.value) or "", node.attr)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, NodeOwner, RclpyCall, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import NodeOwner, RclpyCall, RclpyFile
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
@@ -24,7 +24,7 @@ _NODE = (
 )
 
 
-class NodeNeverSpun(Rule):
+class NodeNeverSpun(RclpyRule):
     """A node has timers or subscriptions, and nothing in its program spins it.
 
     **Why.** Callbacks run only while the node is spun: the program ends at once, or hangs without
@@ -77,30 +77,29 @@ class NodeNeverSpun(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            waiting = {node.name: node for node in facts.classes if _waits(node)}
-            if not facts.init_calls or not waiting:
-                continue
-            lasts = any(node.timers or node.services for node in waiting.values())
-            if lasts and len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
-                message = "spin_once() runs one callback at most, and no loop is around it"
-                yield self.report(facts.spin_calls[0], message)
-            if facts.spin_calls or self._may_run(facts):
-                continue
-            for call in facts.module.walk(ast.Call):
-                if isinstance(call.func, ast.Name) and call.func.id in waiting:
-                    message = f"nothing spins this {call.func.id}: its callbacks never run"
-                    yield self.report(facts.module.location(call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        waiting = {node.name: node for node in facts.classes if _waits(node)}
+        if not facts.init_calls or not waiting:
+            return
+        lasts = any(node.timers or node.services for node in waiting.values())
+        if lasts and len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
+            message = "spin_once() runs one callback at most, and no loop is around it"
+            yield self.report(facts.spin_calls[0], message)
+        if facts.spin_calls or self._may_run(facts):
+            return
+        for call in facts.module.walk(ast.Call):
+            if isinstance(call.func, ast.Name) and call.func.id in waiting:
+                message = f"nothing spins this {call.func.id}: its callbacks never run"
+                yield self.report(facts.module.location(call), message)
 
-    def _may_run(self, facts: NodeFacts) -> bool:
+    def _may_run(self, facts: RclpyFile) -> bool:
         """Tell whether anything in the file may run callbacks in some other way."""
         names = {node.attr for node in facts.module.walk(ast.Attribute)}
         names |= {node.id for node in facts.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
 
 
-def _is_once(facts: NodeFacts, spin: RclpyCall) -> bool:
+def _is_once(facts: RclpyFile, spin: RclpyCall) -> bool:
     """Tell whether a program that begins here spins its node a single time, and ends."""
     if spin.name != "spin_once" or spin.function is None or not facts.module.has_main_guard:
         return False

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NODE, NodeClass, NodeFacts, has, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
 _MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
 _NODE = (
@@ -19,7 +19,7 @@ _NODE = (
 _INIT = "        super().__init__('talker')\n"
 
 
-class NodeNotConstructed(Rule):
+class NodeNotConstructed(RclpyRule):
     """The constructor of a node gives it no name, calls that of Node too late, or is misspelt.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
@@ -68,12 +68,11 @@ class NodeNotConstructed(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node in facts.classes:
-                yield from self._check(facts, node)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node in facts.classes:
+            yield from self._check(facts, node)
 
-    def _check(self, facts: NodeFacts, node: NodeClass) -> Iterator[Diagnostic]:
+    def _check(self, facts: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
         for name, method in node.methods.items():
             if name in _MISSPELT and node.constructor is None and _calls_init(method):
                 message = f"{name} is no constructor: Python calls __init__ only"
@@ -106,7 +105,7 @@ def _calls_init(method: ast.AST) -> bool:
     )
 
 
-def _used_before(facts: NodeFacts, node: NodeClass, call: ast.Call) -> list[ast.Attribute]:
+def _used_before(facts: RclpyFile, node: NodeClass, call: ast.Call) -> list[ast.Attribute]:
     """Return the first method of Node that the constructor calls before Node's constructor."""
     own = set(facts.module.index.bindings(node.node))
     for other in facts.calls_in(node.constructor) if node.constructor else ():

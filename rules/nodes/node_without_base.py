@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
 _NODE = (
@@ -18,7 +18,7 @@ _NODE = (
 )
 
 
-class NodeWithoutBase(Rule):
+class NodeWithoutBase(RclpyRule):
     """A class uses methods of Node, but does not inherit from it.
 
     **Why.** ``TypeError: object.__init__() takes exactly one argument``, or ``AttributeError:
@@ -57,15 +57,14 @@ class NodeWithoutBase(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for class_ in facts.module.classes.values():
-                if _lacks_base(facts, class_.node):
-                    message = f"{class_.name} uses methods of Node, but does not inherit from it"
-                    yield self.report(class_, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for class_ in facts.module.classes.values():
+            if _lacks_base(facts, class_.node):
+                message = f"{class_.name} uses methods of Node, but does not inherit from it"
+                yield self.report(class_, message)
 
 
-def _lacks_base(facts: NodeFacts, class_: ast.ClassDef) -> bool:
+def _lacks_base(facts: RclpyFile, class_: ast.ClassDef) -> bool:
     """Tell whether a class without bases treats itself as a node."""
     bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
     if [one for one in bases if one != "object"] or class_.keywords or class_.decorator_list:

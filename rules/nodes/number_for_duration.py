@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, class_of
 
 _DURATION = "rclpy.duration.Duration"
 _TIME = "rclpy.time.Time"
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class NumberForDuration(Rule):
+class NumberForDuration(RclpyRule):
     """A number stands where a time of rclpy wants a duration.
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'float'``, or ``'>' not
@@ -64,13 +64,12 @@ class NumberForDuration(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node, problem in _problems(facts):
-                yield self.report(facts.module.location(node), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node, problem in _problems(facts):
+            yield self.report(facts.module.location(node), problem)
 
 
-def _problems(facts: NodeFacts) -> Iterator[tuple[ast.AST, str]]:
+def _problems(facts: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
     """Yield what holds a number that should be a duration, and what is wrong with it."""
     for call in facts.module.walk(ast.Call):
         name = facts.module.qualified_name(call.func)
@@ -88,11 +87,11 @@ def _problems(facts: NodeFacts) -> Iterator[tuple[ast.AST, str]]:
             yield sum_, "a Time and a number: TypeError; use Duration(seconds=...)"
 
 
-def _is_number(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_number(facts: RclpyFile, node: ast.expr) -> bool:
     return type(facts.evaluator.evaluate(node)) in {int, float}
 
 
-def _kind(facts: NodeFacts, node: ast.expr) -> str:
+def _kind(facts: RclpyFile, node: ast.expr) -> str:
     """Return ``Time`` or ``Duration`` for an expression that surely is one."""
     value = facts.evaluator.single_value(node)
     if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub):

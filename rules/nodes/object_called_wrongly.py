@@ -6,8 +6,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, class_of, has, is_method, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, class_of, has, is_method
 
 _WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
 _PRESETS = "rclpy.qos.qos_profile_"
@@ -35,7 +35,7 @@ _NODE = (
 _RIGHT = ("", "Trigger.Request()", "self.done", ".publish")
 
 
-class ObjectCalledWrongly(Rule):
+class ObjectCalledWrongly(RclpyRule):
     """Something is called that is no function, or a function that should be passed.
 
     **Why.** ``TypeError: 'QoSProfile' object is not callable``, ``NotImplementedError: Service
@@ -86,15 +86,14 @@ class ObjectCalledWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                problem = _problem(facts, call)
-                if problem:
-                    yield self.report(facts.module.location(call), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            problem = _problem(facts, call)
+            if problem:
+                yield self.report(facts.module.location(call), problem)
 
 
-def _problem(facts: NodeFacts, call: ast.Call) -> str:
+def _problem(facts: RclpyFile, call: ast.Call) -> str:
     name = facts.module.qualified_name(call.func) or ""
     problem = ""
     if name.startswith(_PRESETS):
@@ -117,7 +116,7 @@ def _problem(facts: NodeFacts, call: ast.Call) -> str:
     return problem
 
 
-def _is_value(facts: NodeFacts, node: ast.Attribute) -> bool:
+def _is_value(facts: RclpyFile, node: ast.Attribute) -> bool:
     """Tell whether an attribute of an object of rclpy is no method."""
     if node.attr not in _VALUES:
         return False

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import publish_calls
-from scaffold.api.rclpy import NodeClass, rclpy_files
+from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n"
@@ -21,7 +21,7 @@ _NODE = (
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
-class OneShotVolatile(Rule):
+class OneShotVolatile(RclpyRule):
     """A message is published once, in the constructor, with volatile durability.
 
     **Why.** Subscribers are found only after the constructor: nobody ever gets the message.
@@ -50,21 +50,20 @@ class OneShotVolatile(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for publisher in facts.publishers:
-                owner = publisher.owner
-                if not isinstance(owner, NodeClass) or owner.constructor is None:
-                    continue
-                if publisher.qos is None or publisher.qos.durability != "VOLATILE":
-                    continue
-                calls = publish_calls(facts, publisher)
-                if not calls or len(calls) != 1:
-                    continue
-                call = calls[0]
-                if facts.function_of(call) is not owner.constructor or facts.is_conditional(call):
-                    continue
-                topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
-                message = f"the only message{topic} is published in the constructor, as volatile"
-                at = facts.module.location(call)
-                yield self.report(at, f"{message}: before any subscriber is found")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for publisher in facts.publishers:
+            owner = publisher.owner
+            if not isinstance(owner, NodeClass) or owner.constructor is None:
+                continue
+            if publisher.qos is None or publisher.qos.durability != "VOLATILE":
+                continue
+            calls = publish_calls(facts, publisher)
+            if not calls or len(calls) != 1:
+                continue
+            call = calls[0]
+            if facts.function_of(call) is not owner.constructor or facts.is_conditional(call):
+                continue
+            topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
+            message = f"the only message{topic} is published in the constructor, as volatile"
+            at = facts.module.location(call)
+            yield self.report(at, f"{message}: before any subscriber is found")

@@ -5,15 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import returned
 from scaffold.api.rclpy import (
     CALLBACKS,
     RESULT,
     Callback,
-    NodeFacts,
+    RclpyFile,
     callback_arguments,
-    rclpy_files,
 )
 
 _OF_ONE = frozenset({"name", "value", "type_", "get_parameter_value"})
@@ -29,7 +28,7 @@ _NODE = (
 )
 
 
-class ParameterCallbackMisused(Rule):
+class ParameterCallbackMisused(RclpyRule):
     """A callback for parameters is called where it is passed, or takes its list for a parameter.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
@@ -81,23 +80,22 @@ class ParameterCallbackMisused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for method in CALLBACKS:
-                for attribute in facts.module.index.attributes(method):
-                    call = facts.module.parent(attribute)
-                    if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                        problem = _problem(facts, call.args[0])
-                        if problem:
-                            yield self.report(facts.module.location(call.args[0]), problem)
-            for argument in callback_arguments(facts):
-                for name in facts.module.index.names(argument.arg):
-                    problem = _list_problem(facts, name)
-                    if problem and facts.parameter_of(name) is argument:
-                        yield self.report(facts.module.location(name), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for method in CALLBACKS:
+            for attribute in facts.module.index.attributes(method):
+                call = facts.module.parent(attribute)
+                if isinstance(call, ast.Call) and call.func is attribute and call.args:
+                    problem = _problem(facts, call.args[0])
+                    if problem:
+                        yield self.report(facts.module.location(call.args[0]), problem)
+        for argument in callback_arguments(facts):
+            for name in facts.module.index.names(argument.arg):
+                problem = _list_problem(facts, name)
+                if problem and facts.parameter_of(name) is argument:
+                    yield self.report(facts.module.location(name), problem)
 
 
-def _problem(facts: NodeFacts, given: ast.expr) -> str:
+def _problem(facts: RclpyFile, given: ast.expr) -> str:
     """Return what is wrong about an expression in place of a callback."""
     callback = facts.callback(given)
     if isinstance(given, ast.Call) and not callback.is_partial:
@@ -109,7 +107,7 @@ def _problem(facts: NodeFacts, given: ast.expr) -> str:
     return ""
 
 
-def _gives_results(facts: NodeFacts, callback: Callback) -> bool:
+def _gives_results(facts: RclpyFile, callback: Callback) -> bool:
     """Tell whether a function gives what a callback gives, and no callback."""
     function = callback.function
     if not isinstance(function, ast.FunctionDef):
@@ -121,7 +119,7 @@ def _gives_results(facts: NodeFacts, callback: Callback) -> bool:
     )
 
 
-def _list_problem(facts: NodeFacts, name: ast.Name) -> str:
+def _list_problem(facts: RclpyFile, name: ast.Name) -> str:
     """Return what is wrong about a use of the list of parameters."""
     match facts.module.parent(name):
         case ast.Attribute(attr=attr) if attr in _OF_ONE:

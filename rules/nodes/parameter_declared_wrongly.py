@@ -5,15 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN, is_harmless
 from scaffold.api.rclpy import (
     DESCRIPTOR,
-    NodeFacts,
     Parameter,
+    RclpyFile,
     is_of_node,
     message_made,
-    rclpy_files,
 )
 
 _RANGES = ("floating_point_range", "integer_range")
@@ -28,7 +27,7 @@ _TEXT = "ParameterDescriptor(description='Hz')"
 _RANGE = "FloatingPointRange(from_value=0.0, to_value=9.0)"
 
 
-class ParameterDeclaredWrongly(Rule):
+class ParameterDeclaredWrongly(RclpyRule):
     """A parameter is declared with something else than a name, a default and a descriptor.
 
     **Why.** ``TypeError: Third element ... is not a ParameterDescriptor``, ``TypeError: Invalid
@@ -92,15 +91,14 @@ class ParameterDeclaredWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for one in (one for one in facts.parameters if is_of_node(facts, one)):
-                for node, problem in _problems(facts, one):
-                    if not is_harmless(facts.module, one.call, problem.rpartition(": ")[2]):
-                        yield self.report(facts.module.location(node), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for one in (one for one in facts.parameters if is_of_node(facts, one)):
+            for node, problem in _problems(facts, one):
+                if not is_harmless(facts.module, one.call, problem.rpartition(": ")[2]):
+                    yield self.report(facts.module.location(node), problem)
 
 
-def _problems(facts: NodeFacts, one: Parameter) -> Iterator[tuple[ast.expr, str]]:
+def _problems(facts: RclpyFile, one: Parameter) -> Iterator[tuple[ast.expr, str]]:
     name = facts.evaluator.evaluate(one.name_node)
     if one.name_node is not None and name is not UNKNOWN and (not name or type(name) is not str):
         yield one.name_node, f"the name of a parameter is text, not {name!r}: TypeError"
@@ -115,7 +113,7 @@ def _problems(facts: NodeFacts, one: Parameter) -> Iterator[tuple[ast.expr, str]
             yield one.descriptor_node, problem
 
 
-def _descriptor_problem(facts: NodeFacts, one: Parameter, node: ast.expr) -> str:
+def _descriptor_problem(facts: RclpyFile, one: Parameter, node: ast.expr) -> str:
     value = facts.evaluator.evaluate(node)
     is_listed = "parameters" in one.arguments
     if value is not UNKNOWN and (value is not None or is_listed):

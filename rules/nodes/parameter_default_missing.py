@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import Parameter, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import Parameter, RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -16,7 +16,7 @@ _NODE = (
 )
 
 
-class ParameterDefaultMissing(Rule):
+class ParameterDefaultMissing(RclpyRule):
     """A parameter is declared without a default, or with an empty list.
 
     **Why.** Without one its value is None until somebody sets it, and rclpy warns. An empty list
@@ -49,13 +49,12 @@ class ParameterDefaultMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for parameter in facts.parameters:
-                problem = self._problem(parameter)
-                if problem:
-                    at = parameter.name_location
-                    yield self.report(at, problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for parameter in facts.parameters:
+            problem = self._problem(parameter)
+            if problem:
+                at = parameter.name_location
+                yield self.report(at, problem)
 
     def _problem(self, parameter: Parameter) -> str | None:
         if not isinstance(parameter.name, str) or parameter.has_unknown_arguments:

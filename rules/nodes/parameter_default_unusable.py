@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import PARAMETER, NodeFacts, Parameter, class_of, is_of_node, rclpy_files
+from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "the type is Parameter.Type.{}"
@@ -21,7 +21,7 @@ _NODE = (
 )
 
 
-class ParameterDefaultUnusable(Rule):
+class ParameterDefaultUnusable(RclpyRule):
     """The default of a parameter is none: nothing, a class, a constant of ``ParameterType``.
 
     **Why.** ``ValueError: Cannot declare a statically typed parameter with default value of type
@@ -73,17 +73,16 @@ class ParameterDefaultUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for one in (one for one in facts.parameters if is_of_node(facts, one)):
-                node = one.default_node
-                problem = _type_problem(one) or (_default_problem(facts, one, node) if node else "")
-                error = problem.rpartition(": ")[2]
-                if problem and not is_harmless(facts.module, one.call, error):
-                    yield self.report(facts.module.location(node or one.call), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for one in (one for one in facts.parameters if is_of_node(facts, one)):
+            node = one.default_node
+            problem = _type_problem(one) or (_default_problem(facts, one, node) if node else "")
+            error = problem.rpartition(": ")[2]
+            if problem and not is_harmless(facts.module, one.call, error):
+                yield self.report(facts.module.location(node or one.call), problem)
 
 
-def _default_problem(facts: NodeFacts, one: Parameter, node: ast.expr) -> str:
+def _default_problem(facts: RclpyFile, one: Parameter, node: ast.expr) -> str:
     full = facts.module.qualified_name(node) or ""
     if full.startswith(_TYPES):
         kind = full.removeprefix(_TYPES)

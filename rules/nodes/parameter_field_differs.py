@@ -10,7 +10,7 @@ from scaffold.api.parameters import Declared, declared_by
 from scaffold.api.python import UNKNOWN
 from scaffold.api.rclpy import (
     FIELDS,
-    NodeFacts,
+    RclpyFile,
     is_listed_parameter,
     name_asked,
     parameter_read,
@@ -104,7 +104,7 @@ class ParameterFieldDiffers(Rule):
                     yield self.report(facts.module.location(field), message, fix)
 
 
-def _read(package: Package, facts: NodeFacts, field: ast.Attribute) -> tuple[str, str]:
+def _read(package: Package, facts: RclpyFile, field: ast.Attribute) -> tuple[str, str]:
     """Return name and declared type of the parameter that ``....integer_value`` is read of.
 
     Both empty when that is not sure.

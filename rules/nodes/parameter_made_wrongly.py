@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN
-from scaffold.api.rclpy import PARAMETER, NodeFacts, rclpy_files
+from scaffold.api.rclpy import PARAMETER, RclpyFile
 
 _KINDS = {
     "BOOL": bool,
@@ -31,7 +31,7 @@ _NODE = (
 _RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]")
 
 
-class ParameterMadeWrongly(Rule):
+class ParameterMadeWrongly(RclpyRule):
     """A parameter is made or declared in a form that rclpy does not take.
 
     **Why.** ``ValueError: Type '2' and value ... do not agree``, or ``TypeError``.
@@ -74,14 +74,13 @@ class ParameterMadeWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                for node, problem in _problems(facts, call):
-                    yield self.report(facts.module.location(node), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            for node, problem in _problems(facts, call):
+                yield self.report(facts.module.location(node), problem)
 
 
-def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     name = facts.module.qualified_name(call.func) or ""
     if name in {PARAMETER, "rclpy.Parameter"}:
         yield from _made(facts, call)
@@ -95,7 +94,7 @@ def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
                         break
 
 
-def _made(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _made(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     given = dict(zip(("name", "type_", "value"), call.args, strict=False))
     given.update({word.arg: word.value for word in call.keywords if word.arg})
     type_, value = given.get("type_"), given.get("value")

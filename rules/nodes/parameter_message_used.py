@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, ParameterRead, rclpy_files, stands_for_value
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import ParameterRead, RclpyFile, stands_for_value
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -20,7 +20,7 @@ _NODE = (
 )
 
 
-class ParameterMessageUsed(Rule):
+class ParameterMessageUsed(RclpyRule):
     """The message of a parameter is used as if it were its value.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'ParameterValue'``.
@@ -67,18 +67,15 @@ class ParameterMessageUsed(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for read in facts.parameter_reads:
-                used = _used_as_number(facts, read)
-                if used is not None:
-                    message = (
-                        "get_parameter_value() is a message: read a field such as double_value"
-                    )
-                    yield self.report(facts.module.location(used), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for read in facts.parameter_reads:
+            used = _used_as_number(facts, read)
+            if used is not None:
+                message = "get_parameter_value() is a message: read a field such as double_value"
+                yield self.report(facts.module.location(used), message)
 
 
-def _used_as_number(facts: NodeFacts, read: ParameterRead) -> ast.AST | None:
+def _used_as_number(facts: RclpyFile, read: ParameterRead) -> ast.AST | None:
     """Return where the message of a parameter's value is used as a value or is a period."""
     attribute = facts.module.parent(read.call)
     call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None

@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
 from scaffold.api.parameters import declared_alone, declared_by, has_always
 from scaffold.api.rclpy import (
     NodeClass,
-    NodeFacts,
+    RclpyFile,
     is_listed_parameter,
     name_asked,
     names_compared,
@@ -79,7 +79,7 @@ class ParameterNeverMatched(Rule):
                     yield from self._typed(package, facts, attribute, node)
 
     def _named(
-        self, package: Package, facts: NodeFacts, attribute: ast.Attribute, known: set[str]
+        self, package: Package, facts: RclpyFile, attribute: ast.Attribute, known: set[str]
     ) -> Iterator[Diagnostic]:
         if not is_listed_parameter(facts, attribute.value):
             return
@@ -92,7 +92,7 @@ class ParameterNeverMatched(Rule):
                 yield self.report(facts.module.location(item), message)
 
     def _typed(
-        self, package: Package, facts: NodeFacts, attribute: ast.Attribute, node: NodeClass
+        self, package: Package, facts: RclpyFile, attribute: ast.Attribute, node: NodeClass
     ) -> Iterator[Diagnostic]:
         match facts.module.parent(attribute), attribute.value:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[other]), (
@@ -113,6 +113,6 @@ class ParameterNeverMatched(Rule):
                     yield self.report(facts.module.location(other), message)
 
 
-def _owner(facts: NodeFacts, node: ast.AST) -> NodeClass | None:
+def _owner(facts: RclpyFile, node: ast.AST) -> NodeClass | None:
     class_ = facts.module.enclosing_class(node)
     return facts.node_class(class_) if class_ is not None else None

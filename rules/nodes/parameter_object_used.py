@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import objects_used, rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, objects_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -27,7 +27,7 @@ _OTHERS = (
 )
 
 
-class ParameterObjectUsed(Rule):
+class ParameterObjectUsed(RclpyRule):
     """A Parameter is calculated, compared or passed with, instead of its value.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'``. A condition
@@ -78,12 +78,11 @@ class ParameterObjectUsed(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for read, use in objects_used(facts):
-                _, end = facts.module.span(read.call)
-                fix = Fix("take the value", (Edit(facts.module.path, end, end, ".value"),))
-                line = facts.module.location(use).line
-                where = "" if line == read.location.line else f", used in line {line},"
-                message = f"this is the Parameter{where} and not its value; append .value"
-                yield self.report(read, message, fix)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for read, use in objects_used(facts):
+            _, end = facts.module.span(read.call)
+            fix = Fix("take the value", (Edit(facts.module.path, end, end, ".value"),))
+            line = facts.module.location(use).line
+            where = "" if line == read.location.line else f", used in line {line},"
+            message = f"this is the Parameter{where} and not its value; append .value"
+            yield self.report(read, message, fix)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -17,7 +17,7 @@ _NODE = (
 )
 
 
-class ParameterRepeated(Rule):
+class ParameterRepeated(RclpyRule):
     """A node declares a parameter twice, or ``use_sim_time``, which every node has.
 
     **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
@@ -48,21 +48,20 @@ class ParameterRepeated(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for one in facts.parameters:
-                if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
-                    message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
-                    yield self.report(one.name_location, message)
-            for node in facts.nodes:
-                first: dict[str, int] = {}
-                for parameter in node.parameters:
-                    name = parameter.name
-                    if not isinstance(name, str) or parameter.is_conditional:
-                        continue
-                    at = parameter.name_location
-                    if name in first:
-                        message = f"parameter {name!r} is declared in line {first[name]} already"
-                        yield self.report(at, message)
-                    else:
-                        first[name] = at.line
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for one in facts.parameters:
+            if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
+                message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
+                yield self.report(one.name_location, message)
+        for node in facts.nodes:
+            first: dict[str, int] = {}
+            for parameter in node.parameters:
+                name = parameter.name
+                if not isinstance(name, str) or parameter.is_conditional:
+                    continue
+                at = parameter.name_location
+                if name in first:
+                    message = f"parameter {name!r} is declared in line {first[name]} already"
+                    yield self.report(at, message)
+                else:
+                    first[name] = at.line

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import FunctionNode, is_generator, may_end_with_items, returned
-from scaffold.api.rclpy import CALLBACKS, Callback, NodeFacts, rclpy_files, wrong_value
+from scaffold.api.rclpy import CALLBACKS, Callback, RclpyFile, wrong_value
 
 _ON, _POST, _PRE = CALLBACKS
 _NODE = (
@@ -27,7 +27,7 @@ _MIXED = (
 )
 
 
-class ParameterResultMissing(Rule):
+class ParameterResultMissing(RclpyRule):
     """A callback for set parameters does not return a ``SetParametersResult`` that says yes or no.
 
     **Why.** ``Callback returned an invalid type``: every change is refused, and a parameter that is
@@ -92,15 +92,14 @@ class ParameterResultMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for method in CALLBACKS:
-                for attribute in facts.module.index.attributes(method):
-                    call = facts.module.parent(attribute)
-                    if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                        yield from self._check(facts, facts.callback(call.args[0]), method)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for method in CALLBACKS:
+            for attribute in facts.module.index.attributes(method):
+                call = facts.module.parent(attribute)
+                if isinstance(call, ast.Call) and call.func is attribute and call.args:
+                    yield from self._check(facts, facts.callback(call.args[0]), method)
 
-    def _check(self, facts: NodeFacts, callback: Callback, method: str) -> Iterator[Diagnostic]:
+    def _check(self, facts: RclpyFile, callback: Callback, method: str) -> Iterator[Diagnostic]:
         function = callback.function
         if function is None or callback.is_partial or callback.is_called:
             return
@@ -112,7 +111,7 @@ class ParameterResultMissing(Rule):
             yield from self._check_function(facts, function, method, is_bound=callback.is_bound)
 
     def _check_function(
-        self, facts: NodeFacts, function: FunctionNode, method: str, *, is_bound: bool
+        self, facts: RclpyFile, function: FunctionNode, method: str, *, is_bound: bool
     ) -> Iterator[Diagnostic]:
         module, arguments = facts.module, function.args
         wanted = "the list of parameters" if method == _PRE else "a SetParametersResult"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.parameters import Declared, declared_by
-from scaffold.api.rclpy import NodeFacts, ParameterMade, parameters_set, rclpy_files
+from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set, rclpy_files
 
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor\n"
@@ -99,7 +99,7 @@ def _problem(declared: Declared, made: ParameterMade) -> str:
     return ""
 
 
-def _undeclared(package: Package, facts: NodeFacts, attribute: ast.Attribute) -> str:
+def _undeclared(package: Package, facts: RclpyFile, attribute: ast.Attribute) -> str:
     """Return what is wrong about undeclaring a parameter."""
     call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
     if owner is None or not isinstance(call, ast.Call) or call.func is not attribute:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import FIELDS, PARAMETER, NodeFacts, class_of, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -18,7 +18,7 @@ _NODE = (
 )
 
 
-class ParameterValueCalled(Rule):
+class ParameterValueCalled(RclpyRule):
     """The value of a parameter is called as if it were a method.
 
     **Why.** ``TypeError: 'float' object is not callable``.
@@ -53,16 +53,15 @@ class ParameterValueCalled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                problem = _problem(facts, call.func)
-                if problem:
-                    message = f"{problem}: leave the parentheses out"
-                    yield self.report(facts.module.location(call), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            problem = _problem(facts, call.func)
+            if problem:
+                message = f"{problem}: leave the parentheses out"
+                yield self.report(facts.module.location(call), message)
 
 
-def _problem(facts: NodeFacts, called: ast.expr) -> str:
+def _problem(facts: RclpyFile, called: ast.expr) -> str:
     """Return what is wrong about calling something."""
     match called:
         case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
@@ -72,7 +71,7 @@ def _problem(facts: NodeFacts, called: ast.expr) -> str:
     return ""
 
 
-def _is_message(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_message(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is what get_parameter_value of a parameter gives."""
     match facts.evaluator.single_value(node):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.parameters import declared_by
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import NodeFacts, parameter_read, rclpy_files
+from scaffold.api.rclpy import RclpyFile, parameter_read, rclpy_files
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -62,7 +62,7 @@ class ParameterValueUnfit(Rule):
                     yield self.report(facts.module.location(node), problem)
 
 
-def _problems(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]]:
+def _problems(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
     for operation in facts.module.walk(ast.BinOp):
         if isinstance(operation.op, _ARITHMETIC):
             for one, other in (
@@ -75,7 +75,7 @@ def _problems(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, st
     yield from _ranges(package, facts)
 
 
-def _ranges(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]]:
+def _ranges(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
     """Yield what ``range`` is given and cannot use."""
     for call in facts.module.walk(ast.Call):
         if isinstance(call.func, ast.Name) and call.func.id == "range":
@@ -86,7 +86,7 @@ def _ranges(package: Package, facts: NodeFacts) -> Iterator[tuple[ast.expr, str]
 
 
 def _operand(
-    package: Package, facts: NodeFacts, operator: ast.operator, one: ast.expr, other: ast.expr
+    package: Package, facts: RclpyFile, operator: ast.operator, one: ast.expr, other: ast.expr
 ) -> str:
     """Return what is wrong about computing with the value of a parameter."""
     value = facts.evaluator.evaluate(other)
@@ -102,7 +102,7 @@ def _operand(
     return ""
 
 
-def _declared(package: Package, facts: NodeFacts, node: ast.expr) -> tuple[str, str]:
+def _declared(package: Package, facts: RclpyFile, node: ast.expr) -> tuple[str, str]:
     """Return name and declared type of the parameter whose value an expression is."""
     match facts.evaluator.single_value(node):
         case ast.Attribute(attr="value", value=parameter):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import PARAMETER, NodeFacts, class_of, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import PARAMETER, RclpyFile, class_of
 
 _METHODS = ("set_parameters", "set_parameters_atomically")
 _NODE = (
@@ -17,7 +17,7 @@ _NODE = (
 )
 
 
-class ParametersSetWrongly(Rule):
+class ParametersSetWrongly(RclpyRule):
     """``set_parameters`` gets something else than a list of parameters.
 
     **Why.** ``TypeError: 'Parameter' object is not iterable``, or ``TypeError: parameter must be
@@ -54,19 +54,18 @@ class ParametersSetWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for method in _METHODS:
-                for attribute in facts.module.index.attributes(method):
-                    call = facts.module.parent(attribute)
-                    if not isinstance(call, ast.Call) or call.func is not attribute:
-                        continue
-                    if call.args and facts.owner_of(attribute.value) is not None:
-                        for node, problem in _problems(facts, call.args[0]):
-                            yield self.report(facts.module.location(node), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for method in _METHODS:
+            for attribute in facts.module.index.attributes(method):
+                call = facts.module.parent(attribute)
+                if not isinstance(call, ast.Call) or call.func is not attribute:
+                    continue
+                if call.args and facts.owner_of(attribute.value) is not None:
+                    for node, problem in _problems(facts, call.args[0]):
+                        yield self.report(facts.module.location(node), problem)
 
 
-def _problems(facts: NodeFacts, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
+def _problems(facts: RclpyFile, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
     if class_of(facts, given) == PARAMETER or isinstance(given, ast.Dict):
         yield given, "parameters are set as a list: [Parameter(...)]"
     for item in given.elts if isinstance(given, ast.List | ast.Tuple) else ():

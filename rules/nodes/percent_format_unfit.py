@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import Kinds, MessageTypes
 from scaffold.api.python import is_harmless
 
@@ -23,7 +23,7 @@ _NODE = (
 )
 
 
-class PercentFormatUnfit(Rule):
+class PercentFormatUnfit(MessageRule):
     """A text has none or several places for values, and gets one with ``%``.
 
     **Why.** ``TypeError: not enough arguments for format string``, or ``not all arguments
@@ -59,15 +59,14 @@ class PercentFormatUnfit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            kinds = Kinds(types)
-            for node in types.module.walk(ast.BinOp):
-                match node:
-                    case ast.BinOp(left=ast.Constant(value=str(text)), op=ast.Mod(), right=value):
-                        problem = _problem(text, kinds.of(value))
-                        if problem and not is_harmless(types.module, node, "TypeError"):
-                            yield self.report(types.module.location(node), problem)
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        kinds = Kinds(types)
+        for node in types.module.walk(ast.BinOp):
+            match node:
+                case ast.BinOp(left=ast.Constant(value=str(text)), op=ast.Mod(), right=value):
+                    problem = _problem(text, kinds.of(value))
+                    if problem and not is_harmless(types.module, node, "TypeError"):
+                        yield self.report(types.module.location(node), problem)
 
 
 def _problem(text: str, kind: str | None) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.rclpy import RclpyFile
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
 _TERMINAL |= {"readline", "termios", "tty", "typer"}
@@ -19,7 +19,7 @@ _NODE = (
 )
 
 
-class PrintInNode(Rule):
+class PrintInNode(RclpyRule):
     """A node prints, and does not log.
 
     Programs that read arguments or keys of a terminal may well print.
@@ -48,27 +48,26 @@ class PrintInNode(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if _is_at_terminal(facts):
-                continue
-            for node in facts.classes:
-                found = [
-                    call
-                    for method in node.methods.values()
-                    for call in facts.calls_in(method)
-                    if isinstance(call.func, ast.Name)
-                    and call.func.id == "print"
-                    and not any(word.arg in {"file", "flush"} for word in call.keywords)
-                    and facts.module.index.lookup("print", call.func) is None
-                ]
-                if found:
-                    more = f": {len(found)} times, first here" if len(found) > 1 else ""
-                    at = facts.module.location(found[0])
-                    yield self.report(at, f"{node.name} prints instead of logging{more}")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if _is_at_terminal(facts):
+            return
+        for node in facts.classes:
+            found = [
+                call
+                for method in node.methods.values()
+                for call in facts.calls_in(method)
+                if isinstance(call.func, ast.Name)
+                and call.func.id == "print"
+                and not any(word.arg in {"file", "flush"} for word in call.keywords)
+                and facts.module.index.lookup("print", call.func) is None
+            ]
+            if found:
+                more = f": {len(found)} times, first here" if len(found) > 1 else ""
+                at = facts.module.location(found[0])
+                yield self.report(at, f"{node.name} prints instead of logging{more}")
 
 
-def _is_at_terminal(facts: NodeFacts) -> bool:
+def _is_at_terminal(facts: RclpyFile) -> bool:
     """Tell whether a program has a user who types."""
     index = facts.module.index
     reads = index.names("input") or index.attributes("stdin")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
 from scaffold.api.python import Unknown
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile, rclpy_files
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -68,7 +68,7 @@ class PublisherNeverUsed(Rule):
                     yield self.report(publisher, message)
 
 
-def _kept_in(facts: NodeFacts, call: ast.Call) -> str:
+def _kept_in(facts: RclpyFile, call: ast.Call) -> str:
     """Return the attribute that what a call makes is assigned to."""
     match facts.module.parent(call):
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(), attr=name)]):

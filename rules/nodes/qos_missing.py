@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import Publisher, Subscription, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import Publisher, RclpyFile, Subscription
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"
@@ -17,7 +17,7 @@ _NODE = (
 _QOS = "from rclpy.qos import QoSProfile\n"
 
 
-class QosMissing(Rule):
+class QosMissing(RclpyRule):
     """A publisher or subscription has no QoS argument, or a profile without a depth.
 
     **Why.** ROS 2 wants to know how many messages to keep: ``TypeError`` without the argument,
@@ -50,13 +50,12 @@ class QosMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            entities: list[Publisher | Subscription] = [*facts.publishers, *facts.subscriptions]
-            for entity in entities:
-                problem = self._problem(entity)
-                if problem:
-                    yield self.report(entity, problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        entities: list[Publisher | Subscription] = [*facts.publishers, *facts.subscriptions]
+        for entity in entities:
+            problem = self._problem(entity)
+            if problem:
+                yield self.report(entity, problem)
 
     def _problem(self, entity: Publisher | Subscription) -> str | None:
         if entity.has_unknown_arguments:

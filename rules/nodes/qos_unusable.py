@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import kind_of
-from scaffold.api.rclpy import Endpoint, NodeFacts, rclpy_files
+from scaffold.api.rclpy import Endpoint, RclpyFile
 
 _POLICIES = {
     "reliability": "ReliabilityPolicy",
@@ -25,7 +25,7 @@ _NODE = (
 )
 
 
-class QosUnusable(Rule):
+class QosUnusable(RclpyRule):
     """A quality of service is given as something else than a depth or a profile.
 
     **Why.** ``TypeError: Expected QoSProfile or int, but received <class 'str'>``, or
@@ -94,22 +94,21 @@ class QosUnusable(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for entity in facts.entities:
-                given = entity.argument("qos_profile") if isinstance(entity, Endpoint) else None
-                problem = _problem(facts, given.node, given.value) if given else ""
-                if given and problem:
-                    yield self.report(given, problem)
-            for call in facts.module.walk(ast.Call):
-                if facts.module.qualified_name(call.func) == "rclpy.qos.QoSProfile":
-                    for word in call.keywords:
-                        problem = _problem_of_word(facts, word)
-                        if problem:
-                            yield self.report(facts.module.location(word.value), problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in facts.entities:
+            given = entity.argument("qos_profile") if isinstance(entity, Endpoint) else None
+            problem = _problem(facts, given.node, given.value) if given else ""
+            if given and problem:
+                yield self.report(given, problem)
+        for call in facts.module.walk(ast.Call):
+            if facts.module.qualified_name(call.func) == "rclpy.qos.QoSProfile":
+                for word in call.keywords:
+                    problem = _problem_of_word(facts, word)
+                    if problem:
+                        yield self.report(facts.module.location(word.value), problem)
 
 
-def _problem(facts: NodeFacts, node: ast.expr, value: object) -> str:
+def _problem(facts: RclpyFile, node: ast.expr, value: object) -> str:
     """Return what is wrong about a quality of service."""
     if isinstance(value, str | float) or value is None:
         return f"a quality of service is a depth or a QoSProfile, not {kind_of(value)}: TypeError"
@@ -125,7 +124,7 @@ def _problem(facts: NodeFacts, node: ast.expr, value: object) -> str:
     return ""
 
 
-def _problem_of_word(facts: NodeFacts, word: ast.keyword) -> str:
+def _problem_of_word(facts: RclpyFile, word: ast.keyword) -> str:
     """Return what is wrong about a value that QoSProfile is given."""
     value = facts.evaluator.evaluate(word.value)
     if word.arg == "depth" and isinstance(value, str | float):

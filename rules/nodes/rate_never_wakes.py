@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.programs import waits_alone
-from scaffold.api.rclpy import NodeFacts
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "import threading\n\nimport rclpy\n\n\n"
@@ -62,7 +62,7 @@ class RateNeverWakes(Rule):
             yield self.report(facts.module.location(call), message)
 
 
-def _is_sleep(facts: NodeFacts, call: ast.Call) -> bool:
+def _is_sleep(facts: RclpyFile, call: ast.Call) -> bool:
     value = call.func.value if isinstance(call.func, ast.Attribute) else call.func
     match facts.evaluator.single_value(value):
         case ast.Call(func=ast.Attribute(attr="create_rate", value=node)):

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.programs import in_callbacks, in_constructors, waits_alone
-from scaffold.api.rclpy import NodeFacts
+from scaffold.api.rclpy import RclpyFile
 
 _CODE = (
     "import rclpy\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -66,7 +66,7 @@ class ServiceCallUnspun(Rule):
                 yield self.report(facts.module.location(call), message)
 
 
-def _is_call(facts: NodeFacts, call: ast.Call) -> bool:
+def _is_call(facts: RclpyFile, call: ast.Call) -> bool:
     if len(call.args) != 1 or call.keywords or not isinstance(call.func, ast.Attribute):
         return False
     client = facts.evaluator.single_value(call.func.value)

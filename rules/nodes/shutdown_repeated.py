@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
 
 _MAIN = (
     "import rclpy\n\n\n"
@@ -15,7 +15,7 @@ _MAIN = (
 )
 
 
-class ShutdownRepeated(Rule):
+class ShutdownRepeated(RclpyRule):
     """``rclpy.shutdown()`` runs after a signal has shut rclpy down.
 
     **Why.** The handler of SIGINT and SIGTERM does it first: ``RCLError: rcl_shutdown already
@@ -44,24 +44,23 @@ class ShutdownRepeated(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.shutdown_calls:
-                if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
-                    continue
-                if not call.in_finally or self._is_caught(call.handlers):
-                    continue
-                spins = [one for one in facts.spin_calls if one.function is call.function]
-                if not any(one.catches_keyboard_interrupt for one in spins):
-                    continue
-                _, end = facts.module.span(call.call.func)
-                start = end - len("shutdown")
-                edit = Edit(facts.module.path, start, end, "try_shutdown")
-                fix = None
-                if facts.module.source.text[start:end] == "shutdown":
-                    fix = Fix("write try_shutdown()", (edit,))
-                message = "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()"
-                yield self.report(call, message, fix)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.shutdown_calls:
+            if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
+                continue
+            if not call.in_finally or self._is_caught(call.handlers):
+                continue
+            spins = [one for one in facts.spin_calls if one.function is call.function]
+            if not any(one.catches_keyboard_interrupt for one in spins):
+                continue
+            _, end = facts.module.span(call.call.func)
+            start = end - len("shutdown")
+            edit = Edit(facts.module.path, start, end, "try_shutdown")
+            fix = None
+            if facts.module.source.text[start:end] == "shutdown":
+                fix = Fix("write try_shutdown()", (edit,))
+            message = "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()"
+            yield self.report(call, message, fix)
 
     def _is_caught(self, handlers: frozenset[str]) -> bool:
         return not handlers.isdisjoint({"Exception", "BaseException"})

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, RclpyCall, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
 _HANDLED = (
@@ -20,7 +20,7 @@ _BARE = (
 )
 
 
-class ShutdownUnhandled(Rule):
+class ShutdownUnhandled(RclpyRule):
     """Nothing catches what ends a spinning node.
 
     **Why.** Ctrl-C raises KeyboardInterrupt, SIGTERM (``docker stop``, systemd, a launch file)
@@ -71,22 +71,21 @@ class ShutdownUnhandled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if not facts.init_calls:
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if not facts.init_calls:
+            return
+        for call in facts.spin_calls:
+            if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
                 continue
-            for call in facts.spin_calls:
-                if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
-                    continue
-                missing = self._missing(facts, call)
-                if missing:
-                    yield self.report(call, f"nothing catches {missing}")
+            missing = self._missing(facts, call)
+            if missing:
+                yield self.report(call, f"nothing catches {missing}")
 
-    def _runs_in_thread(self, facts: NodeFacts, call: RclpyCall) -> bool:
+    def _runs_in_thread(self, facts: RclpyFile, call: RclpyCall) -> bool:
         """Tell whether another function than that of ``rclpy.init`` spins: it may be a thread."""
         return all(init.function is not call.function for init in facts.init_calls)
 
-    def _missing(self, facts: NodeFacts, call: RclpyCall) -> str:
+    def _missing(self, facts: RclpyFile, call: RclpyCall) -> str:
         caught = call.handlers | call.outer_handlers
         problems: list[str] = []
         if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(facts):
@@ -97,7 +96,7 @@ class ShutdownUnhandled(Rule):
         return " and ".join(problems)
 
 
-def _handles_int(facts: NodeFacts) -> bool:
+def _handles_int(facts: RclpyFile) -> bool:
     """Tell whether Ctrl-C calls a function of the file instead of raising an exception."""
     name = facts.module.qualified_name
     return any(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import in_callbacks
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
 """Arguments that name no executor: the node, and a future."""
@@ -24,7 +24,7 @@ _NODE = (
 )
 
 
-class SpinInCallback(Rule):
+class SpinInCallback(RclpyRule):
     """A callback spins the node whose callback it is.
 
     **Why.** ``rclpy.spin_...`` moves the node to another executor and takes it off that when done:
@@ -53,16 +53,15 @@ class SpinInCallback(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for function, origin in in_callbacks(facts):
-                for call in facts.spin_calls:
-                    if call.name.startswith("executor.") or len(call.call.args) > MOST:
-                        continue
-                    node = call.call.args[0] if call.call.args else None
-                    if facts.function_of(call.call) is not function or call.call.keywords:
-                        continue
-                    if not isinstance(node, ast.Name) or not facts.evaluator.self_class(node):
-                        continue
-                    message = f"rclpy.{call.name}({node.id}) runs in {origin} of this very node"
-                    yield self.report(call, f"{message}, which gets no callback after that")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for function, origin in in_callbacks(facts):
+            for call in facts.spin_calls:
+                if call.name.startswith("executor.") or len(call.call.args) > MOST:
+                    continue
+                node = call.call.args[0] if call.call.args else None
+                if facts.function_of(call.call) is not function or call.call.keywords:
+                    continue
+                if not isinstance(node, ast.Name) or not facts.evaluator.self_class(node):
+                    continue
+                message = f"rclpy.{call.name}({node.id}) runs in {origin} of this very node"
+                yield self.report(call, f"{message}, which gets no callback after that")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import Shutdowns
-from scaffold.api.rclpy import NodeFacts, RclpyCall, class_of, rclpy_files
+from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
@@ -18,7 +18,7 @@ _NODE = (
 )
 
 
-class SpunWrongly(Rule):
+class SpunWrongly(RclpyRule):
     """Something else than a node is spun, or a node too late.
 
     **Why.** ``rclpy.spin(Talker)`` fails with ``TypeError: 'property' object is not iterable``;
@@ -51,16 +51,15 @@ class SpunWrongly(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            shutdowns = Shutdowns(facts)
-            for call in facts.spin_calls:
-                problem = _problem(facts, call, shutdowns)
-                if problem:
-                    yield self.report(call, problem)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        shutdowns = Shutdowns(facts)
+        for call in facts.spin_calls:
+            problem = _problem(facts, call, shutdowns)
+            if problem:
+                yield self.report(call, problem)
 
 
-def _problem(facts: NodeFacts, call: RclpyCall, shutdowns: Shutdowns) -> str:
+def _problem(facts: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
     """Return what is wrong about a call of a function of rclpy that spins."""
     if call.name.startswith("executor.") or not call.call.args:
         return ""

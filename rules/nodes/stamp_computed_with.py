@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeFacts, class_of, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, class_of
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NODE = (
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class StampComputedWith(Rule):
+class StampComputedWith(RclpyRule):
     """The stamp of a message is added to, taken from or compared with a time.
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message holds
@@ -79,20 +79,18 @@ class StampComputedWith(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if not any(facts.module.index.attributes("stamp")):
-                continue
-            for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:
-                if _is_flawed(facts, node):
-                    message = (
-                        "a stamp of a message is no Time of rclpy: TypeError; write "
-                        "Time.from_msg(...)"
-                    )
-                    yield self.report(facts.module.location(node), message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if not any(facts.module.index.attributes("stamp")):
+            return
+        for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:
+            if _is_flawed(facts, node):
+                message = (
+                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)"
+                )
+                yield self.report(facts.module.location(node), message)
 
 
-def _is_flawed(facts: NodeFacts, node: ast.AST) -> bool:
+def _is_flawed(facts: RclpyFile, node: ast.AST) -> bool:
     match node:
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
             return _are_stamps(facts, left, right)
@@ -103,7 +101,7 @@ def _is_flawed(facts: NodeFacts, node: ast.AST) -> bool:
     return False
 
 
-def _are_stamps(facts: NodeFacts, *sides: ast.expr) -> bool:
+def _are_stamps(facts: RclpyFile, *sides: ast.expr) -> bool:
     """Tell whether one side is the stamp of a message, and the other one, a time or a number."""
     stamps = [_is_stamp(facts, side) for side in sides]
     return any(stamps) and all(
@@ -112,7 +110,7 @@ def _are_stamps(facts: NodeFacts, *sides: ast.expr) -> bool:
     )
 
 
-def _is_stamp(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_stamp(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is the stamp of a header that nobody here fills."""
     match facts.evaluator.single_value(node):
         case ast.Attribute(attr="stamp", value=ast.Attribute(attr="header")) as stamp:
@@ -122,5 +120,5 @@ def _is_stamp(facts: NodeFacts, node: ast.expr) -> bool:
     return False
 
 
-def _is_time_or_number(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_time_or_number(facts: RclpyFile, node: ast.expr) -> bool:
     return class_of(facts, node) in _SPANS or type(facts.evaluator.evaluate(node)) in {int, float}

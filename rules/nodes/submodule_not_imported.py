@@ -6,7 +6,7 @@ import ast
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, PythonRule, Report
 from scaffold.api.python import PythonModule
 
 SUBMODULES = frozenset(
@@ -28,7 +28,7 @@ _LOADED = frozenset({"context", "utilities", "parameter", "task", "exceptions", 
 _NODE = "import rclpy\n{}\n\nclass Talker(rclpy.node.Node):\n    pass\n"
 
 
-class SubmoduleNotImported(Rule):
+class SubmoduleNotImported(PythonRule):
     """A module of rclpy is used as ``rclpy.node`` without being imported.
 
     **Why.** ``import rclpy`` does not load it: ``AttributeError: module 'rclpy' has no attribute
@@ -55,10 +55,9 @@ class SubmoduleNotImported(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            if "rclpy" in module.imports_by_root:
-                yield from self._check(module)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if "rclpy" in module.imports_by_root:
+            yield from self._check(module)
 
     def _check(self, module: PythonModule) -> Iterator[Diagnostic]:
         if not all(self._loads_nothing(root) for root in module.imports_by_root):

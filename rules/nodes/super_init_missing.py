@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -17,7 +17,7 @@ _NODE = (
 )
 
 
-class SuperInitMissing(Rule):
+class SuperInitMissing(RclpyRule):
     """A subclass of Node has a constructor that does not call the one of Node.
 
     **Why.** The first use of the node ends in ``AttributeError: 'Talker' object has no attribute
@@ -78,23 +78,20 @@ class SuperInitMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for node in facts.classes:
-                skipped = _skipping(facts, node)
-                if skipped is not None:
-                    yield self.report(facts.module.location(skipped[0]), skipped[1])
-                    continue
-                if node.calls_super_init or node.constructor is None or node.is_made_later:
-                    continue
-                at = facts.module.name_location(node.constructor)
-                message = (
-                    f"{node.name}.__init__() does not call super().__init__(): no node is made"
-                )
-                yield self.report(at, message)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for node in facts.classes:
+            skipped = _skipping(facts, node)
+            if skipped is not None:
+                yield self.report(facts.module.location(skipped[0]), skipped[1])
+                continue
+            if node.calls_super_init or node.constructor is None or node.is_made_later:
+                continue
+            at = facts.module.name_location(node.constructor)
+            message = f"{node.name}.__init__() does not call super().__init__(): no node is made"
+            yield self.report(at, message)
 
 
-def _skipping(facts: NodeFacts, node: NodeClass) -> tuple[ast.Call, str] | None:
+def _skipping(facts: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
     """Return a use of ``super`` that does not reach the constructor of Node, and why."""
     for call in facts.calls_in(node.constructor) if node.constructor else ():
         match call:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import is_asked_about
-from scaffold.api.rclpy import NodeFacts, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
@@ -23,7 +23,7 @@ _NODE = (
 )
 
 
-class ThreadTargetCalled(Rule):
+class ThreadTargetCalled(RclpyRule):
     """A function is called where a thread should call it, or a coroutine is made and dropped.
 
     **Why.** ``Thread(target=self.work())`` does the work at once, in the constructor, and the
@@ -86,29 +86,28 @@ class ThreadTargetCalled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                for node, problem in _problems(facts, call):
-                    yield self.report(facts.module.location(node), problem)
-            for timer in facts.timers:
-                argument = timer.argument("timer_period_sec")
-                value, notes = facts.evaluator.trace(argument.node if argument else None)
-                # Zero as the default of a parameter is there to be replaced.
-                if argument is None or value not in (0, 0.0) or notes:
-                    continue
-                if not is_asked_about(facts.module, timer.call, argument.node):
-                    yield self.report(argument, "a period of 0 takes all of the processor")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            for node, problem in _problems(facts, call):
+                yield self.report(facts.module.location(node), problem)
+        for timer in facts.timers:
+            argument = timer.argument("timer_period_sec")
+            value, notes = facts.evaluator.trace(argument.node if argument else None)
+            # Zero as the default of a parameter is there to be replaced.
+            if argument is None or value not in (0, 0.0) or notes:
+                continue
+            if not is_asked_about(facts.module, timer.call, argument.node):
+                yield self.report(argument, "a period of 0 takes all of the processor")
 
 
-def _is_single(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_single(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether the arguments of a thread are surely one object, not a tuple of them."""
     if isinstance(node, ast.Constant):
         return not isinstance(node.value, str) or len(node.value) != 1
     return isinstance(node, ast.Name | ast.Attribute) and facts.owner_of(node) is not None
 
 
-def _problems(facts: NodeFacts, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     if facts.module.qualified_name(call.func) == "threading.Thread":
         for word in call.keywords:
             if word.arg == "target" and isinstance(word.value, ast.Call):

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned
-from scaffold.api.rclpy import NodeClass, NodeFacts, rclpy_files
+from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _TRANSITIONS = (
     *("on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error"),
@@ -26,7 +26,7 @@ _NODE = (
 _RIGHT = "return super().on_activate(state)"
 
 
-class TransitionResult(Rule):
+class TransitionResult(RclpyRule):
     """A method of a lifecycle node for a change of state does not do what such a method must.
 
     **Why.** The node dies with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
@@ -89,20 +89,19 @@ class TransitionResult(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for class_ in facts.classes:
-                if class_.is_lifecycle:
-                    for name, function in class_.methods.items():
-                        if function.decorator_list or is_generator(function):
-                            continue
-                        if name in _TRANSITIONS:
-                            yield from self._check(facts, function)
-                        elif name.startswith("on_") and not facts.module.index.attributes(name):
-                            yield from self._check_name(facts, function, class_.methods)
-                    yield from self._check_publishers(facts, class_)
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for class_ in facts.classes:
+            if class_.is_lifecycle:
+                for name, function in class_.methods.items():
+                    if function.decorator_list or is_generator(function):
+                        continue
+                    if name in _TRANSITIONS:
+                        yield from self._check(facts, function)
+                    elif name.startswith("on_") and not facts.module.index.attributes(name):
+                        yield from self._check_name(facts, function, class_.methods)
+                yield from self._check_publishers(facts, class_)
 
-    def _check(self, facts: NodeFacts, function: FunctionNode) -> Iterator[Diagnostic]:
+    def _check(self, facts: RclpyFile, function: FunctionNode) -> Iterator[Diagnostic]:
         module, given = facts.module, function.args
         count = len([*given.posonlyargs, *given.args]) - 1
         at = module.name_location(function)
@@ -118,14 +117,14 @@ class TransitionResult(Rule):
                 yield self.report(module.location(statement), f"returns {value}, {happens}")
 
     def _check_name(
-        self, facts: NodeFacts, function: FunctionNode, methods: Mapping[str, FunctionNode]
+        self, facts: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
         for near in get_close_matches(function.name, left, 1, 0.85):
             message = f"nothing calls {function.name}; {near!r} is meant"
             yield self.report(facts.module.name_location(function), message)
 
-    def _check_publishers(self, facts: NodeFacts, class_: NodeClass) -> Iterator[Diagnostic]:
+    def _check_publishers(self, facts: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
         function = class_.methods.get("on_activate")
         made = [one for one in class_.publishers if one.is_lifecycle]
         if function is None or not made or facts.module.index.attributes("on_activate"):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_callbacks, in_constructors
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
 _NODE = (
@@ -20,7 +20,7 @@ _NODE = (
 )
 
 
-class WaitWithoutTimeout(Rule):
+class WaitWithoutTimeout(RclpyRule):
     """A constructor or a callback waits for a server, without a time limit.
 
     **Why.** Without the server the node hangs and says nothing: no message, no other callback.
@@ -49,15 +49,14 @@ class WaitWithoutTimeout(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            seen: set[ast.AST] = set()
-            for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
-                for call in facts.calls_in(function):
-                    match call:
-                        case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
-                            if name in WAITS and call not in seen:
-                                seen.add(call)
-                                message = f"without timeout_sec, {name}() lets {origin} hang"
-                                at = facts.module.location(call)
-                                yield self.report(at, f"{message} until the server is there")
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        seen: set[ast.AST] = set()
+        for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
+            for call in facts.calls_in(function):
+                match call:
+                    case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
+                        if name in WAITS and call not in seen:
+                            seen.add(call)
+                            message = f"without timeout_sec, {name}() lets {origin} hang"
+                            at = facts.module.location(call)
+                            yield self.report(at, f"{message} until the server is there")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.check.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
 from scaffold.check.rule import Example, Report, Rule
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
@@ -15,16 +16,21 @@ __all__ = [
     "Edit",
     "Example",
     "Fix",
+    "LaunchRule",
     "Location",
     "MakeExecutable",
+    "MessageRule",
     "Package",
     "ParseError",
+    "PythonRule",
+    "RclpyRule",
     "Remove",
     "Report",
     "Rule",
     "Safety",
     "Severity",
     "Source",
+    "TestRule",
     "ViewError",
     "nearest",
 ]

@@ -38,7 +38,7 @@ from scaffold.model.rclpy.entities import (
     Subscription,
     Timer,
 )
-from scaffold.model.rclpy.file import NodeFacts, node_facts, rclpy_files
+from scaffold.model.rclpy.file import RclpyFile, node_facts, rclpy_files
 from scaffold.model.rclpy.logging import is_of_rclpy
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
 from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
@@ -78,13 +78,13 @@ __all__ = [
     "Entity",
     "Excess",
     "NodeClass",
-    "NodeFacts",
     "NodeOwner",
     "Parameter",
     "ParameterMade",
     "ParameterRead",
     "Publisher",
     "RclpyCall",
+    "RclpyFile",
     "Service",
     "Subscription",
     "Timer",

@@ -11,7 +11,7 @@ from scaffold.model.programs.publishing import PublishReach, Reach, publish_rate
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import Unknown
 from scaffold.model.rclpy.entities import Endpoint
-from scaffold.model.rclpy.file import NodeClass, NodeFacts, NodeOwner
+from scaffold.model.rclpy.file import NodeClass, NodeOwner, RclpyFile
 from scaffold.smoke.expectation import Expectation, Offer, Publication
 from scaffold.source import ViewError
 
@@ -47,7 +47,7 @@ def _expectation(package: Package, start: Start) -> Expectation | None:
     )
 
 
-def _is_node(package: Package, facts: NodeFacts) -> bool | None:
+def _is_node(package: Package, facts: RclpyFile) -> bool | None:
     """Tell whether a file uses rclpy; ``None`` if it may, through another of the package."""
     if facts.uses_rclpy:
         return True
@@ -60,7 +60,7 @@ def _is_node(package: Package, facts: NodeFacts) -> bool | None:
 
 
 def _publications(
-    facts: NodeFacts, owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]
+    facts: RclpyFile, owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
         if owner.is_lifecycle:

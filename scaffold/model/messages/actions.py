@@ -11,7 +11,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.entities import ActionClient
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 
 class Wrapped(NamedTuple):
@@ -29,7 +29,7 @@ class Wrapped(NamedTuple):
 class ActionMessages:
     """Finds in a file the messages that action clients are given."""
 
-    def __init__(self, facts: NodeFacts) -> None:
+    def __init__(self, facts: RclpyFile) -> None:
         self._facts = facts
         self._clients = {client.call: client for client in facts.action_clients}
         self._feedback = dict(self._feedback_arguments())

@@ -15,7 +15,7 @@ from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import Binding
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
 from scaffold.model.rclpy.entities import ActionServer, Endpoint, Service, Subscription
-from scaffold.model.rclpy.file import NodeFacts, node_facts
+from scaffold.model.rclpy.file import RclpyFile, node_facts
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -74,7 +74,7 @@ class Assigned(NamedTuple):
 class MessageTypes:
     """What is known about the messages in one Python file."""
 
-    def __init__(self, facts: NodeFacts, definitions: Definitions) -> None:
+    def __init__(self, facts: RclpyFile, definitions: Definitions) -> None:
         self.facts = facts
         self.module = facts.module
         self.definitions = definitions

@@ -13,7 +13,7 @@ from scaffold.record import NamedTuple
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.rclpy.entities import Entity, Parameter
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 ALWAYS = frozenset({"use_sim_time", "start_type_description_service"})
 """Parameters that every node has."""
@@ -87,7 +87,7 @@ def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter
 
     Unlike `declared_by` it tells nothing of nodes that others inherit from.
     """
-    passed_on: dict[NodeFacts, frozenset[ast.ClassDef]] = {}
+    passed_on: dict[RclpyFile, frozenset[ast.ClassDef]] = {}
     for facts in rclpy_files(package):
         bases = _bases(facts)
         for node in facts.classes:
@@ -97,7 +97,7 @@ def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter
 
 
 def _declared(
-    node: NodeClass, passed_on: dict[NodeFacts, frozenset[ast.ClassDef]]
+    node: NodeClass, passed_on: dict[RclpyFile, frozenset[ast.ClassDef]]
 ) -> list[Parameter] | None:
     """Return what a class and its bases declare; ``None`` if others may declare more.
 
@@ -119,7 +119,7 @@ def _declared(
     return None if _declares_on_others(node.facts) else found
 
 
-def _bases(facts: NodeFacts) -> frozenset[ast.ClassDef | None]:
+def _bases(facts: RclpyFile) -> frozenset[ast.ClassDef | None]:
     """Return the classes of a file that others there inherit from."""
     return frozenset(
         facts.evaluator.named_class(base)
@@ -128,12 +128,12 @@ def _bases(facts: NodeFacts) -> frozenset[ast.ClassDef | None]:
     )
 
 
-def _declares_on_others(facts: NodeFacts) -> bool:
+def _declares_on_others(facts: RclpyFile) -> bool:
     """Tell whether the file declares parameters on an object that is not known."""
     return any(one.owner is None for one in facts.parameters)
 
 
-def _passed_on(facts: NodeFacts) -> frozenset[ast.ClassDef]:
+def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
     """Return the classes that give themselves to something that may declare parameters.
 
     All of them where the file asks nodes what they have.

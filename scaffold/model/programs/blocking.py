@@ -15,7 +15,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 
 class Executed(NamedTuple):
@@ -26,13 +26,13 @@ class Executed(NamedTuple):
     """What runs it: ``the callback on_timer``, ``the constructor of Talker``."""
 
 
-def has_more_threads(facts: NodeFacts) -> bool:
+def has_more_threads(facts: RclpyFile) -> bool:
     """Tell whether a file names what may run callbacks in another thread."""
     text = facts.module.source.text
     return any(word in text for word in ("MultiThreaded", "Thread(", "threading", "CallbackGroup"))
 
 
-def in_callbacks(facts: NodeFacts) -> Iterator[Executed]:
+def in_callbacks(facts: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that callbacks of timers, topics and services run, each once."""
     seen: set[ast.AST] = set()
     for entity, callback in facts.callbacks:
@@ -46,7 +46,7 @@ def in_callbacks(facts: NodeFacts) -> Iterator[Executed]:
                 yield Executed(reached, f"the callback {name}" if name else "a callback")
 
 
-def in_constructors(facts: NodeFacts) -> Iterator[Executed]:
+def in_constructors(facts: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that constructors of nodes run, each once."""
     seen: set[ast.AST] = set()
     for node in facts.classes:
@@ -61,14 +61,14 @@ _OTHER_THREADS = ("thread", "concurrent", "process", "asyncio", "pool", "event",
 class Wait(NamedTuple):
     """A call that waits for a callback, and runs in the only thread that could run it."""
 
-    facts: NodeFacts
+    facts: RclpyFile
     call: ast.Call
     where: str
     """What the thread does: ``is the one that waits``, ``is in the callback tick``."""
 
 
 def waits_alone(
-    package: Package, method: str, is_wait: Callable[[NodeFacts, ast.Call], bool]
+    package: Package, method: str, is_wait: Callable[[RclpyFile, ast.Call], bool]
 ) -> Iterator[Wait]:
     """Yield the calls of a method in programs where nothing else can end them, each once.
 
@@ -122,7 +122,7 @@ def _places(run: Run) -> dict[object, str]:
     return places
 
 
-def _may_spin(facts: NodeFacts) -> bool:
+def _may_spin(facts: RclpyFile) -> bool:
     """Tell whether a file may spin a node in another thread, or step by step."""
     for call in facts.spin_calls:
         if call.name.rpartition(".")[2] != "spin":

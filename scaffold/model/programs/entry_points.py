@@ -13,7 +13,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeOwner
 
 _MAX_FILES = 200
@@ -31,7 +31,7 @@ class Start(NamedTuple):
 class Run(NamedTuple):
     """What a program runs in its own file."""
 
-    facts: NodeFacts
+    facts: RclpyFile
     functions: Sequence[FunctionNode]
     """From the entry on, what that calls included."""
     calls: Sequence[ast.Call]
@@ -55,7 +55,7 @@ def run_of(package: Package, start: Start) -> Run:
     return package.remember(("program_run", start), lambda: _run(package, start))
 
 
-def files_of(package: Package, path: str) -> Sequence[NodeFacts]:
+def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
     """Return a file and what it imports of its package, over any number of steps.
 
     The ``__init__.py`` of the packages around them are imported along with them.
@@ -114,7 +114,7 @@ def _run(package: Package, start: Start) -> Run:
 
 
 def _functions(
-    facts: NodeFacts, entry: str | None, outside: Iterable[ast.Call]
+    facts: RclpyFile, entry: str | None, outside: Iterable[ast.Call]
 ) -> list[FunctionNode]:
     """Return the functions that run, from the entry on, in the same file."""
     if entry is not None:
@@ -129,7 +129,7 @@ def _functions(
     return [one for one in reached if not isinstance(one, ast.Lambda)]
 
 
-def _calls_outside(facts: NodeFacts) -> list[ast.Call]:
+def _calls_outside(facts: RclpyFile) -> list[ast.Call]:
     """Return the calls that importing or running the file makes itself."""
     module = facts.module
     return [
@@ -142,8 +142,8 @@ def _calls_outside(facts: NodeFacts) -> list[ast.Call]:
 # -- files of the package
 
 
-def _files(package: Package, path: str) -> list[NodeFacts]:
-    found: dict[str, NodeFacts] = {}
+def _files(package: Package, path: str) -> list[RclpyFile]:
+    found: dict[str, RclpyFile] = {}
     pending = [path]
     while pending and len(found) < _MAX_FILES:
         current = pending.pop()

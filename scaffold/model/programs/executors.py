@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.entities import RclpyCall
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _FAR = 200
 """Statements in between: what they do is not looked at."""
@@ -16,7 +16,7 @@ _FAR = 200
 class Shutdowns:
     """The shutdowns of a file that are statements, by the block that they stand in."""
 
-    def __init__(self, facts: NodeFacts) -> None:
+    def __init__(self, facts: RclpyFile) -> None:
         self._module = facts.module
         self._blocks: dict[tuple[ast.AST, str], dict[int, RclpyCall]] = {}
         for call in facts.shutdown_calls:
@@ -48,7 +48,7 @@ class Shutdowns:
         return holder, *self._module.index.place(statement)
 
 
-def used_of_executor(facts: NodeFacts, call: ast.Call) -> dict[str, ast.AST] | None:
+def used_of_executor(facts: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
     """Return what is used of an executor held in a local variable and given to nobody."""
     name = facts.module.qualified_name(call.func) or ""
     parent = facts.module.parent(call)

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.programs.entry_points import Run
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _HARMLESS = frozenset({"rclpy", *dir(builtins)})
 
 
-def late_init(facts: NodeFacts, made: ast.Call) -> ast.Call | None:
+def late_init(facts: RclpyFile, made: ast.Call) -> ast.Call | None:
     """Return the only initialization of a file, if it comes too late in the same function."""
     mentions = [*facts.module.index.attributes("init"), *facts.module.index.names("init")]
     if len(facts.init_calls) != 1 or len(mentions) != 1:
@@ -26,7 +26,7 @@ def late_init(facts: NodeFacts, made: ast.Call) -> ast.Call | None:
     return call if is_certain and is_same and call.lineno > made.lineno else None
 
 
-def may_init(facts: NodeFacts) -> bool:
+def may_init(facts: RclpyFile) -> bool:
     """Tell whether a file may initialize rclpy, or makes a context of its own."""
     index = facts.module.index
     for name in ("init", "Context"):

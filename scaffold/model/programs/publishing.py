@@ -10,7 +10,7 @@ from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import Unknown
 from scaffold.model.rclpy.entities import Callback, Entity, Publisher, Timer
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.model.rclpy.file import RclpyFile
 
 _HARMLESS = frozenset(
     {
@@ -35,7 +35,7 @@ class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
     """Something else may happen as well."""
 
 
-def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] | None:
+def publish_calls(facts: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] | None:
     """Return the calls that publish; ``None`` when others get hold of the publisher."""
     try:
         return list(_uses(facts, publisher, "publish"))
@@ -44,7 +44,7 @@ def publish_calls(facts: NodeFacts, publisher: Publisher) -> Sequence[ast.Call] 
 
 
 def publish_rates(
-    facts: NodeFacts, publisher: Publisher, *, may_leave: bool = False
+    facts: RclpyFile, publisher: Publisher, *, may_leave: bool = False
 ) -> Sequence[float] | None:
     """Return the rates in Hz that add up to how often a publisher publishes, one per message.
 
@@ -69,7 +69,7 @@ def publish_rates(
         return None
 
 
-def ticks_always(facts: NodeFacts, timer: Timer) -> bool:
+def ticks_always(facts: RclpyFile, timer: Timer) -> bool:
     """Tell whether a timer certainly ticks, from the start of its node to the end."""
     try:
         _expect_ticking(facts, timer)
@@ -78,14 +78,14 @@ def ticks_always(facts: NodeFacts, timer: Timer) -> bool:
     return True
 
 
-def _rate(facts: NodeFacts, timer: Timer) -> float:
+def _rate(facts: RclpyFile, timer: Timer) -> float:
     if isinstance(timer.period, Unknown) or timer.period <= 0:
         raise _Doubt
     _expect_ticking(facts, timer)
     return 1 / timer.period
 
 
-def _expect_ticking(facts: NodeFacts, timer: Timer) -> None:
+def _expect_ticking(facts: RclpyFile, timer: Timer) -> None:
     autostart = timer.argument("autostart")
     if timer.is_conditional or timer.has_unknown_arguments:
         raise _Doubt
@@ -99,7 +99,7 @@ def _expect_ticking(facts: NodeFacts, timer: Timer) -> None:
         list(_uses(facts, timer, ""))
 
 
-def _may_be_held_up(facts: NodeFacts, timer: Timer) -> bool:
+def _may_be_held_up(facts: RclpyFile, timer: Timer) -> bool:
     """Tell whether a timer is in a callback group that may do anything."""
     group = timer.argument("callback_group")
     if group is None:
@@ -109,7 +109,7 @@ def _may_be_held_up(facts: NodeFacts, timer: Timer) -> bool:
     return not any(name.startswith("rclpy.callback_groups.") for name in names)
 
 
-def _runs_once(facts: NodeFacts, function: FunctionNode | None) -> bool:
+def _runs_once(facts: RclpyFile, function: FunctionNode | None) -> bool:
     """Tell whether a function is run once per node: constructor, its helper, or main."""
     for _ in range(_MAX_CALLS):
         if function is None or function.name == "__init__":
@@ -127,7 +127,7 @@ def _runs_once(facts: NodeFacts, function: FunctionNode | None) -> bool:
 # -- who uses what
 
 
-def _uses(facts: NodeFacts, entity: Entity, method: str) -> Iterator[ast.Call]:
+def _uses(facts: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
     """Yield the calls of a method of something stored; doubt when it goes elsewhere."""
     module = facts.module
     for node in _stored_references(facts, entity):
@@ -143,7 +143,7 @@ def _uses(facts: NodeFacts, entity: Entity, method: str) -> Iterator[ast.Call]:
             raise _Doubt
 
 
-def _stored_references(facts: NodeFacts, entity: Entity) -> Iterator[ast.expr]:
+def _stored_references(facts: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
     """Yield where the attribute and the variable that something is stored in are read."""
     if not entity.attribute and not entity.variable:
         raise _Doubt
@@ -162,7 +162,7 @@ def _stored_references(facts: NodeFacts, entity: Entity) -> Iterator[ast.expr]:
 
 
 def _attribute_references(
-    facts: NodeFacts, entity: Entity, attribute: str
+    facts: RclpyFile, entity: Entity, attribute: str
 ) -> Iterator[ast.Attribute]:
     function = entity.function
     class_ = facts.module.enclosing_class(function) if function else None
@@ -187,7 +187,7 @@ def _is_placeholder(store: Store, entity: Entity) -> bool:
 
 
 def _timers_behind(
-    facts: NodeFacts, call: ast.AST, depth: int, *, may_leave: bool
+    facts: RclpyFile, call: ast.AST, depth: int, *, may_leave: bool
 ) -> Iterator[Timer]:
     """Yield a timer for every way to come to a call; doubt for any other way."""
     module = facts.module
@@ -212,7 +212,7 @@ def _timers_behind(
         yield from _timers_behind(facts, parent, depth + 1, may_leave=may_leave)
 
 
-def _timer_with(facts: NodeFacts, reference: ast.expr) -> Timer | None:
+def _timer_with(facts: RclpyFile, reference: ast.expr) -> Timer | None:
     for timer in facts.timers:
         callback = timer.callback
         if callback and not callback.is_called and _innermost(callback) is reference:
@@ -228,7 +228,7 @@ def _innermost(callback: Callback) -> ast.expr:
     return node
 
 
-def _references(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
+def _references(facts: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
     """Yield where a function is mentioned; doubt when another one has the same name."""
     if isinstance(function, ast.Lambda):
         yield function
@@ -238,7 +238,7 @@ def _references(facts: NodeFacts, function: FunctionNode | ast.Lambda) -> Iterat
         yield from _function_references(facts, function)
 
 
-def _method_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+def _method_references(facts: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
     index, class_ = facts.module.index, facts.module.enclosing_class(function)
     family = facts.related_classes(class_) if class_ else ()
     name = function.name
@@ -251,7 +251,7 @@ def _method_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast
             yield node
 
 
-def _function_references(facts: NodeFacts, function: FunctionNode) -> Iterator[ast.expr]:
+def _function_references(facts: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
     for name in facts.module.index.names(function.name):
         if isinstance(name.ctx, ast.Load):
             found = facts.module.index.lookup(name.id, name)
@@ -262,7 +262,7 @@ def _function_references(facts: NodeFacts, function: FunctionNode) -> Iterator[a
                 yield name
 
 
-def _is_certain_call(facts: NodeFacts, reference: ast.expr) -> bool:
+def _is_certain_call(facts: RclpyFile, reference: ast.expr) -> bool:
     parent = facts.module.parent(reference)
     function = facts.function_of(reference)
     return (
@@ -273,12 +273,12 @@ def _is_certain_call(facts: NodeFacts, reference: ast.expr) -> bool:
     )
 
 
-def _is_certain(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _is_certain(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether a node is run exactly once whenever its function is."""
     return not _is_conditional(facts, node, function) and _gets_to(facts, node, function)
 
 
-def _is_conditional(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _is_conditional(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether a node is inside of something that may skip or repeat it."""
     child = node
     for parent in facts.module.parents(node):
@@ -299,7 +299,7 @@ def _is_conditional(facts: NodeFacts, node: ast.AST, function: FunctionNode | as
     return False
 
 
-def _gets_to(facts: NodeFacts, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _gets_to(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether nothing leaves a function before a node of it."""
     return not any(
         facts.function_of(leaving) is function and _is_before(leaving, node)
@@ -343,7 +343,7 @@ class PublishReach:
         alone: Whether no other file calls into this one.
     """
 
-    def __init__(self, facts: NodeFacts, starts: Collection[FunctionNode], *, alone: bool) -> None:
+    def __init__(self, facts: RclpyFile, starts: Collection[FunctionNode], *, alone: bool) -> None:
         self._facts = facts
         self._module = facts.module
         self._starts = starts

@@ -12,7 +12,7 @@ from scaffold.model.rclpy.parameters.objects import is_listed_parameter
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 NODE = "rclpy.node.Node"
 PARAMETER = "rclpy.parameter.Parameter"
@@ -114,7 +114,7 @@ def first_unknown(dotted: str) -> tuple[str, str] | None:
     return None
 
 
-def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
+def class_of(facts: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the class of rclpy, as the table calls it, that an expression is an object of."""
     value = facts.evaluator.single_value(node)
     if not isinstance(value, ast.Call) or depth > _DEEPEST:
@@ -130,7 +130,7 @@ def class_of(facts: NodeFacts, node: ast.expr, depth: int = 0) -> str | None:
     return _class_made(facts, value, value.func, depth)
 
 
-def _class_made(facts: NodeFacts, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
+def _class_made(facts: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
     """Return the class of what a method gives."""
     owner = facts.owner_of(func.value)
     if owner is not None:
@@ -142,7 +142,7 @@ def _class_made(facts: NodeFacts, call: ast.Call, func: ast.Attribute, depth: in
     return _GIVEN.get(f"{inner}.{func.attr}")
 
 
-def _class_of_result(facts: NodeFacts, node: ast.expr, depth: int) -> str | None:
+def _class_of_result(facts: RclpyFile, node: ast.expr, depth: int) -> str | None:
     """Return the class of what a future holds: the handle of a goal that was sent."""
     future = future_given(facts, node)
     made = facts.evaluator.single_value(node if future is None else future)
@@ -152,7 +152,7 @@ def _class_of_result(facts: NodeFacts, node: ast.expr, depth: int) -> str | None
     return None
 
 
-def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
+def _class_of_argument(facts: RclpyFile, node: ast.expr) -> str | None:
     """Return the class of what a callback is given: a future that is done, a goal handle."""
     argument = facts.parameter_of(node)
     if argument is not None and _is_goal_handle(facts, argument):
@@ -163,7 +163,7 @@ def _class_of_argument(facts: NodeFacts, node: ast.expr) -> str | None:
     return class_of(facts, future) if future is not None else None
 
 
-def _is_goal_handle(facts: NodeFacts, argument: ast.arg) -> bool:
+def _is_goal_handle(facts: RclpyFile, argument: ast.arg) -> bool:
     """Tell whether an action server calls a function with the handle of a goal for this."""
     for server in facts.action_servers:
         for name in _GOAL_CALLBACKS:
@@ -176,7 +176,7 @@ def _is_goal_handle(facts: NodeFacts, argument: ast.arg) -> bool:
     return False
 
 
-def future_given(facts: NodeFacts, node: ast.expr) -> ast.expr | None:
+def future_given(facts: RclpyFile, node: ast.expr) -> ast.expr | None:
     """Return the future that is done when a callback is called with what a name stands for."""
     argument = facts.parameter_of(node)
     if argument is None:

@@ -11,7 +11,7 @@ from scaffold.model.rclpy.nodes import NodeClass, NodeObject
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _NODE_KEYWORDS = (
     "context cli_args namespace use_global_arguments enable_rosout start_parameter_services "
@@ -147,7 +147,7 @@ class Excess(NamedTuple):
     """The first such argument."""
 
 
-def excess_arguments(facts: NodeFacts) -> Iterator[Excess]:
+def excess_arguments(facts: RclpyFile) -> Iterator[Excess]:
     """Yield the calls of rclpy's functions that end in a TypeError, in the order of the text."""
     for call in facts.module.walk(ast.Call):
         named = _called(facts, call) if call.args or call.keywords else None
@@ -159,7 +159,7 @@ def excess_arguments(facts: NodeFacts) -> Iterator[Excess]:
             yield from _excess(base, "Node.__init__", FUNCTIONS["rclpy.node.Node"])
 
 
-def _called(facts: NodeFacts, call: ast.Call) -> tuple[str, Signature] | None:
+def _called(facts: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
     for name in facts.module.qualified_names(call.func):
         if name in FUNCTIONS:
             return name, FUNCTIONS[name]
@@ -172,7 +172,7 @@ def _called(facts: NodeFacts, call: ast.Call) -> tuple[str, Signature] | None:
     return (func.attr, METHODS[func.attr]) if _is_plain(facts, func) else None
 
 
-def _is_plain(facts: NodeFacts, func: ast.Attribute) -> bool:
+def _is_plain(facts: RclpyFile, func: ast.Attribute) -> bool:
     """Tell whether a method is rclpy's own, not one of a class in between."""
     owner = facts.owner_of(func.value)
     if isinstance(owner, NodeObject):

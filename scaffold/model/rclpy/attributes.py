@@ -9,11 +9,11 @@ from scaffold.model.rclpy.api import NODE, has
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeClass
 
 
-def used_by_classes(facts: NodeFacts) -> dict[ast.ClassDef, list[ast.Attribute]]:
+def used_by_classes(facts: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
     """Return what classes read of themselves, but for what the file sets on whatever object."""
     module = facts.module
     read: list[ast.Attribute] = []
@@ -34,7 +34,7 @@ def used_by_classes(facts: NodeFacts) -> dict[ast.ClassDef, list[ast.Attribute]]
     return found
 
 
-def _owner(facts: NodeFacts, attribute: ast.Attribute) -> ast.ClassDef | None:
+def _owner(facts: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
     """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
     class_ = facts.evaluator.self_class(attribute.value)
     if class_ is None and isinstance(attribute.value, ast.Name):

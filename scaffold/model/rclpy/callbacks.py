@@ -11,10 +11,10 @@ from scaffold.model.rclpy.nodes import NodeClass
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 
-def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
+def resolve(facts: RclpyFile, node: ast.expr) -> Callback:
     """Return what an expression stands for as a callback."""
     module = facts.module
     if isinstance(node, ast.Call):
@@ -44,7 +44,7 @@ def resolve(facts: NodeFacts, node: ast.expr) -> Callback:
     return Callback(node, None, None, module, is_called=False, is_bound=False)
 
 
-def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNode | None:
+def _method_of(facts: RclpyFile, class_: ast.ClassDef, name: str) -> FunctionNode | None:
     for member in facts.related_classes(class_):
         for binding in facts.module.index.bindings(member).get(name, ()):
             if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
@@ -52,7 +52,7 @@ def _method_of(facts: NodeFacts, class_: ast.ClassDef, name: str) -> FunctionNod
     return None
 
 
-def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+def function_of(facts: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | None:
     """Return the function whose body a node stands in."""
     child = node
     for parent in facts.module.parents(node):
@@ -67,7 +67,7 @@ def function_of(facts: NodeFacts, node: ast.AST) -> FunctionNode | ast.Lambda | 
 
 
 def reached(
-    facts: NodeFacts, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+    facts: RclpyFile, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
 ) -> Sequence[FunctionNode | ast.Lambda]:
     """Return a function and what it calls in the same file: methods of self, functions.
 

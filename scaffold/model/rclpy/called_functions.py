@@ -9,7 +9,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 
 class Called(NamedTuple):
@@ -22,7 +22,7 @@ class Called(NamedTuple):
     """How many of the first arguments it is given anyway: 1 for ``self``."""
 
 
-def called_function(package: Package, facts: NodeFacts, call: ast.Call) -> Called | None:
+def called_function(package: Package, facts: RclpyFile, call: ast.Call) -> Called | None:
     """Return the method, function or constructor of the package that a call is of.
 
     Returns:
@@ -39,7 +39,7 @@ def called_function(package: Package, facts: NodeFacts, call: ast.Call) -> Calle
     return _imported(package, facts, call.func) or _constructor(facts, call.func)
 
 
-def _of_this_file(facts: NodeFacts, func: ast.expr) -> Called | None:
+def _of_this_file(facts: RclpyFile, func: ast.expr) -> Called | None:
     callback = facts.callback(func)
     function = callback.function
     if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
@@ -51,7 +51,7 @@ def _of_this_file(facts: NodeFacts, func: ast.expr) -> Called | None:
 
 
 def _is_only_one(
-    facts: NodeFacts, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
+    facts: RclpyFile, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
 ) -> bool:
     """Tell whether no class that inherits, and no assignment, puts another function in place."""
     others = [one for one in facts.module.function_nodes if one.name == function.name]
@@ -63,7 +63,7 @@ def _is_only_one(
     return class_ is not None and function in class_.body
 
 
-def _imported(package: Package, facts: NodeFacts, func: ast.expr) -> Called | None:
+def _imported(package: Package, facts: RclpyFile, func: ast.expr) -> Called | None:
     """Return the function of another module of the package."""
     dotted = facts.module.qualified_name(func) or ""
     module, _, name = dotted.rpartition(".")
@@ -78,7 +78,7 @@ def _imported(package: Package, facts: NodeFacts, func: ast.expr) -> Called | No
     return None if function.decorator_list else Called(facts.module.text(func), function.args, 0)
 
 
-def _constructor(facts: NodeFacts, func: ast.expr) -> Called | None:
+def _constructor(facts: RclpyFile, func: ast.expr) -> Called | None:
     """Return the constructor of a class of nodes of this file."""
     class_ = facts.evaluator.named_class(func)
     node = facts.node_class(class_) if class_ is not None else None

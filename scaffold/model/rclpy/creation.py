@@ -30,7 +30,7 @@ from scaffold.model.rclpy.parameters.descriptors import descriptor_of
 from scaffold.model.rclpy.qos import qos_of
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _QOS = ("msg_type", "topic", "qos_profile")
 _SIGNATURES: Mapping[str, tuple[str, ...]] = {
@@ -70,7 +70,7 @@ _ACTIONS = {
 class Creation:
     """Reads what the calls of a file create."""
 
-    def __init__(self, facts: NodeFacts) -> None:
+    def __init__(self, facts: RclpyFile) -> None:
         self._facts = facts
 
     def entities(self) -> Iterator[Entity]:

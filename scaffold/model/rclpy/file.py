@@ -40,9 +40,9 @@ __all__ = [
     "NODE_CLASSES",
     "Modules",
     "NodeClass",
-    "NodeFacts",
     "NodeObject",
     "NodeOwner",
+    "RclpyFile",
     "node_facts",
     "rclpy_files",
 ]
@@ -72,19 +72,19 @@ class Modules(Protocol):
         """Return what ``build`` makes; it is made once for a key."""
 
 
-def node_facts(modules: Modules, path: str) -> NodeFacts:
+def node_facts(modules: Modules, path: str) -> RclpyFile:
     """Return what the rclpy code of a Python file says; raises ViewError."""
-    return modules.remember(("nodes", path), lambda: NodeFacts.of(modules.module(path), modules))
+    return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
 
 
-def rclpy_files(package: Package) -> Iterator[NodeFacts]:
+def rclpy_files(package: Package) -> Iterator[RclpyFile]:
     """Yield what the Python files that import rclpy say; tests try what nodes must not do."""
     for module in package.modules():
         if "rclpy" in module.imports_by_root and not module.in_tests:
             yield node_facts(package, module.path)
 
 
-class NodeFacts:
+class RclpyFile:
     """Everything that the rclpy code of one file says."""
 
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
@@ -99,7 +99,7 @@ class NodeFacts:
         self._base_depth = 0
 
     @classmethod
-    def of(cls, module: PythonModule, modules: Modules | None = None) -> NodeFacts:
+    def of(cls, module: PythonModule, modules: Modules | None = None) -> RclpyFile:
         """Return the view of a parsed file; base classes are looked up in ``modules``."""
         return cls(module, modules)
 
@@ -184,7 +184,7 @@ class NodeFacts:
                 return facts.node_class(found_class.node)
         return None
 
-    def _facts_of(self, module: str) -> NodeFacts | None:
+    def _facts_of(self, module: str) -> RclpyFile | None:
         """Return the facts of another module of the package."""
         if self.modules is None or not module:
             return None
@@ -268,7 +268,7 @@ class NodeFacts:
                     return True
         return False
 
-    def _classes_named(self, expression: ast.expr) -> Iterator[tuple[NodeFacts, ast.ClassDef]]:
+    def _classes_named(self, expression: ast.expr) -> Iterator[tuple[RclpyFile, ast.ClassDef]]:
         """Yield the classes of the package that an expression may name."""
         if isinstance(expression, ast.Name):
             found = self.module.index.lookup(expression.id, expression)

@@ -10,7 +10,7 @@ from scaffold.model.rclpy.entities import RclpyCall
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _RUNS = frozenset({"init", "spin", "spin_once", "spin_until_future_complete"})
 _RUNS |= {"shutdown", "try_shutdown"}
@@ -21,7 +21,7 @@ _EXECUTORS = frozenset(
 _MAX_CALLS = 20
 
 
-def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
+def rclpy_calls(facts: RclpyFile) -> Iterator[RclpyCall]:
     """Yield the calls that start, run or end rclpy, in the order of the text."""
     outside: _Outside | None = None
     for call in facts.module.walk(ast.Call):
@@ -31,7 +31,7 @@ def rclpy_calls(facts: NodeFacts) -> Iterator[RclpyCall]:
             yield _rclpy_call(facts, call, name, outside)
 
 
-def _run_name(facts: NodeFacts, call: ast.Call) -> str | None:
+def _run_name(facts: RclpyFile, call: ast.Call) -> str | None:
     for name in facts.module.qualified_names(call.func):
         root, _, function = name.rpartition(".")
         if function in _RUNS and root in {"rclpy", "rclpy.utilities"}:
@@ -42,7 +42,7 @@ def _run_name(facts: NodeFacts, call: ast.Call) -> str | None:
     return None
 
 
-def _is_executor(facts: NodeFacts, node: ast.expr) -> bool:
+def _is_executor(facts: RclpyFile, node: ast.expr) -> bool:
     value = facts.evaluator.single_value(node)
     if value is node and isinstance(node, ast.Name):
         value = _entered(facts, node) or node
@@ -51,7 +51,7 @@ def _is_executor(facts: NodeFacts, node: ast.expr) -> bool:
     return not _EXECUTORS.isdisjoint(facts.module.qualified_names(value.func))
 
 
-def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
+def _entered(facts: RclpyFile, node: ast.Name) -> ast.expr | None:
     """Return what ``with ... as name`` is entered with."""
     found = facts.module.index.lookup(node.id, node)
     for binding in found[1] if found else ():
@@ -61,7 +61,7 @@ def _entered(facts: NodeFacts, node: ast.Name) -> ast.expr | None:
     return None
 
 
-def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
+def _rclpy_call(facts: RclpyFile, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
     in_finally = asks_ok = in_with = False
     child: ast.AST = call
     for parent in facts.module.parents(call):
@@ -88,7 +88,7 @@ def _rclpy_call(facts: NodeFacts, call: ast.Call, name: str, outside: _Outside) 
     )
 
 
-def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
+def _handlers_around(facts: RclpyFile, node: ast.AST) -> set[str]:
     """Return what is caught around a node in its function."""
     handlers: set[str] = set()
     child = node
@@ -107,7 +107,7 @@ def _handlers_around(facts: NodeFacts, node: ast.AST) -> set[str]:
 class _Outside:
     """What is caught around the functions of a file, by all that call them there."""
 
-    def __init__(self, facts: NodeFacts) -> None:
+    def __init__(self, facts: RclpyFile) -> None:
         self._facts = facts
         self._known: dict[FunctionNode, frozenset[str]] = {}
         self._depth = 0
@@ -138,7 +138,7 @@ class _Outside:
         return found is not None and any(binding.node is function for binding in found[1])
 
 
-def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:
+def _caught(facts: RclpyFile, node: ast.Try) -> Iterator[str]:
     for handler in node.handlers:
         if handler.type is None:
             yield "BaseException"
@@ -146,7 +146,7 @@ def _caught(facts: NodeFacts, node: ast.Try) -> Iterator[str]:
             yield from _exceptions(facts, handler.type)
 
 
-def _exceptions(facts: NodeFacts, node: ast.expr) -> Iterator[str]:
+def _exceptions(facts: RclpyFile, node: ast.expr) -> Iterator[str]:
     node = facts.evaluator.single_value(node)
     if isinstance(node, ast.Tuple):
         for item in node.elts:
@@ -155,7 +155,7 @@ def _exceptions(facts: NodeFacts, node: ast.expr) -> Iterator[str]:
         yield from facts.module.qualified_names(node)
 
 
-def _suppressed(facts: NodeFacts, item: ast.withitem) -> Iterator[str]:
+def _suppressed(facts: RclpyFile, item: ast.withitem) -> Iterator[str]:
     call = item.context_expr
     if not isinstance(call, ast.Call):
         return
@@ -164,12 +164,12 @@ def _suppressed(facts: NodeFacts, item: ast.withitem) -> Iterator[str]:
             yield from _exceptions(facts, arg)
 
 
-def _enters_init(facts: NodeFacts, item: ast.withitem) -> bool:
+def _enters_init(facts: RclpyFile, item: ast.withitem) -> bool:
     call = item.context_expr
     return isinstance(call, ast.Call) and facts.module.qualified_name(call.func) == "rclpy.init"
 
 
-def _asks_ok(facts: NodeFacts, test: ast.expr) -> bool:
+def _asks_ok(facts: RclpyFile, test: ast.expr) -> bool:
     return any(
         isinstance(node, ast.Call) and facts.module.qualified_name(node.func) == "rclpy.ok"
         for node in ast.walk(test)

@@ -6,12 +6,12 @@ import ast
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _METHOD = "get_logger"
 
 
-def is_of_rclpy(facts: NodeFacts, method: ast.expr) -> bool:
+def is_of_rclpy(facts: RclpyFile, method: ast.expr) -> bool:
     """Tell whether ``get_logger`` of some object is rclpy's, not one that a class here defines.
 
     Args:

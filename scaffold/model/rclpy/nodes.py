@@ -24,14 +24,14 @@ from scaffold.model.rclpy.entities import (
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
     from scaffold.source import Location
 
 
 class NodeOwner:
     """A node as the code makes it: of a class of its own, or an object."""
 
-    def __init__(self, facts: NodeFacts, name: str, location: Location) -> None:
+    def __init__(self, facts: RclpyFile, name: str, location: Location) -> None:
         self.facts = facts
         self.name = name
         """Of the class, or of the variable."""
@@ -145,7 +145,7 @@ class NodeOwner:
 class NodeObject(NodeOwner):
     """A node without a class of its own: ``node = rclpy.create_node('talker')``."""
 
-    def __init__(self, facts: NodeFacts, name: str, location: Location, call: ast.Call) -> None:
+    def __init__(self, facts: RclpyFile, name: str, location: Location, call: ast.Call) -> None:
         super().__init__(facts, name, location)
         self._call = call
 
@@ -158,7 +158,7 @@ class NodeObject(NodeOwner):
 class NodeClass(NodeOwner):
     """A class that inherits from rclpy's Node; its location is its name."""
 
-    def __init__(self, facts: NodeFacts, node: ast.ClassDef, base: NodeClass | None) -> None:
+    def __init__(self, facts: RclpyFile, node: ast.ClassDef, base: NodeClass | None) -> None:
         super().__init__(facts, node.name, facts.module.name_location(node))
         self.node = node
         self.base = base
@@ -257,8 +257,8 @@ class NodeClass(NodeOwner):
         return facts.evaluator.text(node)
 
     def name_given(
-        self, call: ast.Call | None, caller: NodeFacts
-    ) -> tuple[ast.expr | None, NodeFacts]:
+        self, call: ast.Call | None, caller: RclpyFile
+    ) -> tuple[ast.expr | None, RclpyFile]:
         """Return the expression that names the node when ``call`` reaches the constructor."""
         constructor = self.constructor
         if constructor is None:

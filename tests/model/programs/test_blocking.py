@@ -8,7 +8,7 @@ import pytest
 
 from scaffold.model.package import Package
 from scaffold.model.programs.blocking import waits_alone
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.model.rclpy.file import RclpyFile
 
 SETUP = """\
 from setuptools import setup
@@ -48,7 +48,7 @@ def waits(main: str, constructor: str = "pass", executor: str = "SingleThreaded"
     text = NODE.format(main=main, constructor=constructor, executor=executor)
     files = {"package.xml": MANIFEST, "setup.py": SETUP, "demo/talker.py": text}
 
-    def is_sleep(_: NodeFacts, call: ast.Call) -> bool:
+    def is_sleep(_: RclpyFile, call: ast.Call) -> bool:
         return not call.args
 
     return [found.where for found in waits_alone(Package.of(files), "sleep", is_sleep)]

@@ -10,7 +10,7 @@ import pytest
 
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api_signatures import FUNCTIONS, METHODS, Signature, excess_arguments
-from scaffold.model.rclpy.file import NodeFacts
+from scaffold.model.rclpy.file import RclpyFile
 from scaffold.source import Source
 
 NODE = """\
@@ -59,7 +59,7 @@ def test_keywords_of_a_profile() -> None:
 def excess(line: str, more: str = "") -> list[str]:
     """Return how the arguments read that rclpy does not take."""
     text = NODE.format(line, more)
-    facts = NodeFacts.of(PythonModule.parse(Source("talker.py", text)))
+    facts = RclpyFile.of(PythonModule.parse(Source("talker.py", text)))
     return [facts.module.text(item.node) for item in excess_arguments(facts)]
 
 

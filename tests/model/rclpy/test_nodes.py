@@ -20,7 +20,7 @@ from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.creation import _SIGNATURES
 from scaffold.model.rclpy.entities import Publisher, Qos, parameter_type
-from scaffold.model.rclpy.file import NodeFacts, node_facts
+from scaffold.model.rclpy.file import RclpyFile, node_facts
 from scaffold.model.rclpy.qos import PROFILES
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 from tests import PATIENCE
@@ -78,17 +78,17 @@ if __name__ == '__main__':
 '''
 
 
-def publish_rate(view: NodeFacts, publisher: Publisher) -> float | Unknown:
+def publish_rate(view: RclpyFile, publisher: Publisher) -> float | Unknown:
     """Return the rate in Hz, if it is known and there is a single one."""
     rates = publish_rates(view, publisher)
     return rates[0] if rates and len(rates) == 1 else UNKNOWN
 
 
-def facts(text: str, path: str = "demo/talker.py") -> NodeFacts:
-    return NodeFacts.of(PythonModule.parse(Source(path, text)))
+def facts(text: str, path: str = "demo/talker.py") -> RclpyFile:
+    return RclpyFile.of(PythonModule.parse(Source(path, text)))
 
 
-def node(body: str, head: str = "") -> NodeFacts:
+def node(body: str, head: str = "") -> RclpyFile:
     """Return the facts of a node class whose constructor has these lines."""
     lines = "".join(f"        {line}\n" for line in body.splitlines())
     return facts(

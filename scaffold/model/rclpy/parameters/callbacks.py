@@ -11,7 +11,7 @@ from scaffold.model.rclpy.parameters.descriptors import message_made
 from scaffold.model.rclpy.parameters.objects import CALLBACKS
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _PRE = CALLBACKS[-1]
 RESULT = "rcl_interfaces.msg.SetParametersResult"
@@ -19,12 +19,12 @@ _MESSAGE = r"\w+\.(?:msg|srv|action)\.\w+"
 _REFUSED = "every change is refused"
 
 
-def wrong_value(method: str, facts: NodeFacts, value: ast.expr | None) -> str:
+def wrong_value(method: str, facts: RclpyFile, value: ast.expr | None) -> str:
     """Return what is wrong about what a callback returns that a method adds, else nothing."""
     return (_wrong_list if method == _PRE else _wrong_result)(facts, value)
 
 
-def _wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
+def _wrong_result(facts: RclpyFile, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a SetParametersResult, else nothing."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
@@ -48,7 +48,7 @@ def _wrong_result(facts: NodeFacts, value: ast.expr | None) -> str:
     return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
 
 
-def _one_of_constants(facts: NodeFacts, value: ast.expr) -> ast.Constant | None:
+def _one_of_constants(facts: RclpyFile, value: ast.expr) -> ast.Constant | None:
     """Return one of the constants that a variable is set to, if it is set to nothing else."""
     found = facts.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
     values = [binding.value for binding in found[1]] if found else []
@@ -56,7 +56,7 @@ def _one_of_constants(facts: NodeFacts, value: ast.expr) -> ast.Constant | None:
     return constants[0] if constants and len(constants) == len(values) else None
 
 
-def _wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
+def _wrong_list(facts: RclpyFile, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a list of parameters, else nothing."""
     made = facts.evaluator.single_value(value) if value is not None else None
     if made is None or (isinstance(made, ast.Constant) and made.value in {None, True, False}):
@@ -65,7 +65,7 @@ def _wrong_list(facts: NodeFacts, value: ast.expr | None) -> str:
     return "a SetParametersResult, not the list of parameters: TypeError" if full == RESULT else ""
 
 
-def _gives_nothing(facts: NodeFacts, call: ast.Call) -> bool:
+def _gives_nothing(facts: RclpyFile, call: ast.Call) -> bool:
     """Tell whether a function of the file ends without a value, always."""
     function = facts.callback(call.func).function
     if not isinstance(function, ast.FunctionDef) or function.decorator_list:

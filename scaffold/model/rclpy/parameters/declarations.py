@@ -12,7 +12,7 @@ from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeOwner
 
     _Declaration = tuple[NodeOwner | None, ast.expr | None]
@@ -36,7 +36,7 @@ class Declaration(NamedTuple):
 class Declarations:
     """The parameters that a file declares."""
 
-    def __init__(self, facts: NodeFacts) -> None:
+    def __init__(self, facts: RclpyFile) -> None:
         self._facts = facts
         self._is_indexing = False
 

@@ -10,7 +10,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import Binding
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 DESCRIPTOR = "rcl_interfaces.msg.ParameterDescriptor"
 _RANGES = {
@@ -64,7 +64,7 @@ class Descriptor(NamedTuple):
 _PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[])
 
 
-def descriptor_of(facts: NodeFacts, node: ast.expr | None) -> Descriptor | None:
+def descriptor_of(facts: RclpyFile, node: ast.expr | None) -> Descriptor | None:
     """Return the descriptor that an expression makes; ``None`` when it is not known in full."""
     if node is None or (isinstance(node, ast.Constant) and node.value is None):
         return _PLAIN
@@ -86,7 +86,7 @@ def descriptor_of(facts: NodeFacts, node: ast.expr | None) -> Descriptor | None:
     return Descriptor(is_dynamic, is_read_only, ranges)
 
 
-def message_made(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+def message_made(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
     """Return what the fields of a message are set to where an expression uses it.
 
     By keywords where it is made, and one by one below, in the same block; ``append`` on a field
@@ -117,7 +117,7 @@ def _is_close(first: float, second: float) -> bool:
     return math.isclose(first, second, rel_tol=_TOLERANCE)
 
 
-def _keywords(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+def _keywords(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
     if not isinstance(node, ast.Call) or kind not in facts.module.qualified_names(node.func):
         return None
     if node.args or any(word.arg is None for word in node.keywords):
@@ -125,7 +125,7 @@ def _keywords(facts: NodeFacts, node: ast.expr, kind: str) -> dict[str, ast.expr
     return {word.arg: word.value for word in node.keywords if word.arg is not None}
 
 
-def _kept(facts: NodeFacts, node: ast.expr) -> ast.expr:
+def _kept(facts: RclpyFile, node: ast.expr) -> ast.expr:
     """Return what a name or attribute is set to once, if nothing else is done with its parts."""
     if isinstance(node, ast.Name):
         uses: list[ast.AST] = [*facts.module.index.names(node.id)]
@@ -138,7 +138,7 @@ def _kept(facts: NodeFacts, node: ast.expr) -> ast.expr:
     return facts.evaluator.single_value(node)
 
 
-def _assigned_before(facts: NodeFacts, node: ast.Name) -> Binding | None:
+def _assigned_before(facts: RclpyFile, node: ast.Name) -> Binding | None:
     """Return the assignment that a name has its value from: all stand in one block with the use."""
     found = facts.module.index.lookup(node.id, node)
     block = _block(facts, node)
@@ -151,7 +151,7 @@ def _assigned_before(facts: NodeFacts, node: ast.Name) -> Binding | None:
     return last
 
 
-def _block(facts: NodeFacts, node: ast.AST) -> tuple[ast.AST | None, str]:
+def _block(facts: RclpyFile, node: ast.AST) -> tuple[ast.AST | None, str]:
     """Return the block that the statement of a node stands in."""
     module = facts.module
     while not isinstance(node, ast.stmt):
@@ -170,7 +170,7 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
     return use is not last and _line(first) < use.lineno <= last.lineno
 
 
-def _take(facts: NodeFacts, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
+def _take(facts: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
     """Note what a use of the message sets; false when nobody knows."""
     module = facts.module
     parent = module.parent(use)
@@ -201,14 +201,14 @@ def _keeps(call: ast.Call) -> bool:
     return name in _KEEPING or name[:1].isupper()
 
 
-def _flag(facts: NodeFacts, node: ast.expr | None) -> bool | None:
+def _flag(facts: RclpyFile, node: ast.expr | None) -> bool | None:
     if node is None:
         return False
     value = facts.evaluator.evaluate(node)
     return value if isinstance(value, bool) else None
 
 
-def _range(facts: NodeFacts, field: str, node: ast.expr) -> Range | None:
+def _range(facts: RclpyFile, field: str, node: ast.expr) -> Range | None:
     type_, kind = _RANGES[field]
     items, is_complete = facts.evaluator.elements(node)
     if len(items) != 1 or not is_complete:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.entities import Entity
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeOwner
 
 _PARAMETER = "rclpy.parameter.Parameter"
@@ -34,7 +34,7 @@ _LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
-def parameter_read(facts: NodeFacts, node: ast.expr) -> tuple[NodeOwner | None, str | Unknown]:
+def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeOwner | None, str | Unknown]:
     """Return the node and the name of the parameter that an expression is the object of.
 
     Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
@@ -54,7 +54,7 @@ def parameter_read(facts: NodeFacts, node: ast.expr) -> tuple[NodeOwner | None, 
     return facts.owner_of(func.value), facts.evaluator.text(named[0]) if named else UNKNOWN
 
 
-def _listed(facts: NodeFacts, node: ast.Subscript) -> tuple[NodeOwner | None, str | Unknown]:
+def _listed(facts: RclpyFile, node: ast.Subscript) -> tuple[NodeOwner | None, str | Unknown]:
     """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
     call = facts.evaluator.single_value(node.value)
     index = facts.evaluator.evaluate(node.slice)
@@ -67,7 +67,7 @@ def _listed(facts: NodeFacts, node: ast.Subscript) -> tuple[NodeOwner | None, st
     return None, UNKNOWN
 
 
-def is_of_node(facts: NodeFacts, created: Entity) -> bool:
+def is_of_node(facts: RclpyFile, created: Entity) -> bool:
     """Tell whether a method is called on a node, by what is known or by the name of the object."""
     if created.owner is not None:
         return True
@@ -78,7 +78,7 @@ def is_of_node(facts: NodeFacts, created: Entity) -> bool:
     return isinstance(receiver, ast.Name) and receiver.id.lstrip("_") == "node"
 
 
-def is_parameter_list(facts: NodeFacts, node: ast.expr) -> bool:
+def is_parameter_list(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is surely a list of rclpy's parameters."""
     made = facts.evaluator.single_value(node)
     match made:
@@ -88,7 +88,7 @@ def is_parameter_list(facts: NodeFacts, node: ast.expr) -> bool:
     return argument is not None and argument in callback_arguments(facts)
 
 
-def is_listed_parameter(facts: NodeFacts, node: ast.expr) -> bool:
+def is_listed_parameter(facts: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is an item of such a list: of a loop, or by its number."""
     if isinstance(node, ast.Subscript):
         is_number = type(facts.evaluator.evaluate(node.slice)) is int
@@ -105,7 +105,7 @@ def is_listed_parameter(facts: NodeFacts, node: ast.expr) -> bool:
     )
 
 
-def callback_arguments(facts: NodeFacts) -> dict[ast.arg, FunctionNode | ast.Lambda]:
+def callback_arguments(facts: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
     """Return what rclpy calls with a list of parameters: the argument, and its function."""
     known = facts.parameter_callbacks
     if known is not None:
@@ -127,7 +127,7 @@ def callback_arguments(facts: NodeFacts) -> dict[ast.arg, FunctionNode | ast.Lam
     return found
 
 
-def name_asked(facts: NodeFacts, node: ast.AST, variable: str) -> str | None:
+def name_asked(facts: RclpyFile, node: ast.AST, variable: str) -> str | None:
     """Return the name that a parameter has where a node runs: ``if parameter.name == 'rate':``."""
     child = node
     for parent in facts.module.parents(node):
@@ -164,7 +164,7 @@ class ParameterMade(NamedTuple):
     value: object
 
 
-def parameters_set(facts: NodeFacts) -> Iterator[tuple[NodeOwner, ParameterMade]]:
+def parameters_set(facts: RclpyFile) -> Iterator[tuple[NodeOwner, ParameterMade]]:
     """Yield the parameters that a file sets on nodes that are known, one by one."""
     for method in ("set_parameters", "set_parameters_atomically"):
         for attribute in facts.module.index.attributes(method):
@@ -178,7 +178,7 @@ def parameters_set(facts: NodeFacts) -> Iterator[tuple[NodeOwner, ParameterMade]
                     yield owner, made
 
 
-def _parameter_made(facts: NodeFacts, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
+def _parameter_made(facts: RclpyFile, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
     """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
     call = facts.evaluator.single_value(node)
     if not isinstance(call, ast.Call):
@@ -207,7 +207,7 @@ class NameUsed(NamedTuple):
     name: str
 
 
-def names_used(facts: NodeFacts) -> Iterator[NameUsed]:
+def names_used(facts: RclpyFile) -> Iterator[NameUsed]:
     """Yield the parameters that a file describes, undeclares, sets, or gets as one of a list."""
     for method in (*_NAMED, *_LISTED):
         for attribute in facts.module.index.attributes(method):
@@ -238,7 +238,7 @@ def names_used_by(package: Package, owner: NodeOwner) -> Sequence[NameUsed]:
 
 
 def _texts(
-    facts: NodeFacts, owner: NodeOwner, call: ast.Call, nodes: list[ast.expr]
+    facts: RclpyFile, owner: NodeOwner, call: ast.Call, nodes: list[ast.expr]
 ) -> Iterator[NameUsed]:
     for node in nodes:
         name = facts.evaluator.text(node)
@@ -246,7 +246,7 @@ def _texts(
             yield NameUsed(owner, call, node, name)
 
 
-def _looped(facts: NodeFacts, node: ast.expr) -> list[ast.expr]:
+def _looped(facts: RclpyFile, node: ast.expr) -> list[ast.expr]:
     """Return what a name stands for in a loop over a list that is written there."""
     found = facts.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
     loops = [facts.module.parent(one.node) for one in found[1]] if found else []
@@ -257,7 +257,7 @@ def _looped(facts: NodeFacts, node: ast.expr) -> list[ast.expr]:
     return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
 
 
-def types_compared(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set[str]:
+def types_compared(facts: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
     """Return the types that a function compares the type of one parameter with."""
     function = facts.module.enclosing_function(attribute)
     found: set[str] = set()
@@ -273,7 +273,7 @@ def types_compared(facts: NodeFacts, attribute: ast.Attribute, name: str) -> set
     return found
 
 
-def names_compared(facts: NodeFacts, attribute: ast.Attribute) -> list[ast.expr]:
+def names_compared(facts: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
     """Return what a name is compared with, one after the other."""
     match facts.module.parent(attribute):
         case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:

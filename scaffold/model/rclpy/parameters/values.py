@@ -10,7 +10,7 @@ from scaffold.model.rclpy.api import PARAMETER, class_of
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.entities import Entity
-    from scaffold.model.rclpy.file import NodeFacts
+    from scaffold.model.rclpy.file import RclpyFile
 
 _BUILTINS = frozenset(
     {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
@@ -30,7 +30,7 @@ _MOST_USES = 200
 """Of one name; each object that is stored in it asks for all."""
 
 
-def objects_used(facts: NodeFacts) -> Iterator[tuple[Entity, ast.AST]]:
+def objects_used(facts: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that give a Parameter whose value is meant, and the first such place."""
     for one in _objects(facts):
         use = _use(facts, one.call, one.variable, one.attribute)
@@ -39,7 +39,7 @@ def objects_used(facts: NodeFacts) -> Iterator[tuple[Entity, ast.AST]]:
 
 
 def _use(
-    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+    facts: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
 ) -> ast.AST | None:
     """Return a place where the object is calculated with."""
     if stands_for_value(facts, call):
@@ -57,7 +57,7 @@ def _use(
 
 
 def _uses(
-    facts: NodeFacts, call: ast.Call, variable: str | None, attribute: str | None
+    facts: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
 ) -> Sequence[ast.Name | ast.Attribute]:
     """Return where what a call gives is stored and used, in its function or in its class."""
     module = facts.module
@@ -75,7 +75,7 @@ def _uses(
     return [one for one in names if function is None or function in module.parents(one)]
 
 
-def _objects(facts: NodeFacts) -> Iterator[Entity]:
+def _objects(facts: RclpyFile) -> Iterator[Entity]:
     """Yield the calls that give a Parameter."""
     for read in facts.parameter_reads:
         if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
@@ -85,7 +85,7 @@ def _objects(facts: NodeFacts) -> Iterator[Entity]:
             yield one
 
 
-def stands_for_value(facts: NodeFacts, node: ast.AST) -> bool:
+def stands_for_value(facts: RclpyFile, node: ast.AST) -> bool:
     """Tell whether a node stands where only the value makes sense."""
     parent = facts.module.parent(node)
     used = False
