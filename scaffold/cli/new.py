@@ -253,12 +253,14 @@ def _plan_above(
 
 def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     """Return the directory of a package; raise if it is there and may not be overwritten."""
+    from scaffold import transaction
     from scaffold.errors import ConflictError
 
     directory = os.path.normpath(os.path.join(options.destination_directory, name))
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:
+        transaction.sweep(options.destination_directory)  # a killed run may have got this far
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} exists already; {hint}")
     return directory
