@@ -25,11 +25,11 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from scaffold import content
 from scaffold.ament import lint_cmake
 from scaffold.ament.copyright import headers
 from scaffold.check import registry, runner
 from scaffold.check.rule import Rule
+from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.errors import InputError
 from scaffold.model.discovery import targets

@@ -19,7 +19,7 @@ from scaffold.formats.xml import parse
 from scaffold.generate.edit import readme
 from scaffold.model.cmake.lexer import tokenize
 from scaffold.model.package import Package
-from scaffold.smoke import output
+from scaffold.smoke.processes import output
 from scaffold.source import Source
 
 FIRST = 2_000

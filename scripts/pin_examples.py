@@ -11,10 +11,10 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.check.examples import reports
 from scaffold.check.rule import Report, Rule
+from scaffold.configuration import content
 
 WIDTH = 100
 INDENT = " " * 12

@@ -17,10 +17,11 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.version import Version
 
-from scaffold import __version__, content
+from scaffold import __version__
 from scaffold.check import registry
 from scaffold.check.session import all_rules
 from scaffold.cli.main import VERBS
+from scaffold.configuration import content
 from scaffold.generate import yaml_file
 from tests import PATIENCE
 from tests.oracles import system_environment
@@ -98,7 +99,7 @@ def test_installed_command_has_its_content(command: Path, tmp_path: Path) -> Non
     checkout = all_rules(registry.load(content.roots("rules")))
     assert [rule["code"] for rule in rules] == [rule.code for rule in checkout]
 
-    program = "from scaffold import content; print(content.built_in())"
+    program = "from scaffold.configuration import content; print(content.built_in())"
     found = run(command.parent / "python", "-c", program, cwd=tmp_path).strip()
     assert Path(found).is_relative_to(command.parent.parent)
 

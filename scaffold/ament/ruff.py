@@ -13,9 +13,9 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold import programs
 from scaffold.ament.finding import Replacement
 from scaffold.errors import EnvironmentMissingError
+from scaffold.programs import search
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -247,7 +247,7 @@ def _find() -> str:
         return str(import_module("ruff").find_ruff_bin())
     except (ImportError, AttributeError, FileNotFoundError):
         pass
-    on_path = programs.find("ruff")
+    on_path = search.find("ruff")
     if on_path is not None:
         return on_path
     raise EnvironmentMissingError("ruff is not installed; pip install 'ruff>=0.17.5,<0.18'")

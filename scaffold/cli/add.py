@@ -12,20 +12,20 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from scaffold.check.session import Session
-    from scaffold.config import Config
+    from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
     from scaffold.generate.add.add import Added
     from scaffold.generate.add.rendered_part import Target, Wanted
     from scaffold.generate.questions.questions import Given
     from scaffold.generate.templates.template import Question, Template
     from scaffold.model.package import Package
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
-    from scaffold import content
     from scaffold.cli import flags, settings
+    from scaffold.configuration import content
     from scaffold.generate import parts
     from scaffold.generate.questions import questions
     from scaffold.generate.templates import template
@@ -58,12 +58,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Add something to a package; return the exit code."""
-    from scaffold import content
     from scaffold.check import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
     from scaffold.cli import writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold.configuration import content
     from scaffold.generate import repository
     from scaffold.generate.add import add
 
@@ -92,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
     """Return the package that is meant, and what is to be added to it."""
-    from scaffold import config, content
+    from scaffold.configuration import config, content
     from scaffold.errors import InputError
     from scaffold.generate import parts
     from scaffold.generate.add.rendered_part import Target, Wanted
@@ -192,7 +192,7 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
     """Compare with what is there; files of others are edited, files of the part are not."""
     from scaffold.files.tree import DiskTree
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     tree = package.tree if isinstance(package.tree, DiskTree) else None
     plan = WritePlan.of(package.root or ".", added.files, executable=added.executable, tree=tree)
@@ -288,7 +288,7 @@ def _summary(
     """Return what is written and edited, and the next commands."""
     from scaffold.generate import repository
     from scaffold.generate.update.provenance import NAME
-    from scaffold.plan import State
+    from scaffold.writing.plan import State
 
     words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
     rows = [

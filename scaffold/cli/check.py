@@ -13,14 +13,14 @@ from scaffold.cli import terminal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scaffold.check.fixer import Fixed
+    from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.rule import Rule
     from scaffold.check.selection import Selection
     from scaffold.check.session import Result, Session
-    from scaffold.config import Config
+    from scaffold.configuration.config import Config
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
 FORMATS = ("text", "json")
 
@@ -69,12 +69,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
-    from scaffold import config, content, reporters
+    from scaffold import reporters
     from scaffold.check import registry
     from scaffold.check.cache.results import Memory
     from scaffold.check.session import Session
     from scaffold.cli.interactive import progress
     from scaffold.cli.settings import warn
+    from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
     from scaffold.model.discovery import targets as discovery
 
@@ -134,7 +135,7 @@ def _write_fixes(
     """
     from contextlib import ExitStack
 
-    from scaffold.check import workspace_fixer
+    from scaffold.check.fixes import workspace_fixer
     from scaffold.cli import writing
     from scaffold.cli.interactive.progress import Bar
     from scaffold.errors import ScaffoldError
@@ -169,7 +170,7 @@ def _write_fixes(
 
 def _note_links(fixed: Fixed) -> None:
     """Say which files keep their findings because they are somewhere else."""
-    from scaffold.plan import target_outside
+    from scaffold.writing.plan import target_outside
 
     root = fixed.package.directory
     for path in sorted({one.location.path for one in fixed.diagnostics}):
@@ -211,7 +212,7 @@ def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
     """
     from scaffold.errors import ConflictError
     from scaffold.files.tree import DiskTree
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     plan = WritePlan.of(
         fixed.package.directory,
@@ -231,7 +232,7 @@ def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
 
 
 def _patch(plans: Sequence[WritePlan]) -> str:
-    from scaffold import patch
+    from scaffold.writing import patch
 
     base = patch.base([plan.root for plan in plans])
     return "".join(plan.diff(relative_to=base) for plan in plans)
@@ -241,7 +242,7 @@ def _report_fixes(
     options: argparse.Namespace, results: list[Result], fixed: Sequence[Fixed]
 ) -> int:
     from scaffold import reporters
-    from scaffold.check.fixer import MAX_ROUNDS
+    from scaffold.check.fixes.fixer import MAX_ROUNDS
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(one.applied for one in fixed)

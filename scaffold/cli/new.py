@@ -14,20 +14,20 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
     from scaffold.cli.interactive.wizard import Asked
-    from scaffold.config import Config
+    from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
     from scaffold.generate.draft import Draft
     from scaffold.generate.edit.addition import ByHand
     from scaffold.generate.questions.questions import Given
     from scaffold.generate.repository import Place
     from scaffold.generate.templates.template import Template
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
-    from scaffold import content
     from scaffold.cli import flags, settings
+    from scaffold.configuration import content
     from scaffold.generate import parts
     from scaffold.generate.questions import questions
     from scaffold.generate.templates import template
@@ -52,9 +52,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write a package; return the exit code."""
-    from scaffold import config, content
     from scaffold.check import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold.configuration import config, content
     from scaffold.errors import ScaffoldError
     from scaffold.generate import dependency_names, destination, draft, repository
     from scaffold.generate.questions.defaults import User
@@ -203,7 +203,7 @@ def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> Wr
     """Compare with what is there; an existing package is left alone without ``--force``."""
     from scaffold.generate import repository
     from scaffold.generate.update import provenance
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     directory = _refuse_existing(options, made.name)
     files = repository.inside(made.rendered.files)
@@ -253,8 +253,8 @@ def _plan_above(
 
 def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     """Return the directory of a package; raise if it is there and may not be overwritten."""
-    from scaffold import transaction
     from scaffold.errors import ConflictError
+    from scaffold.writing import transaction
 
     directory = os.path.normpath(os.path.join(options.destination_directory, name))
     if os.path.islink(directory):
@@ -318,7 +318,7 @@ def _summary(
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:
     from scaffold.generate.update import provenance
-    from scaffold.plan import State
+    from scaffold.writing.plan import State
 
     notes_of = {provenance.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
     words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}

@@ -33,11 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold import content
     from scaffold.ament.codes import CODES
     from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
+    from scaffold.configuration import content
 
     own = settings.load(options.content).content
     rules = all_rules(registry.load(content.roots("rules", own)))

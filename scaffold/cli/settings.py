@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
-    from scaffold.config import Config
+    from scaffold.configuration.config import Config
 
 
 def load(content: Sequence[str] = ()) -> Config:
@@ -21,7 +21,7 @@ def load(content: Sequence[str] = ()) -> Config:
     Raises:
         ConfigError: a file cannot be used.
     """
-    from scaffold import config
+    from scaffold.configuration import config
 
     settings = config.load(content=tuple(content))
     warn(settings.warnings)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from scaffold.printable import printable
 
 if TYPE_CHECKING:
-    from scaffold.smoke.interruption import Interruption
+    from scaffold.smoke.cleanup.interruption import Interruption
 
 FORMATS = ("text", "json")
 SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM")}
@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
     """Build, run and observe packages; return the exit code."""
     from signal import Signals
 
-    from scaffold.smoke.interruption import InterruptedBySignalError, Interruption
+    from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
 
     interruption = Interruption()
     try:

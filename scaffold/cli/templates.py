@@ -41,8 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List templates, or test them."""
-    from scaffold import content
     from scaffold.cli import settings
+    from scaffold.configuration import content
     from scaffold.generate.templates import template
 
     if options.directory is None:
@@ -95,9 +95,9 @@ def _test(
     names: Sequence[str],
 ) -> int:
     """Say what became of each example; 1 if something is wrong, or nothing can be."""
-    from scaffold import content
     from scaffold.check import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
+    from scaffold.configuration import content
     from scaffold.generate import examples
 
     rules = registry.load(content.roots("rules"))
@@ -154,7 +154,7 @@ def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
 
 def _written(made: Draft, directory: str) -> Package:
     from scaffold.model.package import Package
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     place = os.path.join(directory, made.name)
     WritePlan.of(place, made.rendered.files, executable=made.rendered.executable).write()

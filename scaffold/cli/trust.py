@@ -25,8 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Change or show the list of trusted directories."""
-    from scaffold import trust
     from scaffold.cli.exit_codes import CLEAN
+    from scaffold.configuration import trust
     from scaffold.errors import InputError
 
     if options.list:
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _add(directory: str) -> None:
-    from scaffold import config, trust
+    from scaffold.configuration import config, trust
 
     has_file = os.path.isfile(os.path.join(directory, config.PROJECT_FILE))
     # Before anything is trusted: the file may be broken.
@@ -60,7 +60,7 @@ def _add(directory: str) -> None:
 
 
 def _list() -> None:
-    from scaffold import trust
+    from scaffold.configuration import trust
     from scaffold.files.disk import Disk
 
     disk = Disk()

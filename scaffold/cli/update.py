@@ -10,7 +10,7 @@ from scaffold.cli import terminal
 
 if TYPE_CHECKING:
     from scaffold.generate.update.update import Updated
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,9 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Bring a package in step with the templates; 1 when there is something to decide."""
-    from scaffold import content
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
+    from scaffold.configuration import content
     from scaffold.errors import InputError
     from scaffold.files.tree import DiskTree
     from scaffold.generate import repository
@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.templates import template
     from scaffold.generate.update import update
     from scaffold.generate.update.provenance import NAME
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
@@ -72,7 +72,7 @@ def _summary(
 ) -> str:
     """Return a line for each file that changes, and what to do about conflicts."""
     from scaffold.generate.repository import MARK
-    from scaffold.plan import State
+    from scaffold.writing.plan import State
 
     if not updated.changed:
         return "The package is in step with the templates."

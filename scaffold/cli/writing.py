@@ -25,7 +25,7 @@ def held(directory: str, *, is_dry: bool) -> Iterator[None]:
     Raises:
         LockedError: another process holds the package for too long.
     """
-    from scaffold import transaction
+    from scaffold.writing import transaction
 
     if is_dry:
         note_unfinished(directory)
@@ -53,7 +53,7 @@ def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
         roots: The directories of the packages.
         is_dry: Whether nothing is going to be written.
     """
-    from scaffold import transaction
+    from scaffold.writing import transaction
 
     if is_dry:
         for root in roots:
@@ -91,7 +91,7 @@ def _allow_open_files(count: int) -> None:
 
 def note_unfinished(directory: str) -> bool:
     """Say so if a run was cut off while it changed a package; tell whether that is so."""
-    from scaffold import temporary
+    from scaffold.files import temporary
 
     try:
         names = os.listdir(directory)
@@ -99,7 +99,7 @@ def note_unfinished(directory: str) -> bool:
         return False
     if not any(map(temporary.is_temporary, names)):
         return False  # without the imports of the next line: so it nearly always is
-    from scaffold import transaction
+    from scaffold.writing import transaction
 
     is_unfinished = transaction.is_unfinished(directory)
     if is_unfinished:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 
-from scaffold import home
+from scaffold.files import home
 from scaffold.files.disk import digest
 
 SWITCH = "SCAFFOLD_NO_CACHE"
@@ -70,7 +70,7 @@ def _is_in_repository(path: str) -> bool:
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:
     """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
-    from scaffold import temporary
+    from scaffold.files import temporary
 
     directory = os.path.dirname(path)
     aside = os.path.join(directory, temporary.name())
@@ -100,7 +100,7 @@ def trim(kept: str, most: int) -> None:
     """
     from time import time
 
-    from scaffold import temporary
+    from scaffold.files import temporary
 
     files: list[tuple[float, int, str]] = []
     oldest = time() - _ABANDONED_AFTER

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from scaffold import home
-from scaffold.config import USER_FILE
+from scaffold.configuration.config import USER_FILE
 from scaffold.errors import ContentError, InputError
+from scaffold.files import home
 from scaffold.generate import parts
 from scaffold.generate.connections import clashes, uses
 from scaffold.generate.context import package_context, part_scopes, today

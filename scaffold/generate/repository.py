@@ -17,7 +17,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.generate.edit.addition import ByHand
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
 _T = TypeVar("_T")
 
@@ -119,7 +119,7 @@ def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
         InputError: a file cannot be read, or a link leads out of the repository.
         ConflictError: there is a directory in the place of a file.
     """
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     return WritePlan.of(place.top, files) if files else None
 
@@ -246,7 +246,7 @@ def _missing_directories(first: WritePlan) -> list[str]:
 
 def _undo(first: WritePlan, directories: list[str]) -> None:
     """Take back what a plan has written."""
-    from scaffold.plan import WritePlan
+    from scaffold.writing.plan import WritePlan
 
     before = {file.path: file.before for file in first.changes}
     new = [path for path, content in before.items() if content is None]

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scaffold.model.package import Package as Source
-from scaffold.smoke import output, process
 from scaffold.smoke.environment import Environment
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.result import Build
 
 _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")

@@ -15,10 +15,10 @@ from functools import partial
 from glob import escape, glob
 from pathlib import Path
 
-from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
-from scaffold.smoke import process
-from scaffold.smoke.process import Captured, Origin
+from scaffold.programs import installation
+from scaffold.smoke.processes import process
+from scaffold.smoke.processes.process import Captured, Origin
 
 INSTALLED = Path("/opt/ros")
 PREFERRED_DISTRO = "jazzy"

@@ -10,9 +10,9 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any, cast
 
-from scaffold.smoke import output, process
 from scaffold.smoke.expectation import Offer
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.result import Observation, Topic
 
 PROBE = Path(__file__).with_name("probe.py")

@@ -7,8 +7,9 @@ import os
 from collections.abc import Sequence
 
 from scaffold.model.package import Package
-from scaffold.smoke import environment, leftovers
+from scaffold.smoke import environment
 from scaffold.smoke.build import Layout, build
+from scaffold.smoke.cleanup import leftovers
 from scaffold.smoke.result import Build
 
 TIMEOUT = 900.0

@@ -9,11 +9,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from scaffold.smoke import output, process
 from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.isolation.station import Station, Stations
 from scaffold.smoke.observe import ObserverError
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.result import Observation, Problem, Stop
 
 RETRIES = 2

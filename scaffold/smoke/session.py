@@ -17,17 +17,18 @@ from scaffold.files.tree import MANIFEST
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package as Source
 from scaffold.smoke import environment as environments
-from scaffold.smoke import leftovers, process, supervisor
 from scaffold.smoke import run as trial
 from scaffold.smoke.build import Layout, build
+from scaffold.smoke.cleanup import leftovers
+from scaffold.smoke.cleanup.interruption import Interruption
+from scaffold.smoke.cleanup.leftovers import Run
+from scaffold.smoke.cleanup.workspace_lock import WAIT, locked
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.expectation import Expectation, compare, wrong_rates
-from scaffold.smoke.interruption import Interruption
 from scaffold.smoke.isolation.station import Stations
-from scaffold.smoke.leftovers import Run
+from scaffold.smoke.processes import process, supervisor
 from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
 from scaffold.smoke.run import Plan, Trial
-from scaffold.smoke.workspace_lock import WAIT, locked
 
 Result = TypeVar("Result")
 

@@ -15,13 +15,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from scaffold import content
 from scaffold.ament import copyright as notices
 from scaffold.ament import lint_cmake
 from scaffold.ament.xmllint import check as check_xml
 from scaffold.ament.xmllint import violations
-from scaffold.check import fixer, registry, runner
+from scaffold.check import registry, runner
+from scaffold.check.fixes import fixer
 from scaffold.check.rule import Rule
+from scaffold.configuration import content
 from scaffold.diagnostic import Severity
 from scaffold.model.manifest.structure import collapse
 from scaffold.model.manifest.values import is_uri

@@ -20,7 +20,7 @@ from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.pep257 import reference
 from scaffold.ament.python_text import fstrings
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START
-from scaffold.check import fixer
+from scaffold.check.fixes import fixer
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files import cache

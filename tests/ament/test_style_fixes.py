@@ -13,7 +13,7 @@ import pytest
 
 from scaffold.ament import StyleCheck, fixable
 from scaffold.ament.codes import CODES
-from scaffold.check import fixer
+from scaffold.check.fixes import fixer
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Safety
 from scaffold.model.package import Package

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry, runner
 from scaffold.check.areas import silent
 from scaffold.check.rule import Example, Rule
+from scaffold.configuration import content
 from scaffold.files.tree import MemoryTree
 from scaffold.generate import draft, examples
 from scaffold.generate.questions.defaults import User

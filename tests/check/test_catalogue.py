@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.check.session import all_rules
+from scaffold.configuration import content
 
 CODES = {rule.code for rule in all_rules(registry.load(content.roots("rules")))}
 TEXT = (Path(__file__).parents[2] / "docs" / "catalogue.md").read_text()

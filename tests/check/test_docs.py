@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.check import docs, registry
 from scaffold.check.session import all_rules
+from scaffold.configuration import content
 
 if sys.version_info >= (3, 11):
     import tomllib

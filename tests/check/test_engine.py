@@ -8,12 +8,12 @@ from typing import ClassVar
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry, runner, selection, suppression
-from scaffold.check.fixer import splice
+from scaffold.check.fixes.fixer import splice
 from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
+from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Edit
 from scaffold.errors import ConfigError, ContentError

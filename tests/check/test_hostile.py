@@ -16,12 +16,12 @@ from typing import Any
 
 import pytest
 
-from scaffold import content
 from scaffold.ament import verdict as style
 from scaffold.ament.finding import FLAKE8
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
+from scaffold.configuration import content
 from scaffold.model.package import Package
 
 MANIFEST = """<?xml version="1.0"?>

@@ -16,7 +16,8 @@ import pytest
 from scaffold.ament import backend
 from scaffold.ament.finding import Finding
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.check import fixer, runner
+from scaffold.check import runner
+from scaffold.check.fixes import fixer
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.files.disk import Disk, LargeFileError, holds
@@ -239,8 +240,8 @@ MODEL = f'<?xml-model href="a.rng" schematypens="{RNG}"?>\n<a>{{}}</a>\n'
 
 
 def _schema_findings(package: Package) -> Sequence[tuple[str, str]]:
-    from scaffold import content
     from scaffold.check import registry
+    from scaffold.configuration import content
 
     rules = registry.load(content.roots("rules", ()))
     found = Session(rules, Selection(select=("PX051", "PX052"))).check(package)

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
-from scaffold.check import fixer, registry, runner, suppression
+from scaffold.check import registry, runner, suppression
 from scaffold.check.examples import package_of, reports
+from scaffold.check.fixes import fixer
 from scaffold.check.rule import Example, Rule
+from scaffold.configuration import content
 
 RULES = registry.load(content.roots("rules"))
 CASES = [

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.generate.templates import template
 
 needs_ros = pytest.mark.skipif(

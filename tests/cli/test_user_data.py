@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import config
 from scaffold.cli.main import main
+from scaffold.configuration import config
 from scaffold.errors import ConfigError, InputError
 from scaffold.generate import yaml_file
 

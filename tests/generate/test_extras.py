@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 import yaml
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.errors import InputError
 from scaffold.generate import draft

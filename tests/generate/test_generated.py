@@ -20,10 +20,10 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
+from scaffold.configuration import content
 from scaffold.generate import draft
 from scaffold.generate.questions import answer_types, names, qos
 from scaffold.generate.questions.defaults import User
@@ -31,8 +31,8 @@ from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import licenses, template
 from scaffold.generate.templates.template import Role
 from scaffold.model.discovery import targets
-from scaffold.plan import WritePlan
 from scaffold.smoke import environment
+from scaffold.writing.plan import WritePlan
 from tests import PATIENCE, oracles
 from tests.oracles import needs_system_linter
 

@@ -16,8 +16,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from scaffold import content
 from scaffold.check import registry
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft
 from scaffold.generate.questions import questions
@@ -26,8 +26,8 @@ from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import template
 from scaffold.generate.templates.template import PARTS, Question, Role
 from scaffold.model.cmake.parser import parse as parse_cmake
-from scaffold.plan import WritePlan
 from scaffold.source import Source
+from scaffold.writing.plan import WritePlan
 from tests import oracles
 from tests.oracles import needs_system_linter
 

@@ -13,16 +13,16 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.fields import fields
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import template
-from scaffold.plan import WritePlan
 from scaffold.smoke import environment
+from scaffold.writing.plan import WritePlan
 
 ROOTS = content.roots("templates")
 TEMPLATES = template.load(ROOTS)

@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from scaffold import content, trust
 from scaffold.check.rule import Rule
 from scaffold.cli.main import main
+from scaffold.configuration import content, trust
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import draft, examples, payload
 from scaffold.generate.questions import answer_types, names

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft
 from scaffold.generate.questions import questions

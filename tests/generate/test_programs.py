@@ -11,16 +11,16 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from scaffold import content
 from scaffold.check import registry
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import template
 from scaffold.generate.templates.template import Role
-from scaffold.plan import WritePlan
 from scaffold.smoke import environment
+from scaffold.writing.plan import WritePlan
 from tests import oracles
 from tests.oracles import needs_system_linter
 

@@ -16,8 +16,8 @@ from scaffold.files.disk import Disk
 from scaffold.generate import repository
 from scaffold.generate.update.provenance import NAME, parse
 from scaffold.model.discovery import colcon
-from scaffold.plan import WritePlan
-from tests.cli.test_pre_commit import CONFIG, FINDING, Repository, break_, variables
+from scaffold.writing.plan import WritePlan
+from tests.generate.test_pre_commit import CONFIG, FINDING, Repository, break_, variables
 
 __all__ = ["variables"]
 

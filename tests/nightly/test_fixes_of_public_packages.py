@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check.soundness import reader_of
+from scaffold.check.fixes.soundness import reader_of
 from scaffold.cli.main import main
 from scaffold.errors import ScaffoldError
 from scaffold.files.disk import Disk

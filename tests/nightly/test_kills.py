@@ -12,8 +12,10 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from scaffold import content, rename, temporary
 from scaffold.cli.main import main
+from scaffold.configuration import content
+from scaffold.files import temporary
+from scaffold.writing import rename
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timeout(0)]
 

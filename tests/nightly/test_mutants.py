@@ -20,12 +20,13 @@ from typing import Any
 
 import pytest
 
-from scaffold import content
-from scaffold.check import fixer, registry
+from scaffold.check import registry
+from scaffold.check.fixes import fixer
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.model.package import Package
 from tests.nightly.mutation import Files, mutate
 

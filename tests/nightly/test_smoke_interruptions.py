@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.smoke import leftovers
+from scaffold.smoke.cleanup import leftovers
 from scaffold.smoke.isolation import shared_memory
 from tests import PATIENCE
 from tests.smoke.smoke_packages import ONCE, python_package, talker
-from tests.smoke_runs import NEEDS_ROS, command_line, processes_of, variables, wait_until
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variables, wait_until
 
 pytestmark = [pytest.mark.nightly, NEEDS_ROS]
 

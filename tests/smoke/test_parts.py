@@ -16,12 +16,13 @@ from typing import Any, TypeVar
 
 import pytest
 
-from scaffold import installation
 from scaffold.errors import EnvironmentMissingError
-from scaffold.smoke import build, environment, output, probe, process
+from scaffold.programs import installation
+from scaffold.smoke import build, environment, probe
 from scaffold.smoke import run as trial
 from scaffold.smoke.isolation import domain, shared_memory
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.report import report
 from scaffold.smoke.result import (
     Build,

@@ -18,7 +18,14 @@ from scaffold.smoke.report import as_data
 from scaffold.smoke.session import Options, packages_of, smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import BAD, GOOD, ONCE, cmake_package, python_package, talker, write
-from tests.smoke_runs import NEEDS_ROS, ROOT, command_line, processes_of, variables, wait_until
+from tests.smoke.smoke_runs import (
+    NEEDS_ROS,
+    ROOT,
+    command_line,
+    processes_of,
+    variables,
+    wait_until,
+)
 
 pytestmark = [pytest.mark.build, NEEDS_ROS]
 

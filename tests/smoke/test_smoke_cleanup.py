@@ -17,13 +17,21 @@ from typing import Any
 import pytest
 
 from scaffold.errors import InputError
-from scaffold.smoke import ledger, leftovers, output, process, process_table, supervisor
+from scaffold.smoke.cleanup import ledger, leftovers
+from scaffold.smoke.cleanup.workspace_lock import NAME, locked
 from scaffold.smoke.isolation import shared_memory
-from scaffold.smoke.process import Origin
-from scaffold.smoke.workspace_lock import NAME, locked
+from scaffold.smoke.processes import output, process, supervisor, table
+from scaffold.smoke.processes.process import Origin
 from tests import PATIENCE
 from tests.smoke.smoke_packages import python_package, talker
-from tests.smoke_runs import NEEDS_ROS, command_line, pids_of, processes_of, variables, wait_until
+from tests.smoke.smoke_runs import (
+    NEEDS_ROS,
+    command_line,
+    pids_of,
+    processes_of,
+    variables,
+    wait_until,
+)
 
 DETACHED = """\
 import os, sys
@@ -243,7 +251,7 @@ def test_process_of_a_dead_run_is_ended(state: Path, monkeypatch: pytest.MonkeyP
     with subprocess.Popen(["sleep", "600"]) as ours, subprocess.Popen(["sleep", "600"]) as other:
         entries = []
         for one, shift in ((ours, 0), (other, 1)):
-            listed = process_table.of_pid(one.pid)
+            listed = table.of_pid(one.pid)
             assert listed is not None
             entries.append((one.pid, listed.started + shift))
         path = abandon(state, "3" * 32, line, {"processes": entries})

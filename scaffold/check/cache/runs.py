@@ -11,7 +11,7 @@ import marshal
 import os
 import sys
 
-from scaffold.content import built_in
+from scaffold.configuration.content import built_in
 from scaffold.files import cache
 from scaffold.files.disk import digest, holds, stamp
 

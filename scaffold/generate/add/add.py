@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 from scaffold.ament.copyright import REPOSITORY_FILES
-from scaffold.check.overlay import Overlay
+from scaffold.check.fixes.overlay import Overlay
 from scaffold.errors import ConflictError, InputError
 from scaffold.generate import repository
 from scaffold.generate.add import regenerate, rendered_part

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from scaffold.check.fixer import splice
+from scaffold.check.fixes.fixer import splice
 from scaffold.edits import Edit
 from scaffold.record import NamedTuple
 from scaffold.source import Source

@@ -6,7 +6,7 @@ import os
 import re
 from functools import cached_property
 
-from scaffold.config import Config
+from scaffold.configuration.config import Config
 from scaffold.generate.questions.questions import Given
 from scaffold.record import NamedTuple
 
@@ -48,7 +48,7 @@ class User:
         """``user.name`` and ``user.email``, as far as git has them."""
         import subprocess
 
-        from scaffold import git
+        from scaffold.programs import git
 
         directory = os.path.abspath(self.directory)
         while not os.path.isdir(directory):

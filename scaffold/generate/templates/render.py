@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from typing import Any
 
-from scaffold import content
+from scaffold.configuration import content
 from scaffold.errors import ContentError
 from scaffold.generate.repository import MARK
 from scaffold.generate.templates import filters, licenses

@@ -7,8 +7,8 @@ import subprocess
 import tempfile
 from typing import NamedTuple
 
-from scaffold import git
 from scaffold.errors import InputError
+from scaffold.programs import git
 
 LABELS = ("yours", "template before", "template now")
 """What stands behind the marks of a conflict."""

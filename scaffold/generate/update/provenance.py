@@ -14,11 +14,12 @@ from collections.abc import Mapping
 from datetime import date
 from typing import Any
 
-from scaffold import __version__, installation
+from scaffold import __version__
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
+from scaffold.programs import installation
 from scaffold.record import NamedTuple
-from scaffold.transaction import RECORD
+from scaffold.writing.transaction import RECORD
 
 NAME = RECORD
 """The record's path in a package."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from scaffold.smoke import observe
 from scaffold.smoke.isolation import domain
 from scaffold.smoke.observe import Observer
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes.process import Origin
 
 FAST_DISCOVERY = """\
 <?xml version="1.0" encoding="UTF-8"?>

@@ -643,7 +643,7 @@ def _asks(path: Path) -> set[str]:
         "scaffold/ament/lint_cmake.py",
         "scaffold/ament/xmllint.py",
         "scaffold/check",
-        "scaffold/config.py",
+        "scaffold/configuration/config.py",
     ],
 )
 def test_nothing_looks_at_files_without_a_note(part: str) -> None:

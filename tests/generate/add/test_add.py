@@ -11,8 +11,8 @@ from textwrap import dedent
 
 import pytest
 
-from scaffold import content
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.generate import parts
 from scaffold.generate.edit.addition import Addition
 from scaffold.generate.edit.edit import Edited, edit

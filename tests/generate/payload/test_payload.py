@@ -17,10 +17,10 @@ from typing import Any
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft, payload
 from scaffold.generate.payload import ActionPayload, Payload, SectionPayload, ServicePayload
@@ -32,8 +32,8 @@ from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
 from scaffold.model.workspace.workspace import Workspace
-from scaffold.plan import WritePlan
 from scaffold.smoke import environment
+from scaffold.writing.plan import WritePlan
 from tests import oracles
 from tests.generate.payload.publishing import Publisher, receive
 

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.errors import ContentError
 from scaffold.generate import examples
 from scaffold.generate.draft import draft

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import __version__, content, installation
+from scaffold import __version__
 from scaffold.cli.main import main
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate.update import merge, provenance
+from scaffold.programs import installation
 
 TEMPLATES = Path(content.roots("templates")[0])
 NODE = "talker/minimal_publisher.py"

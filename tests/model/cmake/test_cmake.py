@@ -13,8 +13,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from scaffold import content
 from scaffold.check import registry, runner
+from scaffold.configuration import content
 from scaffold.edits import Edit
 from scaffold.model.cmake import edit as cmake_edit
 from scaffold.model.cmake.lists import CMakeLists, Command, Install

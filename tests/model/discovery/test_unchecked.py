@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry, runner
+from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.files.disk import holds
 from scaffold.model.discovery import targets as discovery

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scaffold import content
 from scaffold.check import registry, runner
+from scaffold.configuration import content
 from scaffold.files.tree import MemoryTree
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Mapping, Scalar

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import content
 from scaffold.check import registry, runner
+from scaffold.configuration import content
 from scaffold.files.disk import Disk, holds
 from scaffold.model.discovery import targets
 from scaffold.model.workspace.rosdep import RosdepKeys, cached_keys

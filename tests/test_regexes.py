@@ -121,8 +121,8 @@ def test_comparisons(line: str, codes: list[str]) -> None:
 
 
 def test_numbers_of_thousands_of_digits_are_no_defect() -> None:
-    from scaffold import content
     from scaffold.check import registry, runner
+    from scaffold.configuration import content
 
     digits = "9" * 5000
     package = Package.of(

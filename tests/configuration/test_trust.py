@@ -17,15 +17,16 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import config, git, programs, trust
 from scaffold.ament import ruff
 from scaffold.check.cache import rule_bytecode
 from scaffold.check.session import Session
 from scaffold.cli.main import main
+from scaffold.configuration import config, trust
 from scaffold.errors import ConfigError, EnvironmentMissingError, InputError
 from scaffold.files import cache
 from scaffold.files.disk import Disk, digest, stamp
 from scaffold.model.package import Package
+from scaffold.programs import git, search
 
 ROOT = Path(__file__).parents[2]
 RULE = '''"""A rule of a stranger's."""
@@ -434,7 +435,7 @@ def test_many_at_once_all_count(repository: Repository) -> None:
     names = [f"d{number}" for number in range(8)]
     for name in names:
         (repository.root / name).mkdir()
-    code = "import sys; from scaffold import trust; trust.add(sys.argv[1])"
+    code = "import sys; from scaffold.configuration import trust; trust.add(sys.argv[1])"
     running = [subprocess.Popen([sys.executable, "-c", code, name]) for name in names]
     assert [process.wait() for process in running] == [0] * len(names)
     assert set(trust.trusted(Disk())) == {str(repository.root / name) for name in names}
@@ -726,7 +727,7 @@ def test_git_is_run_in_one_place() -> None:
         for path in (ROOT / "scaffold").rglob("*.py")
         if re.search(r"""[\[(]["']git["'][,)]""", path.read_text())
     ]
-    assert places == ["scaffold/git.py"]
+    assert places == ["scaffold/programs/git.py"]
 
 
 @pytest.mark.parametrize("entry", ["", ".", "bin"])
@@ -738,9 +739,9 @@ def test_no_program_of_the_repository_is_found_on_the_path(
             f"{entry or '.'}/{name}", f"#!/bin/sh\ntouch {repository.canary}\n"
         )
         script.chmod(0o755)
-    own = programs.find("git")
+    own = search.find("git")
     monkeypatch.setenv("PATH", os.pathsep.join((entry, os.environ["PATH"])))
-    assert programs.find("git") == own
+    assert search.find("git") == own
     repository.file.unlink()
     assert run("new", "own").code == 0
     # Without a ruff of the running Python, the PATH is asked.

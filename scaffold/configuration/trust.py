@@ -11,8 +11,8 @@ import contextlib
 import os
 from collections.abc import Iterator
 
-from scaffold import home
 from scaffold.errors import ConfigError, InputError
+from scaffold.files import home
 from scaffold.files.disk import Disk
 
 FILE = "trusted"

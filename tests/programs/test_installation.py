@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
-PROGRAM = "from scaffold import installation; print(installation.command('ros'))"
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = "from scaffold.programs import installation; print(installation.command('ros'))"
 CLONE = "pipx install --force '.[ros]' (in a clone of its repository)"
 
 

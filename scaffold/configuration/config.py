@@ -14,8 +14,9 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from scaffold import home, trust
+from scaffold.configuration import trust
 from scaffold.errors import ConfigError
+from scaffold.files import home
 from scaffold.files.disk import Disk
 from scaffold.record import NamedTuple
 

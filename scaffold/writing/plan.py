@@ -14,10 +14,10 @@ from contextlib import suppress
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from scaffold import new_files, transaction
 from scaffold.errors import ConflictError, InputError
 from scaffold.files.disk import digest
 from scaffold.record import NamedTuple
+from scaffold.writing import new_files, transaction
 
 if TYPE_CHECKING:
     from scaffold.files.tree import DiskTree
@@ -132,7 +132,7 @@ class WritePlan:
             relative_to: The directory to which the paths in the patch are relative; by default
                 that of `patch.base`.
         """
-        from scaffold import patch
+        from scaffold.writing import patch
 
         base = relative_to or patch.base([self.root])
         return "".join(patch.of(file, base) for file in self.changes if file.path not in hidden)

@@ -13,7 +13,7 @@ import pytest
 
 from tests import PATIENCE
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 NEEDS_ROS = pytest.mark.skipif(
     find_spec("rclpy") is None and not Path("/opt/ros").exists(),
     reason="no ROS 2: install the extra 'ros' of this project",

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import patch
-from scaffold.plan import WritePlan
 from scaffold.printable import write_lines
+from scaffold.writing import patch
+from scaffold.writing.plan import WritePlan
 
 Tree = dict[str, tuple[bytes, bool]]
 """Content of all files by path, and whether they are executable."""

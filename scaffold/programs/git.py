@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import subprocess
 
-from scaffold import programs
+from scaffold.programs import search
 
 _PROTECTION = (
     "--no-pager",
@@ -30,7 +30,7 @@ def run(*words: str, directory: str) -> subprocess.CompletedProcess[bytes]:
         OSError: git cannot be started.
         subprocess.TimeoutExpired: it did not end.
     """
-    program = programs.find("git")
+    program = search.find("git")
     if program is None:
         raise FileNotFoundError("git")
     return subprocess.run(

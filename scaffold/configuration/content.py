@@ -10,7 +10,7 @@ TYPE_CHECKING = False  # the one of typing is slow to import, and every start ne
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-_HERE = os.path.dirname(os.path.abspath(__file__))
+_HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def built_in() -> str:

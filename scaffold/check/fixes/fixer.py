@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from scaffold.check.overlay import Overlay
-from scaffold.check.soundness import breaks
+from scaffold.check.fixes.overlay import Overlay
+from scaffold.check.fixes.soundness import breaks
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.files.tree import MANIFEST

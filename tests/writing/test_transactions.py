@@ -16,11 +16,11 @@ from typing import Any
 
 import pytest
 
-from scaffold import lock, rename, temporary, transaction
 from scaffold.cli.main import main
 from scaffold.errors import ConflictError, InputError, LockedError
-from scaffold.files import cache
-from scaffold.plan import WritePlan
+from scaffold.files import cache, temporary
+from scaffold.writing import lock, rename, transaction
+from scaffold.writing.plan import WritePlan
 
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 BEFORE = {"a": "old a\n", "b/c": "old c\n", "gone": "old\n", transaction.RECORD: "old record\n"}
@@ -321,7 +321,7 @@ def test_a_killed_holder_holds_nothing(tmp_path: Path) -> None:
 def holding(directory: Path) -> Iterator[int]:
     """Let another process hold the lock of a directory."""
     script = (
-        "import sys\nfrom scaffold import lock\n"
+        "import sys\nfrom scaffold.writing import lock\n"
         "with lock.locked(sys.argv[1], print):\n    print('held', flush=True)\n    sys.stdin.read()"
     )
     with subprocess.Popen(
@@ -386,7 +386,7 @@ def killed_writer_left_a_journal(root: Path, at: int) -> bool:
 
 def test_new_sweeps_what_a_killed_new_left(tmp_path: Path) -> None:
     script = (
-        "import os, signal, sys\nfrom scaffold.plan import WritePlan\n"
+        "import os, signal, sys\nfrom scaffold.writing.plan import WritePlan\n"
         "os.rename = lambda *_: os.kill(os.getpid(), signal.SIGKILL)\n"
         "WritePlan.of(sys.argv[1], {'a/b': '1'}).write()"
     )

@@ -14,9 +14,11 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from scaffold.smoke import ledger, process, process_table
+from scaffold.smoke.cleanup import ledger
 from scaffold.smoke.isolation import shared_memory
-from scaffold.smoke.process import Origin
+from scaffold.smoke.processes import process
+from scaffold.smoke.processes import table as process_table
+from scaffold.smoke.processes.process import Origin
 
 MARKER = ".ros2-scaffold-smoke"
 """The file in a scratch directory that holds the mark of its run."""

@@ -25,9 +25,9 @@ import stat
 import sys
 import time
 
-from scaffold.smoke import process_table
 from scaffold.smoke.isolation import shared_memory
-from scaffold.smoke.process_table import Process
+from scaffold.smoke.processes import table
+from scaffold.smoke.processes.table import Process
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -198,7 +198,7 @@ class Supervisor:
 
     def _note_segments(self) -> None:
         """Write down which segments the processes use: kept, should we be killed ourselves."""
-        pids = [process.pid for process in process_table.descendants(os.getpid())]
+        pids = [process.pid for process in table.descendants(os.getpid())]
         new = sorted(shared_memory.used_by(pids) - self._segments)
         if not new:
             return
@@ -210,8 +210,8 @@ class Supervisor:
         if time.monotonic() < self._next_listing:
             return
         self._next_listing = time.monotonic() + LISTING_PERIOD
-        own = process_table.of_pid(os.getpid())
-        processes = [*process_table.descendants(os.getpid()), *([own] if own else [])]
+        own = table.of_pid(os.getpid())
+        processes = [*table.descendants(os.getpid()), *([own] if own else [])]
         new = {(process.pid, process.started) for process in processes} - self._processes
         if new:
             self._processes.update(new)
@@ -248,12 +248,12 @@ class Supervisor:
 
     def _living(self) -> list[Process]:
         self._reap()
-        return process_table.descendants(os.getpid())
+        return table.descendants(os.getpid())
 
     def _end_all(self) -> list[str]:
         """End all descendants; return the command lines of those that had outlived the command."""
         living = self._living()
-        left = [process_table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
+        left = [table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
         for process in living:
             _send(process.pid, signal.SIGTERM)
             _send(process.pid, signal.SIGCONT)

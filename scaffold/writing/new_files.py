@@ -11,7 +11,7 @@ import os
 import stat
 from contextlib import suppress
 
-from scaffold import temporary
+from scaffold.files import temporary
 
 _EXECUTABLE = stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, BinaryIO
 
-from scaffold.smoke import process_table
+from scaffold.smoke.processes import table as process_table
 
 MARK = "ROS2_SCAFFOLD_SMOKE"
 """The variable by which a process of a run is known, whatever has become of its parent."""
@@ -35,9 +35,10 @@ GRACE_OF_CHILDREN = 1.0
 LONGEST_EVENT = 2**24
 """Bytes of an event of a supervisor: it may hold many command lines."""
 
-_ROOT = str(Path(__file__).parent.parent.parent)
+_ROOT = os.path.dirname(str(Path(__file__).parent.parent.parent))
 _SUPERVISE = (
-    f"import sys; sys.path.append({_ROOT!r}); from scaffold.smoke.supervisor import main; main()"
+    f"import sys; sys.path.append({_ROOT!r}); "
+    "from scaffold.smoke.processes.supervisor import main; main()"
 )
 """Run without the site module: that of the ROS wheels would start Python twice."""
 

@@ -15,13 +15,13 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import fixer
+from scaffold.check.fixes import fixer
 from scaffold.cli.main import main
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.model.package import Package
 from scaffold.source import Location
-from tests.test_patch import fill, git, tree
+from tests.writing.test_patch import fill, git, tree
 
 MANIFEST = (
     '<?xml version="1.0"?>\n<package format="3">\n  <name>{name}</name>\n'
@@ -73,8 +73,8 @@ Check = Callable[[Package], list[Diagnostic]]
 
 
 def test_all_dependencies_are_inserted_in_one_round_and_in_order() -> None:
-    from scaffold import content
     from scaffold.check import registry, runner
+    from scaffold.configuration import content
 
     rules = [rule() for rule in registry.load(content.roots("rules")) if rule.code == "PX020"]
     rounds: list[int] = []

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
-from scaffold.check import fixer
 from scaffold.check.cache.results import Needs
-from scaffold.check.fixer import MAX_ROUNDS, Fixed
-from scaffold.check.overlay import Overlay
+from scaffold.check.fixes import fixer
+from scaffold.check.fixes.fixer import MAX_ROUNDS, Fixed
+from scaffold.check.fixes.overlay import Overlay
 from scaffold.check.session import PARALLEL_FROM
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from scaffold.errors import ConflictError, InputError
-from scaffold.plan import State, WritePlan
+from scaffold.writing.plan import State, WritePlan
 
 
 def test_new_directory_appears_whole(tmp_path: Path) -> None:

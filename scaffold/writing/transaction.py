@@ -19,11 +19,12 @@ import stat
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
-from scaffold import new_files, rename, temporary
 from scaffold.errors import ConflictError
+from scaffold.files import temporary
 from scaffold.files.disk import digest
-from scaffold.lock import locked, try_lock
 from scaffold.record import NamedTuple
+from scaffold.writing import new_files, rename
+from scaffold.writing.lock import locked, try_lock
 
 TREE = "tree"
 """What a stage calls the directory that is to appear whole."""

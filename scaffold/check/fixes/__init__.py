@@ -1,0 +1,1 @@
+"""Applies fixes in memory until nothing is left to fix."""

@@ -1,0 +1,1 @@
+"""Other programs: where they are, and how this one was installed."""

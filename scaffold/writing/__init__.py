@@ -1,0 +1,1 @@
+"""Writing files: planned, locked, all of it or nothing."""
