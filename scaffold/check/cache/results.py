@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from scaffold import diagnostic as kinds
+from scaffold import edits as kinds
 from scaffold.check.cache.runs import Run, Slot
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.engine_rules import RuleCrashed
