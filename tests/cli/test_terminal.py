@@ -131,9 +131,9 @@ def test_an_argument_in_an_error(capsys: pytest.CaptureFixture[str]) -> None:
 def test_summaries_of_the_templates_of_a_team(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    template = tmp_path / "templates" / "extra"
+    template = tmp_path / "templates" / "extras" / "odd"
     template.mkdir(parents=True)
-    (template / "template.yaml").write_text(f"summary: {json.dumps(TRICKS)}\nrole: extra\n")
+    (template / "template.yaml").write_text(f"summary: {json.dumps(TRICKS)}\n")
 
     assert main(["templates", "list", str(tmp_path)]) == 0
 

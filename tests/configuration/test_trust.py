@@ -55,7 +55,7 @@ class Planted(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield self.report(package.manifest.get("name")[0], "planted")
 '''
-TEMPLATE = "summary: Planted\nrole: extra\nexamples: {}\n"
+TEMPLATE = "summary: Planted\nexamples: {}\n"
 PACKAGE = """<?xml version="1.0"?>
 <?xml-model href="http://download.ros.org/schema/package_format3.xsd" \
 schematypens="http://www.w3.org/2001/XMLSchema"?>
@@ -103,7 +103,7 @@ class Repository:
     def plant(self, directory: str) -> None:
         """Write a content directory with a rule and a template."""
         self.write(f"{directory}/rules/names/planted.py", RULE.format(canary=str(self.canary)))
-        self.write(f"{directory}/templates/planted/template.yaml", TEMPLATE)
+        self.write(f"{directory}/templates/extras/planted/template.yaml", TEMPLATE)
 
     @property
     def has_run(self) -> bool:
@@ -763,7 +763,7 @@ def test_the_record_of_a_package_names_no_templates(
     record = repository.root / "own" / ".ros2-scaffold.json"
     entries = json.loads(record.read_text())
     if key == "kind":
-        entries["answers"]["add"][0]["kind"] = "../../evil/templates/planted"
+        entries["answers"]["add"][0]["kind"] = "../../evil/templates/extras/planted"
         entries["answers"]["content"] = ["../evil"]
     else:
         entries["answers"]["description"] = "{% include '/etc/passwd' %}{{ 7 * 191 }}"

@@ -1020,12 +1020,12 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
 @pytest.mark.parametrize(
     ("manifest", "message"),
     [
-        ("[", "template.yaml: while parsing"),
+        ("[", "template.yaml:2: not YAML"),
         ("- a", "must be a mapping with the keys summary, questions"),
         ("groups: []", "the key 'summary' is missing"),
         ("summary: x\nrole: node", "unknown key 'role'"),
         ("summary: x\nfiles: []", "unknown key 'files'"),
-        ("summary: x\ninclude: []", "include must be a dict"),
+        ("summary: x\ninclude: []", "include must be a mapping"),
         (
             "summary: x\ndepends: {run: [a]}",
             "depends must map buildtool, build, build_export, depend, exec, test",

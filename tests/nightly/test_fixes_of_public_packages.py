@@ -18,6 +18,7 @@ from scaffold.cli.main import main
 from scaffold.errors import ScaffoldError
 from scaffold.files.disk import Disk
 from scaffold.model.discovery import colcon
+from scaffold.source import ViewError
 from tests import oracles
 from tests.oracles import Finding
 
@@ -72,7 +73,7 @@ def is_readable(root: Path, path: str) -> bool:
     assert read
     try:
         read(path, (root / path).read_bytes().decode())
-    except (SyntaxError, ValueError, RecursionError, ScaffoldError):
+    except (SyntaxError, ValueError, RecursionError, ScaffoldError, ViewError):
         return False
     return True
 
