@@ -22,6 +22,7 @@ help:
 	@echo 'make test        all tests, real builds included; PYTEST_ARGS=... for pytest'
 	@echo 'make test-quick  the tests without real builds'
 	@echo 'make nightly     broken packages through `check`, and killed runs; takes hours'
+	@echo 'make test-rules  the examples of all rules, in a small environment; PYTEST_ARGS=...'
 	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
 	@echo 'make lint        ruff, mypy and the direction of imports, on the whole repository'
 	@echo 'make format      let ruff format the code'
@@ -49,6 +50,10 @@ test-quick: $(VENV)/test.stamp
 .PHONY: nightly
 nightly: $(VENV)/test.stamp
 	$(BIN)/python -m pytest -m nightly tests/nightly $(PYTEST_ARGS)
+
+.PHONY: test-rules
+test-rules: $(VENV)/rules.stamp
+	$(BIN)/python -m pytest tests/check/test_rules.py $(PYTEST_ARGS)
 
 .PHONY: versions
 versions: $(VENV)/test.stamp
@@ -98,10 +103,14 @@ $(VENV)/demo.stamp: $(VENV)/made.stamp pyproject.toml
 	@$(PIP_INSTALL) --editable '.[ros]'
 	@touch $@
 
+$(VENV)/rules.stamp: $(VENV)/made.stamp pyproject.toml
+	@$(PIP_INSTALL) --editable '.[test-rules]'
+	@touch $@
+
 $(VENV)/test.stamp: $(VENV)/made.stamp pyproject.toml
 	@echo 'installing ros2-scaffold, ROS 2 Jazzy and the test tools into $(VENV)/ (once)'
 	@$(PIP_INSTALL) --editable '.[ros,test]'
-	@touch $@ $(VENV)/demo.stamp
+	@touch $@ $(VENV)/demo.stamp $(VENV)/rules.stamp
 
 $(VENV)/made.stamp:
 	@for python in $(or $(PYTHON),$(PYTHONS)); do \
