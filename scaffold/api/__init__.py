@@ -1,4 +1,7 @@
-"""The names that a rule file may import: a stable interface."""
+"""The names that a rule file may import: a stable interface, in rooms like the model.
+
+docs/api.md lists all of them, with examples.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from scaffold.source import Location, ParseError, Source, ViewError
 from scaffold.suggestions import nearest
 
 __all__ = [
+    "VERSION",
     "CreateFile",
     "Diagnostic",
     "Edit",
@@ -34,3 +38,6 @@ __all__ = [
     "ViewError",
     "nearest",
 ]
+
+VERSION = 1
+"""Grows when a name is removed or changes its meaning."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -33,6 +34,13 @@ def test_pages_are_current(tmp_path: Path) -> None:
     kept = {path.name: path.read_text() for path in (ROOT / "docs" / "rules").glob("*.md")}
     stale = [name for name in sorted({*made, *kept}) if kept.get(name) != made.get(name)]
     assert stale == [], "run `make docs`"
+
+
+def test_the_page_of_the_interface_is_current(tmp_path: Path) -> None:
+    script = ROOT / "scripts" / "document_api.py"
+    subprocess.run([sys.executable, str(script), str(tmp_path / "api.md")], check=True, cwd=ROOT)
+    written = (tmp_path / "api.md").read_text()
+    assert (ROOT / "docs" / "api.md").read_text() == written, "run `make docs`"
 
 
 def test_table_lists_every_rule() -> None:

@@ -1,0 +1,88 @@
+"""Write ``docs/api.md``: every name that a rule may import, with a line of a rule that uses it.
+
+``python scripts/document_api.py [FILE]``; ``make docs`` calls it.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import TypeGuard
+
+from scaffold import api
+
+ROOT = Path(__file__).parent.parent
+INTRODUCTION = f"""\
+# The interface of rules
+
+A rule imports `scaffold.api` and its rooms, and nothing else of the engine; ruff checks that for
+the rules of this repository. This page is version {api.VERSION} of the interface. The number grows
+when a name is removed or changes its meaning; new names do not change it. `make docs` writes this
+page from the code; each example is a line of a rule of ours.
+"""
+
+
+def main(target: Path) -> int:
+    """Write the page."""
+    rooms = sorted(path.stem for path in Path(str(api.__file__)).parent.glob("[a-z]*.py"))
+    modules = [api, *(import_module(f"scaffold.api.{room}") for room in rooms)]
+    target.write_text("\n".join([INTRODUCTION, *(_room(module) for module in modules)]))
+    return 0
+
+
+def _room(module: ModuleType) -> str:
+    lines = [f"## `{module.__name__}`", "", (module.__doc__ or "").strip(), ""]
+    for name in sorted({*module.__all__} - {"VERSION"}, key=lambda name: (name.lower(), name)):
+        lines += _entry(module, name)
+    return "\n".join(lines)
+
+
+def _entry(module: ModuleType, name: str) -> Iterator[str]:
+    value = getattr(module, name)
+    yield f"### `{name}{_signature(value)}`"
+    yield ""
+    documented = callable(value) or inspect.ismodule(value)
+    summary = inspect.cleandoc(value.__doc__ or "").partition("\n\n")[0] if documented else ""
+    if summary:
+        yield summary.replace("``", "`")
+        yield ""
+    example = _example(module.__name__, name)
+    if example:
+        path, line = example
+        yield f"[`{path}`](../{path}):"
+        yield f"\n```python\n{line}\n```\n"
+
+
+def _signature(value: object) -> str:
+    if not inspect.isfunction(value):
+        return ""
+    return str(inspect.signature(value)).replace("'", "")
+
+
+def _example(module: str, name: str) -> tuple[str, str] | None:
+    """Return the shortest rule that imports a name from a room, and the line that uses it."""
+    statement = rf"from {re.escape(module)} import (\([^)]*\b{name}\b|[^\n(]*\b{name}\b)"
+    files = sorted((ROOT / "rules").glob("*/*.py"), key=lambda path: path.stat().st_size)
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        if not re.search(statement, text):
+            continue
+        uses = [node.lineno for node in ast.walk(ast.parse(text)) if _is_use(node, name)]
+        if uses:
+            line = text.splitlines()[min(uses) - 1].strip()
+            return path.relative_to(ROOT).as_posix(), line
+    return None
+
+
+def _is_use(node: ast.AST, name: str) -> TypeGuard[ast.Name]:
+    return isinstance(node, ast.Name) and node.id == name
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]) if sys.argv[1:] else ROOT / "docs" / "api.md"))
