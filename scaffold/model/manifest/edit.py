@@ -114,7 +114,7 @@ def inserted_dependency(edit: Edit) -> InsertedDependency | None:
     """Return what an edit inserts, if it is one dependency on a line of its own."""
     import re
 
-    inserted = re.fullmatch(r"(\s*)<([a-z_]+)[^<>]*>([^<>]+)</\2>(\s*)", edit.text)
+    inserted = re.fullmatch(r"(\s*)<([a-z_]+)(?:\s[^<>]*)?>([^<>]+)</\2>(\s*)", edit.text)
     if inserted is None or inserted[2] not in _DEPENDENCIES:
         return None
     ahead, after = ("\n" in inserted[1], "\n" in inserted[4])
