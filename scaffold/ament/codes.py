@@ -10,12 +10,14 @@ from collections.abc import Mapping
 
 from scaffold.ament.finding import FLAKE8, PEP257
 from scaffold.diagnostic import Severity
+from scaffold.edits import Safety
 from scaffold.record import NamedTuple
 
 BOTH = FLAKE8 | PEP257
+SAFE, UNSAFE = Safety.SAFE, Safety.UNSAFE
 
 
-class StyleCode(NamedTuple):
+class AmentCode(NamedTuple):
     """A code of the Python linters."""
 
     code: str
@@ -26,566 +28,670 @@ class StyleCode(NamedTuple):
     """FLAKE8, PEP257 or both: who reports it on Jazzy."""
     severity: Severity = Severity.WARNING
     """ERROR where the code fails when it is imported or run."""
+    fix: Safety | None = None
+    """How the fix is applied, where the place is plain enough for one."""
 
 
 _TABLE = (
-    StyleCode("A001", "shadowed-builtin", "a variable hides a builtin"),
-    StyleCode("A002", "shadowed-builtin-argument", "an argument hides a builtin"),
-    StyleCode("A003", "shadowed-builtin-attribute", "a class attribute hides a builtin"),
-    StyleCode(
+    AmentCode("A001", "shadowed-builtin", "a variable hides a builtin"),
+    AmentCode("A002", "shadowed-builtin-argument", "an argument hides a builtin"),
+    AmentCode("A003", "shadowed-builtin-attribute", "a class attribute hides a builtin"),
+    AmentCode(
         "C400",
         "generator-to-list",
         "a generator inside list() instead of a list comprehension",
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "C401",
         "generator-to-set",
         "a generator inside set() instead of a set comprehension",
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "C402",
         "generator-to-dict",
         "a generator inside dict() instead of a dict comprehension",
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "C403",
         "list-comprehension-to-set",
         "a list comprehension inside set() instead of a set comprehension",
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "C404",
         "list-comprehension-to-dict",
         "a list comprehension inside dict() instead of a dict comprehension",
+        fix=UNSAFE,
     ),
-    StyleCode("C405", "literal-to-set", "a list or tuple inside set() instead of a set literal"),
-    StyleCode("C406", "literal-to-dict", "a list or tuple inside dict() instead of a dict literal"),
-    StyleCode("C408", "call-instead-of-literal", "dict(), list() or tuple() instead of a literal"),
-    StyleCode(
+    AmentCode(
+        "C405",
+        "literal-to-set",
+        "a list or tuple inside set() instead of a set literal",
+        fix=UNSAFE,
+    ),
+    AmentCode(
+        "C406",
+        "literal-to-dict",
+        "a list or tuple inside dict() instead of a dict literal",
+        fix=UNSAFE,
+    ),
+    AmentCode(
+        "C408",
+        "call-instead-of-literal",
+        "dict(), list() or tuple() instead of a literal",
+        fix=UNSAFE,
+    ),
+    AmentCode(
         "C409",
         "literal-inside-tuple",
         "a literal or comprehension inside tuple() that is not needed",
+        fix=UNSAFE,
     ),
-    StyleCode("C410", "literal-inside-list", "a literal inside list() that is not needed"),
-    StyleCode("C411", "list-around-comprehension", "list() around a list comprehension"),
-    StyleCode("C413", "call-around-sorted", "list() or reversed() around sorted()"),
-    StyleCode(
+    AmentCode(
+        "C410", "literal-inside-list", "a literal inside list() that is not needed", fix=UNSAFE
+    ),
+    AmentCode(
+        "C411", "list-around-comprehension", "list() around a list comprehension", fix=UNSAFE
+    ),
+    AmentCode("C413", "call-around-sorted", "list() or reversed() around sorted()", fix=SAFE),
+    AmentCode(
         "C414",
         "double-cast",
         "nested calls such as list(sorted()) inside set() or sorted()",
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "C415",
         "subscript-reversal",
         "a reversed slice inside reversed(), set() or sorted()",
     ),
-    StyleCode("C416", "copying-comprehension", "a comprehension that only copies"),
-    StyleCode("C417", "map-with-lambda", "map() with a lambda instead of a comprehension"),
-    StyleCode("C418", "dict-around-dict", "dict() around a dict literal or comprehension"),
-    StyleCode("C419", "comprehension-in-any-all", "a list comprehension inside any() or all()"),
-    StyleCode(
+    AmentCode("C416", "copying-comprehension", "a comprehension that only copies", fix=UNSAFE),
+    AmentCode(
+        "C417", "map-with-lambda", "map() with a lambda instead of a comprehension", fix=UNSAFE
+    ),
+    AmentCode(
+        "C418", "dict-around-dict", "dict() around a dict literal or comprehension", fix=UNSAFE
+    ),
+    AmentCode(
+        "C419", "comprehension-in-any-all", "a list comprehension inside any() or all()", fix=UNSAFE
+    ),
+    AmentCode(
         "D200",
         "spread-one-liner",
         "a one-line docstring is spread over several lines",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D201",
         "blank-before-docstring",
         "blank lines before the docstring of a function",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D202",
         "blank-after-docstring",
         "blank lines after the docstring of a function",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D204",
         "class-docstring-not-separated",
         "no single blank line after the docstring of a class",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D205",
         "summary-not-separated",
         "no single blank line after the summary line of a docstring",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode("D206", "docstring-indented-with-tabs", "a docstring is indented with tabs", BOTH),
-    StyleCode(
+    AmentCode("D206", "docstring-indented-with-tabs", "a docstring is indented with tabs", BOTH),
+    AmentCode(
         "D207",
         "under-indented-docstring",
         "a docstring is indented less than its quotes",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D208",
         "over-indented-docstring",
         "a docstring is indented more than its quotes",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D209",
         "closing-quotes-not-alone",
         "the closing quotes of a multi-line docstring are not on their own line",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D210",
         "whitespace-around-docstring",
         "whitespace between the quotes and the text of a docstring",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D211",
         "blank-before-class-docstring",
         "blank lines before the docstring of a class",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D213",
         "summary-on-first-line",
         "the summary of a multi-line docstring does not start on the second line",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D214",
         "over-indented-section",
         "a docstring section is indented more than the docstring",
         PEP257,
     ),
-    StyleCode(
+    AmentCode(
         "D215",
         "over-indented-section-underline",
         "the dashes of a docstring section are indented too far",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode("D300", "docstring-quotes", "a docstring is not in triple double quotes", BOTH),
-    StyleCode("D301", "backslash-in-docstring", "a docstring with backslashes is not raw", BOTH),
-    StyleCode(
+    AmentCode(
+        "D300", "docstring-quotes", "a docstring is not in triple double quotes", BOTH, fix=SAFE
+    ),
+    AmentCode(
+        "D301", "backslash-in-docstring", "a docstring with backslashes is not raw", BOTH, fix=SAFE
+    ),
+    AmentCode(
         "D400",
         "summary-without-period",
         "the first line of a docstring does not end with a period",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D401",
         "summary-not-imperative",
         "the first line of a docstring is not a command",
         BOTH,
+        fix=UNSAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D402",
         "signature-in-docstring",
         "the first line of a docstring is the function's signature",
         BOTH,
     ),
-    StyleCode(
+    AmentCode(
         "D403",
         "summary-not-capitalized",
         "the first word of a docstring is not capitalized",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D405",
         "section-name-case",
         "the name of a docstring section is not capitalized",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D406",
         "section-name-suffix",
         "something follows the name of a docstring section",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D407",
         "section-without-underline",
         "no dashes below the name of a docstring section",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D408",
         "section-underline-position",
         "the dashes of a docstring section are not right below its name",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D409",
         "section-underline-length",
         "the dashes of a docstring section are not as long as its name",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode("D410", "section-not-separated", "no blank line after a docstring section", PEP257),
-    StyleCode(
+    AmentCode(
+        "D410", "section-not-separated", "no blank line after a docstring section", PEP257, fix=SAFE
+    ),
+    AmentCode(
         "D411",
         "section-without-blank-before",
         "no blank line before a docstring section",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D412",
         "blank-after-section-name",
         "blank lines between the name of a docstring section and its content",
         BOTH,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D413",
         "last-section-not-separated",
         "no blank line after the last docstring section",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode("D414", "empty-section", "a docstring section without content", BOTH),
-    StyleCode(
+    AmentCode("D414", "empty-section", "a docstring section without content", BOTH),
+    AmentCode(
         "D415",
         "summary-without-punctuation",
         "the first line of a docstring does not end with . ? or !",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D416",
         "section-name-without-colon",
         "the name of a docstring section does not end with a colon",
         PEP257,
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "D417",
         "undocumented-argument",
         "a docstring does not describe all arguments",
         PEP257,
     ),
-    StyleCode("D418", "docstring-on-overload", "an @overload has a docstring", PEP257),
-    StyleCode("D419", "empty-docstring", "a docstring without text", BOTH),
-    StyleCode("E101", "mixed-indentation", "the indentation mixes tabs and spaces"),
-    StyleCode(
+    AmentCode("D418", "docstring-on-overload", "an @overload has a docstring", PEP257),
+    AmentCode("D419", "empty-docstring", "a docstring without text", BOTH),
+    AmentCode("E101", "mixed-indentation", "the indentation mixes tabs and spaces"),
+    AmentCode(
         "E111",
         "indentation-not-multiple-of-four",
         "the indentation is not a multiple of four",
     ),
-    StyleCode("E112", "missing-indented-block", "an indented block is missing"),
-    StyleCode("E113", "unexpected-indentation", "unexpected indentation"),
-    StyleCode(
+    AmentCode("E112", "missing-indented-block", "an indented block is missing"),
+    AmentCode("E113", "unexpected-indentation", "unexpected indentation"),
+    AmentCode(
         "E114",
         "comment-indentation-not-multiple-of-four",
         "the indentation of a comment is not a multiple of four",
     ),
-    StyleCode("E115", "comment-not-indented", "a comment is not indented like its block"),
-    StyleCode("E116", "comment-over-indented", "a comment is indented without a block"),
-    StyleCode("E117", "over-indented", "a block is indented too far"),
-    StyleCode("E122", "continuation-not-indented", "a continuation line is not indented"),
-    StyleCode(
+    AmentCode("E115", "comment-not-indented", "a comment is not indented like its block"),
+    AmentCode("E116", "comment-over-indented", "a comment is indented without a block"),
+    AmentCode("E117", "over-indented", "a block is indented too far"),
+    AmentCode("E122", "continuation-not-indented", "a continuation line is not indented"),
+    AmentCode(
         "E124",
         "closing-bracket-not-aligned",
         "a closing bracket does not match the visual indentation",
     ),
-    StyleCode(
+    AmentCode(
         "E125",
         "continuation-like-next-line",
         "a continuation line is indented like the block that follows",
     ),
-    StyleCode("E127", "continuation-over-indented", "a continuation line is indented too far"),
-    StyleCode(
+    AmentCode("E127", "continuation-over-indented", "a continuation line is indented too far"),
+    AmentCode(
         "E128",
         "continuation-under-indented",
         "a continuation line is not indented far enough",
     ),
-    StyleCode(
+    AmentCode(
         "E129",
         "visual-indent-like-next-line",
         "a visually indented line is indented like the block that follows",
     ),
-    StyleCode(
+    AmentCode(
         "E131",
         "continuation-unaligned",
         "a continuation line is not aligned with the ones above it",
     ),
-    StyleCode("E201", "whitespace-after-bracket", "whitespace after an opening bracket"),
-    StyleCode("E202", "whitespace-before-bracket", "whitespace before a closing bracket"),
-    StyleCode(
+    AmentCode("E201", "whitespace-after-bracket", "whitespace after an opening bracket", fix=SAFE),
+    AmentCode("E202", "whitespace-before-bracket", "whitespace before a closing bracket", fix=SAFE),
+    AmentCode(
         "E203",
         "whitespace-before-punctuation",
         "whitespace before a comma, semicolon or colon",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "E211",
         "whitespace-before-arguments",
         "whitespace before the bracket of a call or an index",
+        fix=SAFE,
     ),
-    StyleCode("E221", "spaces-before-operator", "several spaces before an operator"),
-    StyleCode("E222", "spaces-after-operator", "several spaces after an operator"),
-    StyleCode("E223", "tab-before-operator", "a tab before an operator"),
-    StyleCode("E224", "tab-after-operator", "a tab after an operator"),
-    StyleCode(
+    AmentCode("E221", "spaces-before-operator", "several spaces before an operator", fix=SAFE),
+    AmentCode("E222", "spaces-after-operator", "several spaces after an operator", fix=SAFE),
+    AmentCode("E223", "tab-before-operator", "a tab before an operator", fix=SAFE),
+    AmentCode("E224", "tab-after-operator", "a tab after an operator", fix=SAFE),
+    AmentCode(
         "E225",
         "missing-whitespace-around-operator",
         "whitespace is missing around an operator",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "E227",
         "missing-whitespace-around-bitwise-operator",
         "whitespace is missing around a bitwise or shift operator",
+        fix=SAFE,
     ),
-    StyleCode("E228", "missing-whitespace-around-modulo", "whitespace is missing around %"),
-    StyleCode(
+    AmentCode(
+        "E228", "missing-whitespace-around-modulo", "whitespace is missing around %", fix=SAFE
+    ),
+    AmentCode(
         "E231",
         "missing-whitespace-after-punctuation",
         "whitespace is missing after a comma, semicolon or colon",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "E251",
         "whitespace-around-keyword-equals",
         "whitespace around = of a keyword argument",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "E252",
         "missing-whitespace-around-default-equals",
         "whitespace is missing around = of an annotated argument",
+        fix=SAFE,
     ),
-    StyleCode("E261", "comment-too-close", "fewer than two spaces before an inline comment"),
-    StyleCode("E262", "inline-comment-start", "an inline comment does not start with '# '"),
-    StyleCode("E265", "block-comment-start", "a block comment does not start with '# '"),
-    StyleCode("E266", "block-comment-hashes", "a block comment starts with several #"),
-    StyleCode("E271", "spaces-after-keyword", "several spaces after a keyword"),
-    StyleCode("E272", "spaces-before-keyword", "several spaces before a keyword"),
-    StyleCode("E273", "tab-after-keyword", "a tab after a keyword"),
-    StyleCode("E274", "tab-before-keyword", "a tab before a keyword"),
-    StyleCode("E275", "missing-whitespace-after-keyword", "whitespace is missing after a keyword"),
-    StyleCode("E301", "missing-blank-line", "no blank line before a method"),
-    StyleCode("E302", "missing-blank-lines", "no two blank lines before a class or function"),
-    StyleCode("E303", "too-many-blank-lines", "too many blank lines"),
-    StyleCode("E304", "blank-line-after-decorator", "a blank line after a decorator"),
-    StyleCode(
+    AmentCode(
+        "E261", "comment-too-close", "fewer than two spaces before an inline comment", fix=SAFE
+    ),
+    AmentCode(
+        "E262", "inline-comment-start", "an inline comment does not start with '# '", fix=SAFE
+    ),
+    AmentCode("E265", "block-comment-start", "a block comment does not start with '# '", fix=SAFE),
+    AmentCode("E266", "block-comment-hashes", "a block comment starts with several #", fix=SAFE),
+    AmentCode("E271", "spaces-after-keyword", "several spaces after a keyword", fix=SAFE),
+    AmentCode("E272", "spaces-before-keyword", "several spaces before a keyword", fix=SAFE),
+    AmentCode("E273", "tab-after-keyword", "a tab after a keyword", fix=SAFE),
+    AmentCode("E274", "tab-before-keyword", "a tab before a keyword", fix=SAFE),
+    AmentCode(
+        "E275",
+        "missing-whitespace-after-keyword",
+        "whitespace is missing after a keyword",
+        fix=SAFE,
+    ),
+    AmentCode("E301", "missing-blank-line", "no blank line before a method", fix=SAFE),
+    AmentCode(
+        "E302", "missing-blank-lines", "no two blank lines before a class or function", fix=SAFE
+    ),
+    AmentCode("E303", "too-many-blank-lines", "too many blank lines", fix=SAFE),
+    AmentCode("E304", "blank-line-after-decorator", "a blank line after a decorator", fix=SAFE),
+    AmentCode(
         "E305",
         "missing-blank-lines-after-definition",
         "no two blank lines after a class or function",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "E306",
         "missing-blank-line-before-nested-definition",
         "no blank line before a nested definition",
+        fix=SAFE,
     ),
-    StyleCode("E401", "several-imports-on-one-line", "several imports on one line"),
-    StyleCode("E402", "late-import", "an import below other code of the module"),
-    StyleCode("E501", "line-too-long", "the line has more than 99 characters"),
-    StyleCode("E502", "redundant-backslash", "a backslash between brackets"),
-    StyleCode("E701", "statement-after-colon", "a statement follows the colon on the same line"),
-    StyleCode("E702", "several-statements-on-one-line", "several statements on one line"),
-    StyleCode("E703", "trailing-semicolon", "the statement ends with a semicolon"),
-    StyleCode("E711", "comparison-to-none", "comparison to None with == or !="),
-    StyleCode("E712", "comparison-to-bool", "comparison to True or False with == or !="),
-    StyleCode("E713", "negated-membership-test", "'not x in y' instead of 'x not in y'"),
-    StyleCode("E714", "negated-identity-test", "'not x is y' instead of 'x is not y'"),
-    StyleCode("E721", "type-comparison", "types compared with == or !="),
-    StyleCode(
+    AmentCode("E401", "several-imports-on-one-line", "several imports on one line", fix=SAFE),
+    AmentCode("E402", "late-import", "an import below other code of the module"),
+    AmentCode("E501", "line-too-long", "the line has more than 99 characters"),
+    AmentCode("E502", "redundant-backslash", "a backslash between brackets", fix=SAFE),
+    AmentCode(
+        "E701", "statement-after-colon", "a statement follows the colon on the same line", fix=SAFE
+    ),
+    AmentCode("E702", "several-statements-on-one-line", "several statements on one line", fix=SAFE),
+    AmentCode("E703", "trailing-semicolon", "the statement ends with a semicolon", fix=SAFE),
+    AmentCode("E711", "comparison-to-none", "comparison to None with == or !=", fix=UNSAFE),
+    AmentCode(
+        "E712", "comparison-to-bool", "comparison to True or False with == or !=", fix=UNSAFE
+    ),
+    AmentCode("E713", "negated-membership-test", "'not x in y' instead of 'x not in y'", fix=SAFE),
+    AmentCode("E714", "negated-identity-test", "'not x is y' instead of 'x is not y'", fix=SAFE),
+    AmentCode("E721", "type-comparison", "types compared with == or !="),
+    AmentCode(
         "E722",
         "bare-except",
         "bare 'except:' catches SystemExit and KeyboardInterrupt, too",
     ),
-    StyleCode("E731", "assigned-lambda", "a lambda is assigned to a name"),
-    StyleCode("E741", "ambiguous-variable-name", "a variable is called l, O or I"),
-    StyleCode("E742", "ambiguous-class-name", "a class is called l, O or I"),
-    StyleCode("E743", "ambiguous-function-name", "a function is called l, O or I"),
-    StyleCode(
+    AmentCode("E731", "assigned-lambda", "a lambda is assigned to a name", fix=UNSAFE),
+    AmentCode("E741", "ambiguous-variable-name", "a variable is called l, O or I"),
+    AmentCode("E742", "ambiguous-class-name", "a class is called l, O or I"),
+    AmentCode("E743", "ambiguous-function-name", "a function is called l, O or I"),
+    AmentCode(
         "E902",
         "unreadable-source",
         "the file cannot be read as Python",
         BOTH,
         Severity.ERROR,
     ),
-    StyleCode("E999", "syntax-error", "the file is not Python", BOTH, Severity.ERROR),
-    StyleCode("F401", "unused-import", "an import is not used"),
-    StyleCode("F402", "import-shadowed-by-loop", "a loop variable replaces an import"),
-    StyleCode("F403", "star-import", "a star import hides what is defined"),
-    StyleCode(
+    AmentCode("E999", "syntax-error", "the file is not Python", BOTH, Severity.ERROR),
+    AmentCode("F401", "unused-import", "an import is not used", fix=SAFE),
+    AmentCode("F402", "import-shadowed-by-loop", "a loop variable replaces an import"),
+    AmentCode("F403", "star-import", "a star import hides what is defined"),
+    AmentCode(
         "F404",
         "late-future-import",
         "a __future__ import below other code",
         severity=Severity.ERROR,
     ),
-    StyleCode("F405", "name-from-star-import", "a name may come from a star import"),
-    StyleCode(
+    AmentCode("F405", "name-from-star-import", "a name may come from a star import"),
+    AmentCode(
         "F406",
         "nested-star-import",
         "a star import inside a class or function",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F407",
         "unknown-future-feature",
         "an unknown feature is imported from __future__",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F501",
         "percent-format-invalid",
         "a % format that is not valid",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F502",
         "percent-format-expects-mapping",
         "a % format wants a mapping and gets none",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F503",
         "percent-format-expects-sequence",
         "a % format wants a sequence and gets none",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F504",
         "percent-format-unused-argument",
         "a named argument of a % format is not used",
+        fix=SAFE,
     ),
-    StyleCode(
+    AmentCode(
         "F505",
         "percent-format-missing-argument",
         "a named argument of a % format is missing",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F506",
         "percent-format-mixed",
         "a % format mixes positions and names",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F507",
         "percent-format-count",
         "a % format gets the wrong number of values",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F508",
         "percent-format-star",
         "a % format with * and a mapping",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F509",
         "percent-format-character",
         "a % format with an unknown character",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F521",
         "format-invalid",
         "a format string that is not valid",
         severity=Severity.ERROR,
     ),
-    StyleCode("F522", "format-unused-named-argument", "a named argument of .format() is not used"),
-    StyleCode("F523", "format-unused-argument", "an argument of .format() is not used"),
-    StyleCode(
+    AmentCode(
+        "F522",
+        "format-unused-named-argument",
+        "a named argument of .format() is not used",
+        fix=SAFE,
+    ),
+    AmentCode("F523", "format-unused-argument", "an argument of .format() is not used", fix=SAFE),
+    AmentCode(
         "F524",
         "format-missing-argument",
         "an argument of .format() is missing",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F525",
         "format-mixed-numbering",
         ".format() mixes automatic and manual numbers",
         severity=Severity.ERROR,
     ),
-    StyleCode("F541", "f-string-without-placeholder", "an f-string without placeholders"),
-    StyleCode(
+    AmentCode("F541", "f-string-without-placeholder", "an f-string without placeholders", fix=SAFE),
+    AmentCode(
         "F601",
         "repeated-key-literal",
         "a literal key of a dict is repeated with other values",
     ),
-    StyleCode(
+    AmentCode(
         "F602",
         "repeated-key-variable",
         "a variable key of a dict is repeated with other values",
     ),
-    StyleCode(
+    AmentCode(
         "F621",
         "too-many-values-before-star",
         "too many targets before a starred one",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F622",
         "two-starred-targets",
         "two starred targets in one assignment",
         severity=Severity.ERROR,
     ),
-    StyleCode("F631", "assert-on-tuple", "assert on a tuple, which is always true"),
-    StyleCode("F632", "is-with-literal", "'is' with a literal instead of '=='"),
-    StyleCode("F633", "print-shift", ">> with print", severity=Severity.ERROR),
-    StyleCode("F634", "if-on-tuple", "if on a tuple, which is always true"),
-    StyleCode("F701", "break-outside-loop", "break outside a loop", severity=Severity.ERROR),
-    StyleCode("F702", "continue-outside-loop", "continue outside a loop", severity=Severity.ERROR),
-    StyleCode(
+    AmentCode("F631", "assert-on-tuple", "assert on a tuple, which is always true"),
+    AmentCode("F632", "is-with-literal", "'is' with a literal instead of '=='", fix=SAFE),
+    AmentCode("F633", "print-shift", ">> with print", severity=Severity.ERROR),
+    AmentCode("F634", "if-on-tuple", "if on a tuple, which is always true"),
+    AmentCode("F701", "break-outside-loop", "break outside a loop", severity=Severity.ERROR),
+    AmentCode("F702", "continue-outside-loop", "continue outside a loop", severity=Severity.ERROR),
+    AmentCode(
         "F704",
         "yield-outside-function",
         "yield or await outside a function",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F706",
         "return-outside-function",
         "return outside a function",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F707",
         "default-except-not-last",
         "a bare except that is not the last one",
         severity=Severity.ERROR,
     ),
-    StyleCode("F722", "annotation-syntax", "an annotation in quotes that is not Python"),
-    StyleCode("F811", "redefinition", "a name is defined again without being used"),
-    StyleCode("F821", "undefined-name", "a name is not defined", severity=Severity.ERROR),
-    StyleCode(
+    AmentCode("F722", "annotation-syntax", "an annotation in quotes that is not Python"),
+    AmentCode("F811", "redefinition", "a name is defined again without being used", fix=SAFE),
+    AmentCode("F821", "undefined-name", "a name is not defined", severity=Severity.ERROR),
+    AmentCode(
         "F822",
         "undefined-export",
         "a name in __all__ is not defined",
         severity=Severity.ERROR,
     ),
-    StyleCode(
+    AmentCode(
         "F823",
         "unbound-local",
         "a local variable is used before its assignment",
         severity=Severity.ERROR,
     ),
-    StyleCode("F841", "unused-variable", "a local variable is not used"),
-    StyleCode("F842", "unused-annotation", "a local variable is annotated and not used"),
-    StyleCode(
+    AmentCode("F841", "unused-variable", "a local variable is not used", fix=SAFE),
+    AmentCode("F842", "unused-annotation", "a local variable is annotated and not used"),
+    AmentCode(
         "F901",
         "raise-not-implemented",
         "raise NotImplemented instead of NotImplementedError",
         severity=Severity.ERROR,
+        fix=SAFE,
     ),
-    StyleCode("I100", "import-order", "an import stands in the wrong place"),
-    StyleCode("I101", "imported-names-order", "imported names are not sorted"),
-    StyleCode("I201", "import-groups-not-separated", "no blank line between groups of imports"),
-    StyleCode(
+    AmentCode("I100", "import-order", "an import stands in the wrong place", fix=SAFE),
+    AmentCode("I101", "imported-names-order", "imported names are not sorted", fix=SAFE),
+    AmentCode(
+        "I201", "import-groups-not-separated", "no blank line between groups of imports", fix=SAFE
+    ),
+    AmentCode(
         "I666",
         "mixed-import-groups",
         "one import statement for modules of different groups",
     ),
-    StyleCode(
+    AmentCode(
         "Q000",
         "string-quotes",
         "double quotes around a string that single quotes would do for",
+        fix=SAFE,
     ),
-    StyleCode("Q001", "multiline-string-quotes", "single quotes around a multi-line string"),
-    StyleCode("Q002", "single-quoted-docstring", "single quotes around a docstring"),
-    StyleCode(
+    AmentCode(
+        "Q001", "multiline-string-quotes", "single quotes around a multi-line string", fix=SAFE
+    ),
+    AmentCode("Q002", "single-quoted-docstring", "single quotes around a docstring", fix=SAFE),
+    AmentCode(
         "Q003",
         "avoidable-escape",
         "escaped quotes that other quotes around the string would save",
+        fix=SAFE,
     ),
-    StyleCode("W191", "tab-indentation", "the indentation contains tabs"),
-    StyleCode("W291", "trailing-whitespace", "trailing whitespace"),
-    StyleCode("W292", "no-newline-at-end", "no newline at the end of the file"),
-    StyleCode("W293", "whitespace-on-blank-line", "whitespace on a blank line"),
-    StyleCode("W391", "blank-line-at-end", "blank line at the end of the file"),
-    StyleCode("W605", "invalid-escape", "an escape sequence that does not exist"),
+    AmentCode("W191", "tab-indentation", "the indentation contains tabs"),
+    AmentCode("W291", "trailing-whitespace", "trailing whitespace", fix=SAFE),
+    AmentCode("W292", "no-newline-at-end", "no newline at the end of the file", fix=SAFE),
+    AmentCode("W293", "whitespace-on-blank-line", "whitespace on a blank line", fix=SAFE),
+    AmentCode("W391", "blank-line-at-end", "blank line at the end of the file", fix=SAFE),
+    AmentCode("W605", "invalid-escape", "an escape sequence that does not exist", fix=SAFE),
 )
 
-CODES: Mapping[str, StyleCode] = {one.code: one for one in _TABLE}
+CODES: Mapping[str, AmentCode] = {one.code: one for one in _TABLE}
 """By code, in alphabetical order."""

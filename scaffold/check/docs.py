@@ -7,11 +7,17 @@ from inspect import cleandoc
 from typing import TYPE_CHECKING
 
 from scaffold.check.rule import Example, Report, Rule
+from scaffold.edits import Safety
 
 if TYPE_CHECKING:
-    from scaffold.ament.codes import StyleCode
+    from scaffold.ament.codes import AmentCode
 
 _LANGUAGES = {".xml": "xml", ".py": "python", ".txt": "cmake", ".cfg": "ini", ".yaml": "yaml"}
+
+_FIXED_WITH: dict[Safety | None, str] = {
+    Safety.SAFE: " · fixable with `--fix`",
+    Safety.UNSAFE: " · fixable with `--fix --unsafe-fixes`",
+}
 
 
 def summary(rule: type[Rule]) -> str:
@@ -33,10 +39,9 @@ def page(rule: type[Rule]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def style_page(style: StyleCode) -> str:
+def style_page(style: AmentCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
     from scaffold.ament.finding import FLAKE8, PEP257
-    from scaffold.ament.fixable import SAFE, UNSAFE
 
     names = [
         name
@@ -45,10 +50,7 @@ def style_page(style: StyleCode) -> str:
     ]
     text = style.summary[0].upper() + style.summary[1:]
     facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
-    if style.code in SAFE:
-        facts += " · can be mended with `--fix`"
-    elif style.code in UNSAFE:
-        facts += " · can be mended with `--fix --unsafe-fixes`"
+    facts += _FIXED_WITH.get(style.fix, "")
     return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n"
 
 
@@ -103,9 +105,9 @@ def _fixability(rule: type[Rule]) -> str:
     """Return how the fixes of a rule are applied, as its examples show it."""
     reports = [report for example in rule.examples for report in example.reports]
     if any(report.fix is not None for report in reports):
-        return " · fixable with `--fix`"
+        return _FIXED_WITH[Safety.SAFE]
     if any(report.unsafe_fix is not None for report in reports):
-        return " · fixable with `--fix --unsafe-fixes`"
+        return _FIXED_WITH[Safety.UNSAFE]
     return ""
 
 
