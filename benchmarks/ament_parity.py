@@ -29,6 +29,7 @@ from scaffold.ament import lint_cmake
 from scaffold.ament.copyright import headers
 from scaffold.check import registry, runner
 from scaffold.check.rule import Rule
+from scaffold.check.session import all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.errors import InputError
@@ -113,7 +114,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--linter", choices=names, action="append", help="compare with this only")
     options = parser.parse_args(arguments)
     packages = [package for directory in options.directories for package in _find(directory)]
-    rules = registry.load([options.rules] if options.rules else content.roots("rules"))
+    rules = all_rules(registry.load([options.rules] if options.rules else content.roots("rules")))
     print(f"{len(packages)} packages")
     passes = 0
     for linter in LINTERS:

@@ -1,7 +1,8 @@
-"""All style codes of ament_flake8 and ament_pep257 on Jazzy: names, explanations, severities.
+"""All codes for what ament's linters report on Jazzy: names, severities, fixes, documentation.
 
-The codes are those that people know from flake8 and pydocstyle. What the ini file of ament_flake8
-and the convention ``ament`` of ament_pep257 leave out is not here.
+Those of ament_flake8 and ament_pep257 are the codes that people know from flake8 and pydocstyle;
+what the ini file of the one and the convention ``ament`` of the other leave out is not here. The
+other linters of ament have no codes of their own.
 """
 
 from __future__ import annotations
@@ -9,27 +10,43 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from scaffold.ament.finding import FLAKE8, PEP257
-from scaffold.diagnostic import Severity
-from scaffold.edits import Safety
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import Fix, Safety
 from scaffold.record import NamedTuple
+from scaffold.source import Location
 
 BOTH = FLAKE8 | PEP257
+LINT_CMAKE, XMLLINT, COPYRIGHT = 4, 8, 16
+LINTERS: Mapping[int, str] = {
+    FLAKE8: "ament_flake8",
+    PEP257: "ament_pep257",
+    LINT_CMAKE: "ament_lint_cmake",
+    XMLLINT: "ament_xmllint",
+    COPYRIGHT: "ament_copyright",
+}
+"""Who reports a code on Jazzy; the values of several are added up."""
 SAFE, UNSAFE = Safety.SAFE, Safety.UNSAFE
 
 
 class AmentCode(NamedTuple):
-    """A code of the Python linters."""
+    """A code for one thing that a linter of ament reports."""
 
     code: str
     name: str
     summary: str
-    """One line, what is wrong; the message of a finding that has none of its own."""
+    """One line, what is wrong; the message of a style finding that has none of its own."""
     linters: int = FLAKE8
-    """FLAKE8, PEP257 or both: who reports it on Jazzy."""
+    """Who reports it; see `LINTERS`."""
     severity: Severity = Severity.WARNING
-    """ERROR where the code fails when it is imported or run."""
+    """ERROR where the code fails when it is imported or run, or the package cannot be built."""
     fix: Safety | None = None
     """How the fix is applied, where the place is plain enough for one."""
+    message: str = ""
+    """What users read, for example; a test has the case that it belongs to."""
+    documentation: str = ""
+    """**Why.**, **Fix.** and **Source.**, where there is more to say than the summary."""
+    other_severities: Mapping[Severity, str] | None = None
+    """Severities that a diagnostic may have instead, each with the condition for it."""
 
 
 _TABLE = (
@@ -117,6 +134,222 @@ _TABLE = (
     ),
     AmentCode(
         "C419", "comprehension-in-any-all", "a list comprehension inside any() or all()", fix=UNSAFE
+    ),
+    AmentCode(
+        "CM070",
+        "line-too-long",
+        "A line of a CMake file has more than 140 characters",
+        LINT_CMAKE,
+        message=("145 characters: ament_lint_cmake allows 140"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``. A line that begins with a string is
+let pass, as it cannot be broken, unless it belongs to ``message()``, which takes several.
+
+**Fix.** Break the line; an argument per line reads best in a long list.
+
+**Source.** ament_lint_cmake, filter ``linelength``.
+""",
+    ),
+    AmentCode(
+        "CM071",
+        "space-before-parenthesis",
+        "A blank stands between a command and its ``(``",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=('a blank stands between "if" and its "("'),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``.
+
+**Fix.** Remove the blank.
+
+**Source.** ament_lint_cmake, filter ``whitespace/extra``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM072",
+        "parenthesis-space-mismatch",
+        "The blanks behind ``(`` and before ``)`` of a command differ",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=('blanks behind the "(" of set and before the ")" in line 2 differ'),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``. It compares with the first ``)``
+that follows; one that begins a line may be indented like its command.
+
+**Fix.** Remove the blanks.
+
+**Source.** ament_lint_cmake, filter ``whitespace/mismatch``.
+""",
+    ),
+    AmentCode(
+        "CM073",
+        "tab-in-cmake",
+        "A line of a CMake file has a tab in it",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=("a tab: ament_lint_cmake wants blanks"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``.
+
+**Fix.** Indent by two blanks per tab; between words one blank.
+
+**Source.** ament_lint_cmake, filter ``whitespace/tabs``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM074",
+        "trailing-space-in-cmake",
+        "A line of a CMake file ends in blanks",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=("the line ends in blanks"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``.
+
+**Fix.** Remove them; inside of a string that goes over several lines they count, and stay.
+
+**Source.** ament_lint_cmake, filter ``whitespace/eol``.
+""",
+    ),
+    AmentCode(
+        "CM075",
+        "odd-indentation",
+        "A line of a CMake file begins with an odd number of blanks",
+        LINT_CMAKE,
+        message=("indented by 3 blanks: ament_lint_cmake wants steps of two"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``, in comments and strings as well.
+
+**Fix.** Indent by two blanks per level. No automatic fix: the line may have to go to the left
+or to the right.
+
+**Source.** ament_lint_cmake, filter ``whitespace/indent``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM076",
+        "command-case-mixed",
+        "Commands in upper case and in lower case are mixed in one file",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=('"IF" stands in a file whose first command is in lower case'),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``. What the first command is, it
+demands of all others; the style guide wants lower case.
+
+**Fix.** Write the commands in lower case.
+
+**Source.** ament_lint_cmake, filter ``readability/mixedcase``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM077",
+        "command-case-wonky",
+        "A command has capitals and small letters in one word",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=('"FetchContent_Declare" mixes cases: write "fetchcontent_declare"'),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``; the style guide wants lower case.
+
+**Fix.** Write it in lower case: CMake does not tell the cases apart.
+
+**Source.** ament_lint_cmake, filter ``readability/wonkycase``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM078",
+        "repeated-condition",
+        "``else()``, ``endif()`` or alike repeats what opened the block",
+        LINT_CMAKE,
+        fix=SAFE,
+        message=("else() repeats what opens its block; CMake ignores the words"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``. CMake ignores the words there, so
+they go wrong unnoticed. The linter judges a line as a whole: a command with arguments behind
+``endif()`` on the same line is reported as well.
+
+**Fix.** Leave the parentheses empty; put another command on a line of its own.
+
+**Source.** ament_lint_cmake, filter ``readability/logic``; ROS 2 code style, CMake.
+""",
+    ),
+    AmentCode(
+        "CM080",
+        "cmake-file-name",
+        "``CMakeLists.txt`` is spelt otherwise, or a find module is not in upper case",
+        LINT_CMAKE,
+        message=("CMake looks for CMakeLists.txt, spelt exactly so"),
+        documentation="""\
+**Why.** CMake does not find a ``CMakelists.txt``: the package does not build. For
+``FindFoo.cmake`` it is only ``ament_lint_cmake`` that fails, under ``colcon test``.
+
+**Fix.** Rename the file; a find module that other packages search as ``Foo`` keeps its name
+and gets the line ``# lint_cmake: -convention/filename``.
+
+**Source.** ament_lint_cmake, filter ``convention/filename``.
+""",
+    ),
+    AmentCode(
+        "CM081",
+        "find-module-handler-missing",
+        "A find module does not use ``find_package_handle_standard_args()``",
+        LINT_CMAKE,
+        message=("this find module never includes FindPackageHandleStandardArgs"),
+        documentation="""\
+**Why.** ``REQUIRED`` and ``QUIET`` of ``find_package()`` have no effect without it, and
+``ament_lint_cmake`` fails under ``colcon test``.
+
+**Fix.** ``include(FindPackageHandleStandardArgs)`` and call the function.
+
+**Source.** ament_lint_cmake, filter ``package/consistency``.
+""",
+    ),
+    AmentCode(
+        "CM082",
+        "find-module-handler-misnamed",
+        "``find_package_handle_standard_args()`` gets another name than that of the find module",
+        LINT_CMAKE,
+        message=("BAR is handed over in FindFOO.cmake: expected FOO"),
+        documentation="""\
+**Why.** ``find_package()`` looks at ``<file name>_FOUND``; another variable does not reach
+it. ``ament_lint_cmake`` fails under ``colcon test``, and it wants upper case.
+
+**Fix.** Give the name of the file, in upper case.
+
+**Source.** ament_lint_cmake, filter ``package/stdargs``.
+""",
+    ),
+    AmentCode(
+        "CM083",
+        "command-unclosed",
+        "No ``)`` follows a command up to the end of the file",
+        LINT_CMAKE,
+        message=('no ")" follows the "(" of set'),
+        documentation="""\
+**Why.** CMake stops there; ``ament_lint_cmake`` fails under ``colcon test``. To the linter
+a ``#`` begins a comment even inside of a string and hides the ``)`` behind it.
+
+**Fix.** Close the command; break the line behind a string with a ``#``.
+
+**Source.** ament_lint_cmake, filter ``syntax``.
+""",
+    ),
+    AmentCode(
+        "CM084",
+        "lint-pragma-invalid",
+        "A ``# lint_cmake:`` comment has a word that is no filter with ``-`` or ``+``",
+        LINT_CMAKE,
+        Severity.ERROR,
+        message=("'linelength' is no filter with - or +: ament_lint_cmake crashes on it"),
+        documentation="""\
+**Why.** ``ament_lint_cmake`` ends in a traceback on it; no file of the package is checked,
+and ``colcon test`` reports an error.
+
+**Fix.** Write ``-`` or ``+`` and the name of a filter, separated by single commas.
+
+**Source.** ament_lint_cmake, ``SetFilters``.
+""",
     ),
     AmentCode(
         "D200",
@@ -693,5 +926,15 @@ _TABLE = (
     AmentCode("W605", "invalid-escape", "an escape sequence that does not exist", fix=SAFE),
 )
 
-CODES: Mapping[str, AmentCode] = {one.code: one for one in _TABLE}
+CODES: Mapping[str, AmentCode] = {row.code: row for row in _TABLE}
 """By code, in alphabetical order."""
+STYLE: Mapping[str, AmentCode] = {code: row for code, row in CODES.items() if row.linters & BOTH}
+"""Those about Python style and docstrings."""
+
+
+def diagnostic(
+    code: str, at: Location, message: str, fix: Fix | None = None, severity: Severity | None = None
+) -> Diagnostic:
+    """Return a diagnostic of a code, with the name and severity that the table gives it."""
+    row = CODES[code]
+    return Diagnostic(code, row.name, severity or row.severity, at, message, fix)

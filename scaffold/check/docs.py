@@ -28,7 +28,9 @@ def summary(rule: type[Rule]) -> str:
 def page(rule: type[Rule]) -> str:
     """Return the documentation of a rule as Markdown."""
     text = cleandoc(rule.__doc__ or "").replace("``", "`")
-    facts = f"Severity: {_severity(rule)} · since {rule.since}{_fixability(rule)}"
+    facts = (
+        f"Severity: {_severity(rule)} · since {rule.since}{_FIXED_WITH.get(rule.fix_safety(), '')}"
+    )
     parts = [f"# {rule.code} {rule.name}", facts, text]
     rejected = [example for example in rule.examples if example.reports]
     accepted = [example for example in rule.examples if not example.reports]
@@ -41,13 +43,9 @@ def page(rule: type[Rule]) -> str:
 
 def style_page(style: AmentCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
-    from scaffold.ament.finding import FLAKE8, PEP257
+    from scaffold.ament.codes import LINTERS
 
-    names = [
-        name
-        for flag, name in ((FLAKE8, "ament_flake8"), (PEP257, "ament_pep257"))
-        if style.linters & flag
-    ]
+    names = [name for flag, name in LINTERS.items() if style.linters & flag]
     text = style.summary[0].upper() + style.summary[1:]
     facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
     facts += _FIXED_WITH.get(style.fix, "")
@@ -92,23 +90,13 @@ def table(rules: Sequence[type[Rule]]) -> str:
 
 
 def has_fix(rule: type[Rule]) -> bool:
-    """Tell whether a rule can mend what it reports: its examples say so."""
-    return any(example.fixed is not None for example in rule.examples)
+    """Tell whether a rule can fix what it reports."""
+    return rule.fix_safety() is not None
 
 
 def _severity(rule: type[Rule]) -> str:
     others = [f"{severity.value} if {why}" for severity, why in rule.other_severities.items()]
     return "; ".join([rule.severity.value, *others])
-
-
-def _fixability(rule: type[Rule]) -> str:
-    """Return how the fixes of a rule are applied, as its examples show it."""
-    reports = [report for example in rule.examples for report in example.reports]
-    if any(report.fix is not None for report in reports):
-        return _FIXED_WITH[Safety.SAFE]
-    if any(report.unsafe_fix is not None for report in reports):
-        return _FIXED_WITH[Safety.UNSAFE]
-    return ""
 
 
 def _example(rule: type[Rule], example: Example) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Collection, Sequence
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import CodeType, ModuleType
 
+from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.cache import rule_bytecode
 from scaffold.check.rule import Rule
 from scaffold.errors import ContentError
@@ -26,7 +27,9 @@ def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]
             its rule, or uses a code or a name again.
     """
     rules: dict[str, type[Rule]] = {}
-    names: dict[str, str] = {}
+    taken: dict[str, type[Rule]] = {}
+    for known in AMENT_RULES:
+        taken[known.code] = taken[known.name] = known
     for root in roots:
         prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
         files = _rule_files(root)
@@ -35,12 +38,11 @@ def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]
             if area in without:
                 continue
             rule = _load_file(prefix, area, path, code)
-            for known in (rules.get(rule.code), rules.get(names.get(rule.name, ""))):
-                if known is not None:
-                    other = sys.modules[known.__module__].__file__
-                    raise ContentError(f"{path}: {rule.code} {rule.name} is taken by {other}")
-            rules[rule.code] = rule
-            names[rule.name] = rule.code
+            other = taken.get(rule.code) or taken.get(rule.name)
+            if other is not None:
+                where = sys.modules[other.__module__].__file__
+                raise ContentError(f"{path}: {rule.code} {rule.name} is taken by {where}")
+            rules[rule.code] = taken[rule.code] = taken[rule.name] = rule
     return [rules[code] for code in sorted(rules)]
 
 

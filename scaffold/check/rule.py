@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from scaffold.diagnostic import Diagnostic, Severity
-from scaffold.edits import Fix
+from scaffold.edits import Fix, Safety
 from scaffold.source import Location
 
 if TYPE_CHECKING:
@@ -104,6 +104,16 @@ class Rule:
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]
+
+    @classmethod
+    def fix_safety(cls) -> Safety | None:
+        """Return how the fixes of the rule are applied, as its examples show it."""
+        reports = [report for example in cls.examples for report in example.reports]
+        if any(report.fix is not None for report in reports):
+            return Safety.SAFE
+        if any(report.unsafe_fix is not None for report in reports):
+            return Safety.UNSAFE
+        return None
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         """Yield what is wrong; a view that the package does not have ends the check silently."""

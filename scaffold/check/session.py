@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
+from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
     INTERNAL_RULES,
     FileTooLarge,
@@ -67,8 +68,9 @@ class Session:
 
     def __init__(self, rules: Sequence[type[Rule]], selection: Selection) -> None:
         self.selection = selection
-        self._areas = {rule.code[:2] for rule in [*rules, *INTERNAL_RULES]}
-        self._rules = [rule() for rule in rules if selection.wants(rule.code)]
+        self._areas = {rule.code[:2] for rule in all_rules(rules)}
+        wanted = [*rules, *AMENT_RULES]
+        self._rules = [rule() for rule in wanted if selection.wants(rule.code)]
         self._ran = {rule.code for rule in self._rules}
         self.after_rule: Callable[[], None] = _do_nothing
         """Called after each rule that ran over a package, for who shows how far it is."""
@@ -175,5 +177,5 @@ def _bounded(found: list[Diagnostic]) -> list[Diagnostic]:
 
 
 def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
-    """Return the rules of the content directories and those of the engine, sorted by code."""
-    return sorted([*rules, *INTERNAL_RULES], key=lambda rule: rule.code)
+    """Return rules of content directories, of ament's linters and of the engine, by code."""
+    return sorted([*rules, *AMENT_RULES, *INTERNAL_RULES], key=lambda rule: rule.code)

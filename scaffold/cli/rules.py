@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold.ament.codes import CODES
+    from scaffold.ament.codes import STYLE
     from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
@@ -56,15 +56,15 @@ def run(options: argparse.Namespace) -> int:
             terminal.show(f"{facts}  {docs.summary(rule)}")
         terminal.show(
             f"\n{len(rules)} rules. Python style and docstrings keep the codes of flake8 and "
-            f"pydocstyle, with ament's verdict: {len(CODES)} codes from {min(CODES)} to "
-            f"{max(CODES)}.\n`ros2-scaffold rules CODE` explains one."
+            f"pydocstyle, with ament's verdict: {len(STYLE)} codes from {min(STYLE)} to "
+            f"{max(STYLE)}.\n`ros2-scaffold rules CODE` explains one."
         )
     return 0
 
 
 def _page(word: str, rules: list[type[Rule]]) -> str:
     """Return what is known about the rule of a code or a name."""
-    from scaffold.ament.codes import CODES
+    from scaffold.ament.codes import STYLE
     from scaffold.check import docs
     from scaffold.check.selection import nearest
     from scaffold.errors import InputError
@@ -72,8 +72,8 @@ def _page(word: str, rules: list[type[Rule]]) -> str:
     for rule in rules:
         if word.upper() == rule.code or word == rule.name:
             return docs.page(rule)
-    style = CODES.get(word.upper())
+    style = STYLE.get(word.upper())
     if style is not None:
         return docs.style_page(style)
-    known = [*(rule.code for rule in rules), *(rule.name for rule in rules), *CODES]
+    known = [*(rule.code for rule in rules), *(rule.name for rule in rules), *STYLE]
     raise InputError(f"there is no rule {word!r}{nearest(word, known)}")

@@ -22,6 +22,7 @@ from scaffold.ament.xmllint import violations
 from scaffold.check import registry, runner
 from scaffold.check.fixes import fixer
 from scaffold.check.rule import Rule
+from scaffold.check.session import all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Severity
 from scaffold.model.manifest.structure import collapse
@@ -30,7 +31,7 @@ from scaffold.model.package import Package
 from tests import oracles
 from tests.oracles import needs_system_linter
 
-RULES = {rule.code: rule() for rule in registry.load(content.roots("rules"))}
+RULES = {rule.code: rule() for rule in all_rules(registry.load(content.roots("rules")))}
 STRUCTURE = [rule for code, rule in RULES.items() if "PX060" <= code <= "PX079"]
 COPYRIGHT = [RULES[code] for code in ("LY020", "LY021", "LY022")]
 LAYOUT_OF_CMAKE = [rule for code, rule in RULES.items() if "CM070" <= code <= "CM085"]

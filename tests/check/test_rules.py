@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry, runner, suppression
-from scaffold.check.examples import package_of, reports
-from scaffold.check.fixes import fixer
+from scaffold.check import registry
 from scaffold.check.rule import Example, Rule
 from scaffold.configuration import content
+from tests.check.examples import assert_reported, assert_suppressible
 
 RULES = registry.load(content.roots("rules"))
 CASES = [
@@ -36,21 +35,7 @@ AREAS = {
 
 @pytest.mark.parametrize(("rule", "example"), CASES)
 def test_example(rule: type[Rule], example: Example) -> None:
-    package = package_of(example)
-    diagnostics = runner.check(package, [rule()])
-    assert {diagnostic.code for diagnostic in diagnostics} <= {rule.code}
-    assert [vars(report) for report in reports(rule, example)] == [
-        vars(report) for report in example.reports
-    ], "`make examples` writes what is reported now"
-
-    fixed = fixer.fix(package, lambda one: runner.check(one, [rule()]), unsafe=True)
-    after = dict(fixed.changed)
-    expected = {path: text.encode() for path, text in (example.fixed or {}).items()}
-    for path in fixed.executable - after.keys():
-        after[path] = package.tree.read(path)
-    assert after == expected
-    if example.fixed is not None:
-        assert runner.check(fixed.package, [rule()]) == []
+    assert_reported(rule, example)
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
@@ -96,29 +81,7 @@ def test_imports_little(rule: type[Rule]) -> None:
 
 def test_examples_can_be_suppressed() -> None:
     """A rejected Python or CMake example falls silent with ``noqa`` on the reported line."""
-    silenced = 0
-    for rule in RULES:
-        for example in rule.examples:
-            if len(example.reports) != 1:
-                continue
-            path, line = example.reports[0].path, example.reports[0].line
-            if not path.endswith((".py", ".txt")) or path not in example.files:
-                continue
-            lines = example.files[path].split("\n")
-            if line > len(lines):
-                continue
-            reported = lines[line - 1]
-            if '"""' in reported or reported.startswith("#!"):  # no place for a comment
-                continue
-            lines[line - 1] += f"  # noqa: {rule.code}"
-            files = {**example.files, path: "\n".join(lines)}
-            package = package_of(
-                Example("", files, executable=example.executable, neighbours=example.neighbours)
-            )
-            said = runner.check(package, [rule()])
-            assert suppression.apply(package, said, {rule.code}) == [], example.title
-            silenced += bool(said)
-    assert silenced > 0
+    assert_suppressible([(rule, example) for rule in RULES for example in rule.examples])
 
 
 def _file_of(rule: type[Rule]) -> str:

@@ -233,14 +233,14 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
     Lines may have moved, and a message may name what is new; and a line that is added to a file
     follows the style of that file, so what is found of style there already is not new.
     """
-    from scaffold.ament.codes import CODES
+    from scaffold.ament.codes import STYLE
     from scaffold.diagnostic import Severity
 
     known = Counter(map(_said, before))
     styles = {
         (one.code, one.location.path)
         for one in before
-        if one.code in CODES or one.severity is not Severity.ERROR
+        if one.code in STYLE or one.severity is not Severity.ERROR
     }
     left: list[Diagnostic] = []
     for diagnostic in after:

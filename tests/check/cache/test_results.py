@@ -640,6 +640,7 @@ def _asks(path: Path) -> set[str]:
         "scaffold/model",
         "scaffold/ament/copyright.py",
         "scaffold/ament/files.py",
+        "scaffold/ament/cmake_diagnostics.py",
         "scaffold/ament/lint_cmake.py",
         "scaffold/ament/xmllint.py",
         "scaffold/check",

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from scaffold.check import registry, runner
-from scaffold.configuration import content
+from scaffold.check import runner
+from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.edits import Edit
 from scaffold.model.cmake import edit as cmake_edit
 from scaffold.model.cmake.lists import CMakeLists, Command, Install
@@ -684,7 +684,7 @@ def test_broken_files_are_not_edited() -> None:
 
 
 def test_missing_parenthesis_is_said_once() -> None:
-    rules = [rule() for rule in registry.load(content.roots("rules")) if rule.code == "CM083"]
+    rules = [rule() for rule in AMENT_RULES if rule.code == "CM083"]
 
     def said(text: str) -> list[str]:
         package = Package.of({"CMakeLists.txt": text})

@@ -1,0 +1,188 @@
+"""What the findings of lint_cmake mean to a person: codes, messages and fixes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from scaffold.ament.codes import diagnostic
+from scaffold.ament.lint_cmake import (
+    LINE_LENGTH,
+    PRAGMA_INVALID,
+    Finding,
+    findings,
+    lines,
+    outline,
+)
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Edit, Fix
+from scaffold.files.tree import CMAKE_LISTS
+from scaffold.model.package import Package
+from scaffold.source import Source, ViewError
+
+_Explained = tuple[str, Fix | None]
+_BLOCK_ENDS = {"else", "endforeach", "endfunction", "endif", "endmacro", "endwhile"}
+
+
+def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
+    """Yield what ament_lint_cmake reports under one code."""
+    name, explain = _FILTERS[code]
+    for finding in findings(package, name):
+        explained = explain(package, finding)
+        if explained is not None:
+            yield diagnostic(code, finding.location, *explained)
+
+
+def _line_length(_: Package, finding: Finding) -> _Explained:
+    return f"{finding.said} characters: ament_lint_cmake allows {LINE_LENGTH}", None
+
+
+def _extra_whitespace(package: Package, finding: Finding) -> _Explained:
+    message = f'a blank stands between "{finding.said}" and its "("'
+    return message, _removal(package, finding, "remove the blank")
+
+
+def _mismatch(package: Package, finding: Finding) -> _Explained:
+    last, fix = finding.end - 1, None
+    if not outline(package, finding.source).touches_literal(last, finding.end):
+        fix = Fix("even the blanks out", _even(finding))
+    line, _ = finding.source.position(last)
+    return f'blanks behind the "(" of {finding.said} and before the ")" in line {line} differ', fix
+
+
+def _even(finding: Finding) -> tuple[Edit, ...]:
+    source, text, closing = finding.source, finding.source.text, finding.end - 1
+    opened = finding.start + 1
+    behind = opened
+    while behind < closing and text[behind] in " \t":
+        behind += 1
+    start = closing
+    while start > behind and text[start - 1] in " \t":
+        start -= 1
+    wanted = _indentation(source, finding.start) if text[start - 1] in "\r\n" else ""
+    edits = (Edit(source.path, opened, behind, ""), Edit(source.path, start, closing, wanted))
+    return tuple(edit for edit in edits if edit.text != text[edit.start : edit.end])
+
+
+def _indentation(source: Source, offset: int) -> str:
+    line = source.lines[source.position(offset)[0] - 1]
+    return line[: len(line) - len(line.lstrip())]
+
+
+def _tab(package: Package, finding: Finding) -> _Explained:
+    line = finding.source.position(finding.start)[0]
+    start, fix = finding.source.offset(line), None
+    end = start + len(finding.source.lines[line - 1])
+    if not outline(package, finding.source).touches_literal(start, end):
+        text = finding.source.text[start:end]
+        rest = text.lstrip(" \t")
+        indentation = text[: len(text) - len(rest)].replace("\t", "  ")
+        edit = Edit(finding.source.path, start, end, indentation + rest.replace("\t", " "))
+        fix = Fix("write blanks", (edit,))
+    return "a tab: ament_lint_cmake wants blanks", fix
+
+
+def _line_end(package: Package, finding: Finding) -> _Explained:
+    return "the line ends in blanks", _removal(package, finding, "remove the blanks")
+
+
+def _removal(package: Package, finding: Finding, title: str) -> Fix | None:
+    path, start, end = finding.source.path, finding.start, finding.end
+    if outline(package, finding.source).touches_literal(start, end):
+        return None
+    return Fix(title, (Edit(path, start, end, ""),))
+
+
+def _odd_indentation(_: Package, finding: Finding) -> _Explained:
+    number = "one blank" if finding.said == "1" else f"{finding.said} blanks"
+    return f"indented by {number}: ament_lint_cmake wants steps of two", None
+
+
+def _mixed_case(package: Package, finding: Finding) -> _Explained:
+    other = "lower" if finding.said == finding.said.upper() else "upper"
+    message = f'"{finding.said}" stands in a file whose first command is in {other} case'
+    source = finding.source
+    return message, package.remember(("lower_case", source.path), lambda: _lower(package, source))
+
+
+def _lower(package: Package, source: Source) -> Fix | None:
+    """Return one fix for the whole file, unless a word in question may be no command."""
+    edits: list[Edit] = []
+    commands = outline(package, source).commands
+    for line in lines(source):
+        start, end = line.start + line.name_start, line.start + line.name_end
+        if line.command and line.command == line.command.upper() != line.command.lower():
+            if start not in commands:
+                return None
+            edits.append(Edit(source.path, start, end, line.command.lower()))
+    return Fix("write the commands in lower case", tuple(edits)) if edits else None
+
+
+def _wonky_case(package: Package, finding: Finding) -> _Explained:
+    source, lower, fix = finding.source, finding.said.lower(), None
+    if finding.start in outline(package, source).commands:
+        fix = Fix(f"write {lower}", (Edit(source.path, finding.start, finding.end, lower),))
+    return f'"{finding.said}" mixes cases: write "{lower}"', fix
+
+
+def _repeated_condition(_: Package, finding: Finding) -> _Explained:
+    if finding.said.lower() not in _BLOCK_ENDS:
+        return f"{finding.said}() shares a line with the end of a block", None
+    message = f"{finding.said}() repeats what opens its block; CMake ignores the words"
+    name, arguments = finding.source.text[finding.start : finding.end].split("(", 1)
+    if any(character in arguments[:-1] for character in '()"['):
+        return message, None
+    edit = Edit(finding.source.path, finding.start + len(name) + 1, finding.end - 1, "")
+    return message, Fix("leave the parentheses empty", (edit,))
+
+
+def _file_name(_: Package, finding: Finding) -> _Explained:
+    if finding.said == "CMakeLists.txt":
+        return "CMake looks for CMakeLists.txt, spelt exactly so", None
+    return f"ament_lint_cmake wants upper case in names of find modules: {finding.said}", None
+
+
+def _unclosed(package: Package, finding: Finding) -> _Explained | None:
+    if finding.source.path == CMAKE_LISTS and _is_unparsable(package):
+        return None  # SC001 reports it
+    return f'no ")" follows the "(" of {finding.said}', None
+
+
+def _is_unparsable(package: Package) -> bool:
+    try:
+        return not package.cmake
+    except ViewError:
+        return True
+
+
+def _pragma(_: Package, finding: Finding) -> _Explained:
+    return f"{finding.said!r} is no filter with - or +: ament_lint_cmake crashes on it", None
+
+
+def _handler_missing(_: Package, finding: Finding) -> _Explained:
+    verb = "includes" if finding.said[0].isupper() else "calls"
+    return f"this find module never {verb} {finding.said}", None
+
+
+def _handler_misnamed(_: Package, finding: Finding) -> _Explained:
+    given, expected = finding.said.split(" ", 1)
+    name = finding.source.path.rpartition("/")[2]
+    return f"{given} is handed over in {name}: expected {expected}", None
+
+
+_FILTERS: Mapping[str, tuple[str, Callable[[Package, Finding], _Explained | None]]] = {
+    "CM070": ("linelength", _line_length),
+    "CM071": ("whitespace/extra", _extra_whitespace),
+    "CM072": ("whitespace/mismatch", _mismatch),
+    "CM073": ("whitespace/tabs", _tab),
+    "CM074": ("whitespace/eol", _line_end),
+    "CM075": ("whitespace/indent", _odd_indentation),
+    "CM076": ("readability/mixedcase", _mixed_case),
+    "CM077": ("readability/wonkycase", _wonky_case),
+    "CM078": ("readability/logic", _repeated_condition),
+    "CM080": ("convention/filename", _file_name),
+    "CM081": ("package/consistency", _handler_missing),
+    "CM082": ("package/stdargs", _handler_misnamed),
+    "CM083": ("syntax", _unclosed),
+    "CM084": (PRAGMA_INVALID, _pragma),
+}
+"""The filter of the linter behind each code, and what makes a message of its findings."""

@@ -1,0 +1,52 @@
+"""The codes of ament's linters that judge a package, as rules that the engine runs.
+
+Those of Python style are not among them: one process judges all files of a package by all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, ClassVar
+
+from scaffold.ament.codes import CODES, STYLE, AmentCode
+from scaffold.check.rule import Example, Rule
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Safety
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+class AmentRule(Rule):
+    """A code of the table of ament's linters; its documentation stands there."""
+
+    examples: ClassVar[tuple[Example, ...]] = ()
+    row: ClassVar[AmentCode]
+
+    @classmethod
+    def fix_safety(cls) -> Safety | None:
+        """Return what the table has."""
+        return cls.row.fix
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        """Yield what the linter reports under this code."""
+        from scaffold.ament import diagnostics
+
+        return diagnostics(package, self.code)
+
+
+def _rule(row: AmentCode) -> type[AmentRule]:
+    facts = {
+        "__doc__": f"{row.summary}.\n\nReported as ``{row.message}``.\n\n{row.documentation}",
+        "row": row,
+        "code": row.code,
+        "name": row.name,
+        "severity": row.severity,
+        "other_severities": row.other_severities or {},
+    }
+    return type(row.name, (AmentRule,), facts)
+
+
+AMENT_RULES: tuple[type[Rule], ...] = tuple(
+    _rule(row) for code, row in CODES.items() if code not in STYLE
+)
