@@ -1,4 +1,4 @@
-"""MS022: feedback and results are taken out of the messages that hold them."""
+"""MS022: action feedback and results are unwrapped before their fields are read."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _NODE = (
 
 
 class AnswerNotUnwrapped(MessageRule):
-    """A field of the feedback or the result of an action is read from the message around it.
+    """A field of action feedback or of a result is read from the message that wraps it.
 
     **Why.** ``AttributeError: 'Fibonacci_FeedbackMessage' object has no attribute 'sequence'``;
     ``'Fibonacci_GetResult_Response' object has no attribute 'sequence'``.
@@ -44,20 +44,20 @@ class AnswerNotUnwrapped(MessageRule):
     code = "MS022"
     name = "answer-not-unwrapped"
     examples = (
-        Example("taken out", {"sender.py": _NODE.format(".feedback", ".result")}),
+        Example("unwrapped", {"sender.py": _NODE.format(".feedback", ".result")}),
         Example(
-            "read at once",
+            "not unwrapped",
             {"sender.py": _NODE.format("", "")},
             reports=(
                 Report(
                     "sender.py:16:21",
-                    "this holds the feedback and the goal_id, but no 'sequence': read "
-                    ".feedback.sequence",
+                    "this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
+                    "AttributeError; use .feedback.sequence",
                 ),
                 Report(
                     "sender.py:24:21",
-                    "this holds the result and the status, but no 'sequence': read "
-                    ".result.sequence",
+                    "this wrapper has only 'result' and 'status', not 'sequence': "
+                    "AttributeError; use .result.sequence",
                 ),
             ),
         ),
@@ -73,12 +73,12 @@ class AnswerNotUnwrapped(MessageRule):
 
 
 def _message(types: MessageTypes, node: ast.Attribute) -> str:
-    found = types.action_messages.wrapped(node.value)
-    if found is None or node.attr in {found.field, found.other} or node.attr.startswith("_"):
+    wrapped = types.action_messages.wrapped(node.value)
+    if wrapped is None or node.attr in {wrapped.field, wrapped.other} or node.attr.startswith("_"):
         return ""
     if node.attr in {"get_fields_and_field_types", "SLOT_TYPES"}:
         return ""
     return (
-        f"this holds the {found.field} and the {found.other}, but no {node.attr!r}: "
-        f"read .{found.field}.{node.attr}"
+        f"this wrapper has only {wrapped.field!r} and {wrapped.other!r}, not {node.attr!r}: "
+        f"AttributeError; use .{wrapped.field}.{node.attr}"
     )

@@ -1,4 +1,4 @@
-"""MS009: the types of fields exist."""
+"""MS009: field types of interfaces exist."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
 
 
 class FieldTypeUnknown(Rule):
-    """A field of an interface has a type that its package does not have.
+    """A field of an interface uses a type that its package does not define.
 
-    **Why.** The build stops: the generated code includes a header that nobody writes, such as
+    **Why.** The build stops: the generated code includes a header that does not exist, such as
     ``my_msgs/msg/detail/header__struct.h``.
 
-    **Fix.** Write the type as ``package/Name``; without a package it is one of this package.
+    **Fix.** Write the type as ``package/Name``; without a package, it is looked up in this one.
 
     **Source.** ROS 2 documentation, "Interfaces": a type without a package.
     """
@@ -25,7 +25,7 @@ class FieldTypeUnknown(Rule):
     name = "field-type-unknown"
     examples = (
         Example(
-            "of another package, of this package, of a package that nobody knows",
+            "from another package, from this package, from an unknown package",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg msg/Beats.msg"),
@@ -34,7 +34,7 @@ class FieldTypeUnknown(Rule):
             },
         ),
         Example(
-            "a header without its package, a misspelt type",
+            "a header without its package, a misspelled type",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
@@ -43,13 +43,13 @@ class FieldTypeUnknown(Rule):
             reports=(
                 Report(
                     "msg/Beat.msg:1:1",
-                    "my_msgs/Header: my_msgs has no message 'Header'; did you mean "
-                    "'std_msgs/Header'?",
+                    "type 'my_msgs/Header': my_msgs has no message 'Header'; did you "
+                    "mean 'std_msgs/Header'?",
                 ),
                 Report(
                     "msg/Beat.msg:2:1",
-                    "geometry_msgs/Pont: geometry_msgs has no message 'Pont'; did you "
-                    "mean 'Point'?",
+                    "type 'geometry_msgs/Pont': geometry_msgs has no message 'Pont'; "
+                    "did you mean 'Point'?",
                 ),
             ),
         ),
@@ -75,4 +75,4 @@ def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) ->
         hint = f"; did you mean '{package}/{name}'?"
     else:
         hint = nearest_word(type_.name, names)
-    return f"{written}: {type_.package} has no message {type_.name!r}{hint}"
+    return f"type {written!r}: {type_.package} has no message {type_.name!r}{hint}"

@@ -1,4 +1,4 @@
-"""MS006: values fit the fields they are given to."""
+"""MS006: values fit the types of the fields they are assigned to."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{
 
 
 class FieldValueUnfit(MessageRule):
-    """A field of a message is given a value that its type cannot hold.
+    """A message field is set to a value that its type cannot hold.
 
-    **Why.** Python messages of ROS 2 Jazzy are not checked: the node runs, and subscribers get
+    **Why.** ROS 2 Jazzy does not check Python messages: the node runs, and subscribers get
     ``False`` for ``1``, ``5e-324`` for the int ``1`` in a float field, ``44`` for 300 in a uint8.
-    Other values end in an error that does not name the field.
+    Other values raise an error that does not name the field.
 
     **Fix.** Convert the value, or keep it in its range: ``float(x)``, ``bool(x)``,
-    ``min(x, 255)``. With ``ROS_PYTHON_CHECK_FIELDS=1`` rclpy finds such values when it runs.
+    ``min(x, 255)``. With ``ROS_PYTHON_CHECK_FIELDS=1`` such values raise an error at run time.
 
     **Source.** https://github.com/ros2/rosidl_python/pull/194; ``rosidl_generator_py``,
     ``resource/_msg_support.c.em``.
@@ -44,9 +44,9 @@ class FieldValueUnfit(MessageRule):
     code = "MS006"
     name = "field-value-unfit"
     examples = (
-        Example("values of their types", {"talker.py": _CODE.format(*_RIGHT)}),
+        Example("values of the right types", {"talker.py": _CODE.format(*_RIGHT)}),
         Example(
-            "a counter of what somebody presses",
+            "a counter of button presses",
             {
                 "talker.py": _CODE.replace("create_timer(0.5, self.talk)", "on_press(self.talk)")
                 .format(*_RIGHT)
@@ -54,7 +54,7 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
-            "text for a float, 8 of 9 elements, a counter in 8 bits, an int for a bool, a number",
+            "a str for a float, 8 of 9 elements, an 8-bit counter, an int for a bool and a str",
             {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
             reports=(
                 Report(
@@ -69,7 +69,7 @@ class FieldValueUnfit(MessageRule):
                 Report(
                     "talker.py:17:22",
                     "'data' of std_msgs/msg/UInt8 is uint8, but self.count grows "
-                    "without end in line 18: uint8 holds 0 to 255",
+                    "without bound in line 18: uint8 holds 0 to 255",
                 ),
                 Report("talker.py:19:26", "'data' of std_msgs/msg/Bool is bool, but 1 is an int"),
                 Report(
@@ -79,22 +79,22 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
-            "fields of others, times, texts in bytes, a method, a parameter",
+            "fields of other messages, times, encoded text, a method, a parameter",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Float64, Header, Int32, String\n\n\n"
                 "class Talker(Node):\n"
                 "    def talk(self):\n"
                 "        count = Int32()\n"
-                "        one = Float64(data=count.data)\n"
-                "        two = Float64(data=float(count.data))\n"
+                "        raw = Float64(data=count.data)\n"
+                "        scaled = Float64(data=float(count.data))\n"
                 "        text = String(data='a'.upper().encode())\n"
                 "        header = Header()\n"
                 "        header.stamp.sec = self.get_clock().now().nanoseconds\n"
                 "        header.stamp = self.get_clock().now().nanoseconds\n"
                 "        header.stamp = self.get_clock().now().to_msg\n"
                 "        text.data = self.get_parameter('text')\n"
-                "        return one, two, text\n",
+                "        return raw, scaled, text\n",
             },
             reports=(
                 Report(
@@ -119,17 +119,17 @@ class FieldValueUnfit(MessageRule):
                 Report(
                     "talker.py:14:24",
                     "'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
-                    "to_msg is a method that is not called here: to_msg()",
+                    "'to_msg' is a method that is not called; write to_msg()",
                 ),
                 Report(
                     "talker.py:15:21",
                     "'data' of std_msgs/msg/String is string, but "
-                    "self.get_parameter('text') is a Parameter: its value is meant",
+                    "self.get_parameter('text') is a Parameter; append .value",
                 ),
             ),
         ),
         Example(
-            "a table for a row",
+            "a 2-D array for a flat one",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"
                 "imu = Imu()\n"
@@ -143,20 +143,18 @@ class FieldValueUnfit(MessageRule):
                 Report(
                     "talker.py:6:30",
                     "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                    "np.eye(3) has rows and columns, which are not read as one row; "
-                    "append .flatten()",
+                    "np.eye(3) is two-dimensional; append .flatten()",
                 ),
                 Report(
                     "talker.py:7:30",
                     "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                    "np.array([[0.1, 0.0, 0.0]] ... has rows and columns, which are not "
-                    "read as one row; append .flatten()",
+                    "np.array([[0.1, 0.0, 0.0]] ... is two-dimensional; append "
+                    ".flatten()",
                 ),
                 Report(
                     "talker.py:8:30",
                     "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                    "np.zeros((3, 3)) has rows and columns, which are not read as one "
-                    "row; append .flatten()",
+                    "np.zeros((3, 3)) is two-dimensional; append .flatten()",
                 ),
             ),
         ),
@@ -197,8 +195,8 @@ class FieldValueUnfit(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         misfits = Misfits(types)
         for item in types.assigned:
-            said = misfits.misfit(item)
-            if said:
+            problem = misfits.misfit(item)
+            if problem:
                 field = f"{item.field.name!r} of {item.owner.name}"
-                message = f"{field} is {item.field.type}, but {said}"
+                message = f"{field} is {item.field.type}, but {problem}"
                 yield self.report(types.module.location(item.value), message)

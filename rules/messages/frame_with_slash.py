@@ -1,4 +1,4 @@
-"""MS007: frames have no leading slash."""
+"""MS007: frame names have no leading slash."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_asy
 _CODE = (
     "from geometry_msgs.msg import TransformStamped\n\n\n"
     "def make(buffer, time):\n"
-    "    found = buffer.lookup_transform({}, 'base', time)\n"
-    "    made = TransformStamped(child_frame_id={})\n"
-    "    made.header.frame_id = {}\n"
-    "    return found, made\n"
+    "    transform = buffer.lookup_transform({}, 'base', time)\n"
+    "    sent = TransformStamped(child_frame_id={})\n"
+    "    sent.header.frame_id = {}\n"
+    "    return transform, sent\n"
 )
 
 
 class FrameWithSlash(MessageRule):
-    """The name of a frame starts with a slash.
+    """A frame name starts with a slash.
 
-    **Why.** tf2 refuses it in every program that uses the message: ``Invalid argument
+    **Why.** tf2 rejects it in every program that uses the message: ``Invalid argument
     "/base_link" passed to lookupTransform ... frame_ids cannot start with a '/'``.
 
-    **Fix.** Leave the slash out.
+    **Fix.** Remove the slash.
 
     **Source.** ``tf2/src/buffer_core.cpp``; https://wiki.ros.org/tf2/Migration.
     """
@@ -34,25 +34,25 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     examples = (
-        Example("without", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
+        Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
         Example("a test", {"test/test_a.py": _CODE.format("'/map'", "'/base'", "'/map'")}),
         Example(
             "with a slash",
             {"node.py": _CODE.format("'/map'", '"/base"', "'/map'")},
             reports=(
                 Report(
-                    "node.py:5:37",
-                    "the frame '/map' starts with a '/', which tf2 refuses",
+                    "node.py:5:41",
+                    "frame '/map' starts with '/': tf2 rejects it; remove the slash",
                     fix="remove the slash",
                 ),
                 Report(
                     "node.py:6:44",
-                    "the frame '/base' starts with a '/', which tf2 refuses",
+                    "frame '/base' starts with '/': tf2 rejects it; remove the slash",
                     fix="remove the slash",
                 ),
                 Report(
                     "node.py:7:28",
-                    "the frame '/map' starts with a '/', which tf2 refuses",
+                    "frame '/map' starts with '/': tf2 rejects it; remove the slash",
                     fix="remove the slash",
                 ),
             ),
@@ -61,7 +61,7 @@ class FrameWithSlash(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        # What a test invents as input is not looked up.
+        # Frames that a test makes up as input are never looked up.
         for node in () if types.module.in_tests else _frames(types):
             value = types.facts.evaluator.evaluate(node)
             if not (isinstance(value, str) and value.startswith("/")):
@@ -72,7 +72,7 @@ class FrameWithSlash(MessageRule):
             if isinstance(node, ast.Constant) and text[:2] in {"'/", '"/'} and value != "/":
                 edit = Edit(types.module.path, start + 1, start + 2, "")
                 fix = Fix("remove the slash", (edit,))
-            message = f"the frame {value!r} starts with a '/', which tf2 refuses"
+            message = f"frame {value!r} starts with '/': tf2 rejects it; remove the slash"
             yield self.report(types.module.location(node), message, fix)
 
 

@@ -1,4 +1,4 @@
-"""MS011: no message holds itself."""
+"""MS011: no message contains itself."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ _MANIFEST = "<package><name>my_msgs</name></package>\n"
 
 
 class InterfaceInItself(Rule):
-    """A message has a field of its own type, or of one that holds it in turn.
+    """A message has a field of its own type, or of a type that contains it in turn.
 
-    **Why.** The build stops: the generated structures would be endless. An array does not help.
+    **Why.** The build stops: the generated structures would be infinite. An array does not help.
 
-    **Fix.** Send a flat list, and name the parent of each element by its index.
+    **Fix.** Send a flat list, and refer to the parent of each element by its index.
 
     **Source.** ``rosidl_generator_type_description``, which stops first (``KeyError``).
     """
@@ -25,7 +25,7 @@ class InterfaceInItself(Rule):
     name = "interface-in-itself"
     examples = (
         Example(
-            "a list of others",
+            "a list of other messages",
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": _LISTS,
@@ -41,7 +41,9 @@ class InterfaceInItself(Rule):
                 "msg/Node.msg": "int32 id\nmy_msgs/Node[] children\n",
                 "msg/Tree.msg": "Node root\n",
             },
-            reports=(Report("msg/Node.msg:2:1", "Node holds itself: the build stops"),),
+            reports=(
+                Report("msg/Node.msg:2:1", "message 'Node' contains itself: the build stops"),
+            ),
         ),
         Example(
             "each other",
@@ -53,10 +55,12 @@ class InterfaceInItself(Rule):
             },
             reports=(
                 Report(
-                    "msg/Node.msg:1:1", "Node holds Tree, which holds Node in turn: the build stops"
+                    "msg/Node.msg:1:1",
+                    "message 'Node' contains 'Tree', which contains 'Node': the build stops",
                 ),
                 Report(
-                    "msg/Tree.msg:1:1", "Tree holds Node, which holds Tree in turn: the build stops"
+                    "msg/Tree.msg:1:1",
+                    "message 'Tree' contains 'Node', which contains 'Tree': the build stops",
                 ),
             ),
         ),
@@ -75,19 +79,20 @@ class InterfaceInItself(Rule):
         for name, inner in held.items():
             for type_, at in inner.items():
                 if type_ == name:
-                    yield self.report(at, f"{name} holds itself: the build stops")
+                    yield self.report(at, f"message {name!r} contains itself: the build stops")
                 elif name in _reached(held, type_):
-                    message = f"{name} holds {type_}, which holds {name} in turn: the build stops"
+                    message = f"message {name!r} contains {type_!r}, which contains {name!r}: "
+                    message += "the build stops"
                     yield self.report(at, message)
 
 
 def _reached(held: Mapping[str, Mapping[str, Location]], name: str) -> set[str]:
-    """Return the messages of the package that a message holds, over any number of steps."""
-    found: set[str] = set()
+    """Return the messages of the package that a message contains, directly or not."""
+    reached: set[str] = set()
     pending = [name]
     while pending:
         for inner in held.get(pending.pop(), ()):
-            if inner not in found:
-                found.add(inner)
+            if inner not in reached:
+                reached.add(inner)
                 pending.append(inner)
-    return found
+    return reached

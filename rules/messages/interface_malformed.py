@@ -1,4 +1,4 @@
-"""MS008: interface files can be read by rosidl."""
+"""MS008: rosidl can read interface files."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.
 
 
 class InterfaceMalformed(Rule):
-    """rosidl cannot read a line of a .msg, .srv or .action file.
+    """rosidl cannot parse a line of a .msg, .srv or .action file.
 
-    **Why.** The build stops in rosidl_adapter, with the line but not its number: a type that is
-    none, a size that is no number, a default that does not fit its type, a missing ``---``.
+    **Why.** The build stops in rosidl_adapter, with the line but not its number: an invalid
+    type or array size, a default that does not fit its type, a missing ``---``.
 
-    **Fix.** Write the line as the message says.
+    **Fix.** Correct the line as the message shows.
 
     **Source.** ``rosidl_adapter/parser.py``; ROS 2 documentation, "Interfaces".
     """
@@ -34,7 +34,7 @@ class InterfaceMalformed(Rule):
             },
         ),
         Example(
-            "a file that rosidl does not read",
+            "a file that is not generated",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 count\n",
@@ -43,7 +43,7 @@ class InterfaceMalformed(Rule):
             },
         ),
         Example(
-            "a type of C, a default out of range, an indented line, no separator",
+            "a C type, a default out of range, an indented line, no separator",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int count\nuint8 level 256\n  bool on\nint32[0] none\n"
@@ -53,27 +53,25 @@ class InterfaceMalformed(Rule):
             reports=(
                 Report(
                     "msg/Beat.msg:1:1",
-                    "'int' is no type: neither a primitive one nor the name of an "
-                    "interface, which starts with a capital and has only letters and "
-                    "digits",
+                    "'int' is neither a primitive type nor an interface name (a capital "
+                    "letter, then letters and digits)",
                 ),
-                Report("msg/Beat.msg:2:13", "'256' is outside of 'uint8', which holds 0 to 255"),
+                Report("msg/Beat.msg:2:13", "'256' is out of range for 'uint8': 0 to 255"),
                 Report(
-                    "msg/Beat.msg:3:3",
-                    "the line is indented: rosidl wants the type in the first column",
+                    "msg/Beat.msg:3:3", "indented line: rosidl needs the type in the first column"
                 ),
                 Report(
                     "msg/Beat.msg:4:1",
-                    "the size of the array 'int32[0]' is no whole number above 0, as in "
+                    "invalid array size in 'int32[0]'; write a positive integer, as in "
                     "'[3]', or '[<=3]' for at most three elements",
                 ),
                 Report(
                     "msg/Beat.msg:5:1",
-                    "in a definition the type 'std_msgs/msg/String' is written 'std_msgs/String'",
+                    "definitions name this type without 'msg'; write 'std_msgs/String'",
                 ),
                 Report(
                     "srv/Add.srv:1:1",
-                    "a .srv file has 1 line '---' between request, response; this one has 0",
+                    "a .srv file needs 1 line '---' between request, response, but this file has 0",
                 ),
             ),
         ),

@@ -1,4 +1,4 @@
-"""MS001: an interface that is imported exists."""
+"""MS001: imported interfaces exist."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "
 
 
 class InterfaceUnknown(MessageRule):
-    """Python code imports a message, service or action that its package does not have.
+    """Python code imports a message, service or action that its package does not define.
 
-    **Why.** The node dies at once: ``ImportError: cannot import name 'Str' from 'std_msgs.msg'``.
+    **Why.** The node ends at start: ``ImportError: cannot import name 'Str' from 'std_msgs.msg'``.
 
-    **Fix.** Write the name as the package has it; ``ros2-scaffold interfaces std_msgs`` lists
-    them. Packages whose definitions are neither in the workspace nor installed nor common are
-    not judged.
+    **Fix.** Use a name that the package defines; ``ros2-scaffold interfaces std_msgs`` lists
+    them. Packages whose definitions are neither in the workspace nor installed nor bundled are
+    not checked.
 
     **Source.** ``rosidl_generator_py``, which writes the ``__init__.py`` of ``std_msgs.msg``.
     """
@@ -28,7 +28,7 @@ class InterfaceUnknown(MessageRule):
     name = "interface-unknown"
     examples = (
         Example(
-            "they exist, or nobody can know",
+            "known, or impossible to know",
             {
                 "talker.py": "from std_msgs.msg import String\n"
                 "from std_srvs.srv import SetBool, SetBool_Request\n"
@@ -37,7 +37,7 @@ class InterfaceUnknown(MessageRule):
             },
         ),
         Example(
-            "misspelt, of another package, of another kind",
+            "misspelled, from another package, of another kind",
             {
                 "talker.py": "import std_msgs.msg\n"
                 "from std_msgs.msg import Str\n"
@@ -47,25 +47,32 @@ class InterfaceUnknown(MessageRule):
                 "message = std_msgs.msg.Sting()\n",
             },
             reports=(
-                Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
+                Report(
+                    "talker.py:2:26",
+                    "std_msgs.msg has no 'Str': ImportError; did you mean 'String'?",
+                ),
                 Report(
                     "talker.py:3:26",
-                    "std_msgs.msg has no 'Twist'; did you mean geometry_msgs/msg/Twist?",
+                    "std_msgs.msg has no 'Twist': ImportError; did you mean "
+                    "'geometry_msgs/msg/Twist'?",
                 ),
                 Report(
                     "talker.py:4:26",
-                    "std_msgs.srv has no 'Empty'; did you mean std_msgs/msg/Empty or "
-                    "std_srvs/srv/Empty?",
+                    "std_msgs.srv has no 'Empty': ImportError; did you mean "
+                    "'std_msgs/msg/Empty' or 'std_srvs/srv/Empty'?",
                 ),
                 Report(
                     "talker.py:5:27",
-                    "std_msgs has no module 'msgs'; its interfaces are in std_msgs.msg",
+                    "std_msgs has no module 'msgs': ImportError; did you mean 'std_msgs.msg'?",
                 ),
-                Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
+                Report(
+                    "talker.py:7:11",
+                    "std_msgs.msg has no 'Sting': ImportError; did you mean 'String'?",
+                ),
             ),
         ),
         Example(
-            "without the module, beside what the package really has",
+            "imported without the module",
             {
                 "talker.py": "from sensor_msgs import msg\n"
                 "from std_msgs import Bool, msg as messages\n"
@@ -73,16 +80,24 @@ class InterfaceUnknown(MessageRule):
                 "from sensor_msgs_py import point_cloud2\n",
             },
             reports=(
-                Report("talker.py:2:22", "'Bool' is in std_msgs.msg, not in std_msgs: ImportError"),
                 Report(
-                    "talker.py:3:22", "'Trigger' is in std_srvs.srv, not in std_srvs: ImportError"
+                    "talker.py:2:22",
+                    "'Bool' is not in std_msgs: ImportError; it is in std_msgs.msg",
+                ),
+                Report(
+                    "talker.py:3:22",
+                    "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv",
                 ),
             ),
         ),
         Example(
-            "of a package of the workspace",
+            "from a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            reports=(Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),),
+            reports=(
+                Report(
+                    "talker.py:1:31", "my_msgs.msg has no 'Bet': ImportError; did you mean 'Beat'?"
+                ),
+            ),
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
@@ -104,25 +119,25 @@ class InterfaceUnknown(MessageRule):
 def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:
     if not kind:
         return _without_kind(definitions, owner, name)
-    meant = _MISSPELT.get(kind.lower(), kind)
-    known = definitions.names(owner, meant)
+    module = _MISSPELT.get(kind.lower(), kind)
+    known = definitions.names(owner, module)
     if known is None or name.startswith("_") or name == "*":
         return None
-    if meant != kind:
-        return f"{owner} has no module {kind!r}; its interfaces are in {owner}.{meant}"
-    if kind not in KINDS or name in known or any(name.startswith(f"{one}_") for one in known):
+    if module != kind:
+        return f"{owner} has no module {kind!r}: ImportError; did you mean '{owner}.{module}'?"
+    if kind not in KINDS or name in known or any(name.startswith(f"{x}_") for x in known):
         return None
     hint = nearest_word(name, known)
-    elsewhere = [found for found in definitions.matches(name) if found.endswith(f"/{name}")]
+    elsewhere = [match for match in definitions.matches(name) if match.endswith(f"/{name}")]
     if elsewhere and (not hint or not known):
-        hint = f"; did you mean {' or '.join(elsewhere[:3])}?"
-    return f"{owner}.{kind} has no {name!r}{hint}"
+        hint = f"; did you mean {' or '.join(map(repr, elsewhere[:3]))}?"
+    return f"{owner}.{kind} has no {name!r}: ImportError{hint}"
 
 
 def _without_kind(definitions: Definitions, owner: str, name: str) -> str | None:
-    """Say what is wrong with ``from std_msgs import String``."""
+    """Return the message for ``from std_msgs import String``."""
     for kind in KINDS:
         known = definitions.names(owner, kind) or ()
         if name in known:
-            return f"{name!r} is in {owner}.{kind}, not in {owner}: ImportError"
+            return f"{name!r} is not in {owner}: ImportError; it is in {owner}.{kind}"
     return None

@@ -1,4 +1,4 @@
-"""MS002: a field of a message that is read or set exists."""
+"""MS002: message fields that are read or set exist."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _NODE = (
 
 
 class MessageFieldUnknown(MessageRule):
-    """Code reads or sets something that the message does not have.
+    """Code reads or sets a field that the message does not have.
 
-    **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback the first
-    message ends the node.
+    **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback, the
+    first message ends the node.
 
-    **Fix.** Write the field as its definition has it: ``ros2-scaffold interfaces String`` shows
-    it. Only what is surely a message is judged: what a constructor makes, and the parameters
-    that rclpy passes to callbacks.
+    **Fix.** Use a field of the definition: ``ros2-scaffold interfaces String`` shows it. Only
+    objects that are certainly messages are checked: those a constructor returns, and the
+    parameters that rclpy passes to callbacks.
 
     **Source.** ``rosidl_generator_py``: the classes have ``__slots__``.
     """
@@ -40,7 +40,7 @@ class MessageFieldUnknown(MessageRule):
     examples = (
         Example("the field of the definition", {"listener.py": _NODE.format("data")}),
         Example(
-            "of a type that others may have set",
+            "of a type that other code may have set",
             {
                 "listener.py": _NODE.replace("n(String", "n(self.kind")
                 .replace(
@@ -63,7 +63,7 @@ class MessageFieldUnknown(MessageRule):
             ),
         ),
         Example(
-            "set, nested, of a response, a constant; what is reassigned is not judged",
+            "set, nested, of a response, a constant; reassigned names are not checked",
             {
                 "talker.py": "from geometry_msgs.msg import Twist\n"
                 "from diagnostic_msgs.msg import DiagnosticStatus\n"
@@ -108,11 +108,11 @@ class MessageFieldUnknown(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for node in types.module.walk(ast.Attribute):
-            said = _flaw(types, node)
-            if said and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
+            message = _flaw(types, node)
+            if message and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
-                yield self.report(at, said)
+                yield self.report(at, message)
 
 
 def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
@@ -130,15 +130,15 @@ def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
 
 def _message(owner: MessageClass, name: str) -> str:
     fields = [field.name for field in owner.section.fields]
-    hint = nearest_word(name, [*fields, *(one.name for one in owner.section.constants)])
+    hint = nearest_word(name, [*fields, *(constant.name for constant in owner.section.constants)])
     if not hint and fields:
-        more = " ..." if len(fields) > 5 else ""  # noqa: PLR2004  what fits a line
+        more = " ..." if len(fields) > 5 else ""  # noqa: PLR2004  as many as fit a line
         hint = f"; it has {', '.join(fields[:5])}{more}"
     return f"{owner.name} has no field or constant {name!r}{hint} (definition: {owner.origin})"
 
 
 def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
-    """Say what is wrong with ``SetBool.Requests``."""
+    """Return the message for ``SetBool.Requests``."""
     dotted = (types.module.qualified_name(node.value) or "").split(".")
     if len(dotted) != 3 or not PARTS.get(dotted[1]):  # noqa: PLR2004  package, kind and name
         return None

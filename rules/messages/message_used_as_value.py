@@ -1,4 +1,4 @@
-"""MS023: a message is no list and no dict, and a number or a text has no fields."""
+"""MS023: messages are not used as lists or dicts, nor plain values as messages."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _NODE = (
 
 
 class MessageUsedAsValue(MessageRule):
-    """A message is indexed, called or counted, or a field of a plain type is asked for fields.
+    """A message is used as a list, dict or function, or a plain value as a message.
 
     **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
-    has no attribute 'data'``: in a callback the first message ends the node.
+    has no attribute 'data'``: in a callback, the first message ends the node.
 
     **Fix.** Read the field: ``msg.data``, ``msg.data[0]``, ``len(msg.data)``.
 
@@ -49,27 +49,27 @@ class MessageUsedAsValue(MessageRule):
             reports=(
                 Report(
                     "listener.py:12:32",
-                    "a std_msgs/msg/String cannot be indexed: TypeError; a field of it is meant",
+                    "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
                 ),
                 Report(
                     "listener.py:15:16",
-                    "a std_msgs/msg/Float32MultiArray has no length: TypeError; a field "
-                    "of it is meant",
+                    "std_msgs/msg/Float32MultiArray has no length: TypeError; use one "
+                    "of its fields",
                 ),
                 Report(
                     "listener.py:15:26",
-                    "a std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; a "
-                    "field of it is meant",
+                    "std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use "
+                    "one of its fields",
                 ),
                 Report(
                     "listener.py:15:34",
-                    "a std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; a "
-                    "field of it is meant",
+                    "std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use "
+                    "one of its fields",
                 ),
             ),
         ),
         Example(
-            "a field of a text, a field called, a message gone through",
+            "a field of a str, a field called, a message iterated over",
             {
                 "listener.py": _NODE.format(
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
@@ -81,12 +81,12 @@ class MessageUsedAsValue(MessageRule):
                 ),
                 Report(
                     "listener.py:15:16",
-                    "msg.layout.data_offset is a field, no method: leave () out",
+                    "msg.layout.data_offset is a field, not a method: TypeError; remove the ()",
                 ),
                 Report(
                     "listener.py:15:54",
-                    "a std_msgs/msg/Float32MultiArray is no list: TypeError; a field of "
-                    "it is meant",
+                    "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one "
+                    "of its fields",
                 ),
             ),
         ),
@@ -105,21 +105,24 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     for node, value, problem in _uses_as_list(types):
         owner = types.type_of(value)
         if owner is not None:
-            yield node, f"a {owner.name} {problem}: TypeError; a field of it is meant"
+            yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
     for call in module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and (
             types.type_of(call.func) or _kind(types.field_type_of(call.func))
         ):
-            yield call, f"{module.text(call.func)} is a field, no method: leave () out"
+            yield (
+                call,
+                f"{module.text(call.func)} is a field, not a method: TypeError; remove the ()",
+            )
     for node in module.walk(ast.Attribute):
         kind = _kind(types.field_type_of(node.value))
         if kind and not hasattr(_KINDS[kind], node.attr):
-            said = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
-            yield node, f"{said}: AttributeError"
+            message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
+            yield node, f"{message}: AttributeError"
 
 
 def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
-    """Yield what only lists and the like can be used for: the whole, the list, what is done."""
+    """Yield uses that only collections support: the expression, the collection, the problem."""
     for index in types.module.walk(ast.Subscript):
         yield index, index.value, "cannot be indexed"
     for call in types.module.walk(ast.Call):
@@ -127,16 +130,16 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
             case ast.Call(func=ast.Name(id="len"), args=[counted]):
                 yield call, counted, "has no length"
     for loop in types.module.walk(ast.For):
-        yield loop.iter, loop.iter, "is no list"
+        yield loop.iter, loop.iter, "is not iterable"
     for part in types.module.walk(ast.comprehension):
-        yield part.iter, part.iter, "is no list"
+        yield part.iter, part.iter, "is not iterable"
 
 
 _KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
 
 
 def _kind(type_: FieldType | None) -> str:
-    """Return the Python type that a field of a plain type holds; empty for others."""
+    """Return the Python type of a field of a plain type; empty for other fields."""
     if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
         return ""
     if type_.name in FLOATS:

@@ -1,4 +1,4 @@
-"""MS025: what one node keeps private, another one does not wait for."""
+"""MS025: a private topic is not used by another node under its plain name."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _NODE = (
 
 
 class PrivateTopicDiffers(Rule):
-    """One side of a topic has a private name, ``~/chatter``, and the other has not.
+    """One side of a topic has a private name, ``~/chatter``, and the other does not.
 
-    **Why.** ``~`` stands for the name of the node: nothing arrives, without an error. Said only for
-    names that have no other side in the package, and the same type.
+    **Why.** ``~`` expands to the name of the node: nothing arrives, and there is no error. Only
+    names of the same type that have no other end in the package are reported.
 
     **Fix.** Write the name without ``~/``, or with the name of the node: ``talker/chatter``.
 
@@ -33,7 +33,7 @@ class PrivateTopicDiffers(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "the same",
+            "the same name",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -48,13 +48,13 @@ class PrivateTopicDiffers(Rule):
             reports=(
                 Report(
                     "b.py:8:42",
-                    "nobody publishes 'chatter'; a.py:8 publishes '~/chatter', and ~ "
-                    "stands for the name of its node",
+                    "no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ "
+                    "expands to the node name",
                 ),
             ),
         ),
         Example(
-            "private to the node that listens",
+            "private to the node that subscribes",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
@@ -62,8 +62,8 @@ class PrivateTopicDiffers(Rule):
             reports=(
                 Report(
                     "b.py:8:42",
-                    "nobody publishes '~/chatter'; a.py:8 publishes 'chatter', and ~ "
-                    "stands for the name of its node",
+                    "no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ "
+                    "expands to the node name",
                 ),
             ),
         ),
@@ -82,15 +82,15 @@ class PrivateTopicDiffers(Rule):
                         here, there = (other, private) if is_sent else (private, other)
                         place = f"{there.location.path}:{there.location.line}"
                         message = (
-                            f"nobody publishes {here.name!r}; {place} publishes {there.name!r}, "
-                            "and ~ stands for the name of its node"
+                            f"no publisher for {here.name!r}: {place} publishes {there.name!r}, "
+                            "and ~ expands to the node name"
                         )
                         yield self.report(here.name_argument or here, message)
                         break
 
 
 def _is_same_but_private(here: Endpoint, there: Endpoint) -> bool:
-    """Tell whether two names of one type differ by ``~/`` in front of the second."""
+    """Return whether two names of the same type differ only by a ``~/`` before the second."""
     if here.interface is None or here.interface != there.interface:
         return False
     return str(here.name).strip("/") == str(there.name).removeprefix("~/")

@@ -1,4 +1,4 @@
-"""MS004: what is published or sent has the type of the publisher or client."""
+"""MS004: messages have the type of their publisher or client."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _NODE = (
 
 
 class PublishedTypeDiffers(MessageRule):
-    """A publisher publishes, or a client sends, a message of another type than its own.
+    """A publisher or client is used with a message of another type than its own.
 
     **Why.** ``TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class ...>`` as
     soon as the line is reached.
 
-    **Fix.** Publish it with the publisher of its type, or change the type of the publisher.
+    **Fix.** Use a publisher of that type, or change the type of the publisher.
 
     **Source.** ``rclpy/publisher.py``, ``Publisher.publish``; ``rclpy/client.py``.
     """
@@ -39,7 +39,7 @@ class PublishedTypeDiffers(MessageRule):
     name = "published-type-differs"
     examples = (
         Example(
-            "their own types, serialized messages, what is not known",
+            "the right types, serialized messages, unknown values",
             {
                 "talker.py": _NODE.format("String(data='hello')", "Trigger.Request()")
                 + "        self.pub.publish(b'raw')\n        self.pub.publish(self.other)\n"
@@ -51,29 +51,29 @@ class PublishedTypeDiffers(MessageRule):
             reports=(
                 Report(
                     "talker.py:13:26",
-                    "sends std_msgs/msg/Bool, but the publisher made in line 9 takes "
-                    "std_msgs/msg/String: TypeError",
+                    "std_msgs/msg/Bool sent through the publisher of line 9, which "
+                    "takes std_msgs/msg/String: TypeError",
                 ),
                 Report(
                     "talker.py:14:32",
-                    "sends std_srvs/srv/Trigger.Response, but the client made in line "
-                    "10 takes std_srvs/srv/Trigger.Request: TypeError",
+                    "std_srvs/srv/Trigger.Response sent through the client of line 10, "
+                    "which takes std_srvs/srv/Trigger.Request: TypeError",
                 ),
             ),
         ),
         Example(
-            "the text alone, the class",
+            "a str without its message, the class",
             {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
             reports=(
                 Report(
                     "talker.py:13:26",
-                    "sends a str, but the publisher made in line 9 takes "
+                    "a str sent through the publisher of line 9, which takes "
                     "std_msgs/msg/String: TypeError",
                 ),
                 Report(
                     "talker.py:14:32",
-                    "sends the class std_srvs/srv/Trigger.Request, but the client made "
-                    "in line 10 takes std_srvs/srv/Trigger.Request: TypeError",
+                    "the class std_srvs/srv/Trigger.Request sent through the client of "
+                    "line 10, which takes std_srvs/srv/Trigger.Request: TypeError",
                 ),
             ),
         ),
@@ -83,8 +83,8 @@ class PublishedTypeDiffers(MessageRule):
             reports=(
                 Report(
                     "talker.py:14:32",
-                    "sends the class std_srvs/srv/Trigger, but the client made in line "
-                    "10 takes std_srvs/srv/Trigger.Request: TypeError",
+                    "the class std_srvs/srv/Trigger sent through the client of line 10, "
+                    "which takes std_srvs/srv/Trigger.Request: TypeError",
                 ),
             ),
         ),
@@ -103,8 +103,8 @@ class PublishedTypeDiffers(MessageRule):
             if given and given != wanted and types.definitions.find(endpoint.interface):
                 kind = "client" if isinstance(endpoint, Client) else "publisher"
                 message = (
-                    f"sends {given}, but the {kind} made in line {endpoint.location.line} "
-                    f"takes {wanted}: TypeError"
+                    f"{given} sent through the {kind} of line {endpoint.location.line}, "
+                    f"which takes {wanted}: TypeError"
                 )
                 yield self.report(types.module.location(call.args[0]), message)
 
@@ -121,10 +121,10 @@ def _sender(
 
 
 def _given(types: MessageTypes, node: ast.expr) -> str | None:
-    """Return what is sent, as far as that is sure."""
-    found = types.type_of(node)
-    if found is not None:
-        return found.name
+    """Describe the value that is sent, if it is certain."""
+    owner = types.type_of(node)
+    if owner is not None:
+        return owner.name
     value = types.facts.evaluator.evaluate(node)
     if isinstance(node, ast.JoinedStr) or isinstance(value, str):
         return "a str"
@@ -132,7 +132,7 @@ def _given(types: MessageTypes, node: ast.expr) -> str | None:
         return "a number"
     if isinstance(node, ast.Attribute) and (owner := types.type_of(node.value)) is not None:
         field = owner.section.field(node.attr)
-        return f"a field, {node.attr}," if field and field.type.is_primitive else None
+        return f"field {node.attr!r}" if field and field.type.is_primitive else None
     if isinstance(node, ast.Name | ast.Attribute):
         class_ = types.class_of(node)
         name = class_.name if class_ else types.facts.interface(node)

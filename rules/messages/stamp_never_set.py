@@ -1,4 +1,4 @@
-"""MS010: messages with a header have a stamp."""
+"""MS010: messages with a header have their stamp set."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NODE = (
 
 
 class StampNeverSet(Rule):
-    """A measurement is published with a frame, and nothing ever sets the stamp in its header.
+    """A measurement is published with a frame, but nothing ever sets the stamp in its header.
 
     **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
     finds a match, RViz drops the message.
@@ -51,13 +51,13 @@ class StampNeverSet(Rule):
             reports=(
                 Report(
                     "talker.py:11:19",
-                    "sensor_msgs/msg/Temperature is published in line 13 with a stamp "
-                    "of zero: nothing sets header.stamp",
+                    "sensor_msgs/msg/Temperature is published in line 13 with a zero "
+                    "stamp; set header.stamp",
                 ),
             ),
         ),
         Example(
-            "perhaps set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
+            "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
     )
 
@@ -65,19 +65,19 @@ class StampNeverSet(Rule):
         for types in MessageTypes.of_package(package):
             if types.module.in_tests:
                 continue
-            for found in unstamped(types):
-                if _is_used_elsewhere(package, types, found.sent.args[0]):
+            for unset in unstamped(types):
+                if _is_used_elsewhere(package, types, unset.sent.args[0]):
                     continue
-                line = types.module.location(found.sent).line
+                line = types.module.location(unset.sent).line
                 message = (
-                    f"{found.message.name} is published in line {line} with a stamp of zero: "
-                    "nothing sets header.stamp"
+                    f"{unset.message.name} is published in line {line} with a zero stamp; "
+                    "set header.stamp"
                 )
-                yield self.report(types.module.location(found.made), message)
+                yield self.report(types.module.location(unset.made), message)
 
 
 def _is_used_elsewhere(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
-    """Tell whether another file names the attribute that holds a message."""
+    """Return whether another file uses the attribute that holds a message."""
     return isinstance(sent, ast.Attribute) and any(
         module.index.attributes(sent.attr)
         for module in package.modules()

@@ -1,4 +1,4 @@
-"""MS005: times of rclpy are converted for messages."""
+"""MS005: rclpy times are converted for messages."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _CODE = (
 
 
 class TimeNotConverted(MessageRule):
-    """A Time or Duration of rclpy is assigned to a field of a message.
+    """An rclpy Time or Duration is assigned to a message field.
 
     **Why.** ``AttributeError: 'Time' object has no attribute 'sec'`` when the message is
-    published; on some builds the node aborts without saying why.
+    published; on some builds the node aborts without an error message.
 
     **Fix.** Append ``.to_msg()``.
 
@@ -35,20 +35,20 @@ class TimeNotConverted(MessageRule):
     examples = (
         Example("converted", {"talker.py": _CODE.format(".to_msg()", ".to_msg()")}),
         Example(
-            "the clock's own time; a stamp of a header is a message whatever it belongs to",
+            "the time of the clock, for a field and for the header of an unknown message",
             {"talker.py": _CODE.format("", "")},
             reports=(
                 Report(
                     "talker.py:8:32",
-                    "stamp is a builtin_interfaces/msg/Time, but this is rclpy's own "
-                    "Time: AttributeError when it is published; append .to_msg()",
-                    fix="convert it with .to_msg()",
+                    "stamp is a builtin_interfaces/msg/Time, but this is an rclpy Time: "
+                    "AttributeError when published; append .to_msg()",
+                    fix="append .to_msg()",
                 ),
                 Report(
                     "talker.py:9:30",
-                    "header.stamp is a builtin_interfaces/msg/Time, but this is rclpy's "
-                    "own Time: AttributeError when it is published; append .to_msg()",
-                    fix="convert it with .to_msg()",
+                    "header.stamp is a builtin_interfaces/msg/Time, but this is an "
+                    "rclpy Time: AttributeError when published; append .to_msg()",
+                    fix="append .to_msg()",
                 ),
             ),
             fixed={"talker.py": _CODE.format(".to_msg()", ".to_msg()")},
@@ -64,17 +64,17 @@ class TimeNotConverted(MessageRule):
             fix = None
             if isinstance(value, ast.Call | ast.Name | ast.Attribute):
                 edit = Edit(types.module.path, end, end, ".to_msg()")
-                fix = Fix("convert it with .to_msg()", (edit,))
+                fix = Fix("append .to_msg()", (edit,))
             given = kind.rpartition("/")[2]
             message = (
-                f"{field} is a {kind}, but this is rclpy's own {given}: "
-                "AttributeError when it is published; append .to_msg()"
+                f"{field} is a {kind}, but this is an rclpy {given}: "
+                "AttributeError when published; append .to_msg()"
             )
             yield self.report(types.module.location(value), message, fix)
 
 
 def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield the values given to fields that are times, and the fields' names."""
+    """Yield the values assigned to time fields, and the names of the fields."""
     known: set[ast.expr] = set()
     for item in types.assigned:
         known.add(item.value)

@@ -1,4 +1,4 @@
-"""MS021: publishers and subscriptions of a package spell a topic the same way."""
+"""MS021: publishers and subscriptions spell a topic the same way."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _NODE = (
 
 
 class TopicNameDiffers(Rule):
-    """A subscription waits for a topic whose name differs by one letter from one that is published.
+    """The topic of a subscription differs by one letter from one that is published.
 
-    **Why.** Nothing arrives, without an error. Said only for names that have no other side in the
-    package, and the same type.
+    **Why.** Nothing arrives, and there is no error. Only names of the same type that have no
+    other end in the package are reported.
 
-    **Fix.** Spell both the same way, best from one constant.
+    **Fix.** Spell both the same way, preferably with one constant.
 
     **Source.** ROS 2 documentation, "Understanding topics".
     """
@@ -34,19 +34,21 @@ class TopicNameDiffers(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "the same",
+            "the same name",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
         ),
         Example(
-            "a letter less",
+            "a missing letter",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
             },
-            reports=(Report("b.py:8:42", "nobody publishes 'chater'; a.py:8 publishes 'chatter'"),),
+            reports=(
+                Report("b.py:8:42", "no publisher for 'chater'; did you mean 'chatter' (a.py:8)?"),
+            ),
         ),
     )
 
@@ -57,20 +59,22 @@ class TopicNameDiffers(Rule):
                 here, there = topic.subscriptions[0], other.publishers[0]
                 if topic.is_plain and other.is_plain and _is_slip(here, there):
                     place = f"{there.location.path}:{there.location.line}"
-                    message = f"nobody publishes {here.name!r}; {place} publishes {there.name!r}"
+                    message = (
+                        f"no publisher for {here.name!r}; did you mean {there.name!r} ({place})?"
+                    )
                     yield self.report(here.name_argument or here, message)
                     break
 
 
 def _is_slip(here: Endpoint, there: Endpoint) -> bool:
-    """Tell whether two names of one type differ by one letter or by case."""
-    one, other = str(here.name).strip("/"), str(there.name).strip("/")
-    if here.interface is None or here.interface != there.interface or one == other:
+    """Return whether two names of the same type differ by one letter or in case."""
+    name, other = str(here.name).strip("/"), str(there.name).strip("/")
+    if here.interface is None or here.interface != there.interface or name == other:
         return False
-    if one.lower() == other.lower():
+    if name.lower() == other.lower():
         return True
-    short, long = sorted((one, other), key=len)
-    if len(short) < _SHORTEST or len(long) - len(short) > 1 or any(map(str.isdigit, one + other)):
+    short, long = sorted((name, other), key=len)
+    if len(short) < _SHORTEST or len(long) - len(short) > 1 or any(map(str.isdigit, name + other)):
         return False
     same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
     rest = same if len(long) > len(short) else same + 1

@@ -22,9 +22,9 @@ _NODE = (
 class TopicTypeDiffers(Rule):
     """The two sides of a topic or service in one package use different types.
 
-    **Why.** They do not connect: nothing arrives, and a client waits for ever, without an error.
+    **Why.** They do not connect: nothing arrives, and a client waits forever, without an error.
 
-    **Fix.** Use one type on both sides, or two names.
+    **Fix.** Use the same type on both sides, or two names.
 
     **Source.** ROS 2 documentation, "Topics": a topic has one type.
     """
@@ -33,14 +33,14 @@ class TopicTypeDiffers(Rule):
     name = "topic-type-differs"
     examples = (
         Example(
-            "one type",
+            "the same type",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
         ),
         Example(
-            "two types of a topic",
+            "two types for a topic",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
@@ -48,18 +48,18 @@ class TopicTypeDiffers(Rule):
             reports=(
                 Report(
                     "a.py:9:31",
-                    "'chatter' is std_msgs/msg/String here, but std_msgs/msg/Bool in "
-                    "b.py:9: they do not connect",
+                    "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
+                    "in b.py:9: they never connect",
                 ),
                 Report(
                     "b.py:9:34",
-                    "'chatter' is std_msgs/msg/Bool here, but std_msgs/msg/String in "
-                    "a.py:9: they do not connect",
+                    "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
+                    "in a.py:9: they never connect",
                 ),
             ),
         ),
         Example(
-            "two types of a service",
+            "two types for a service",
             {
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
                 "b.py": _NODE.format("client(Empty, 'reset')"),
@@ -67,13 +67,13 @@ class TopicTypeDiffers(Rule):
             reports=(
                 Report(
                     "a.py:9:29",
-                    "'reset' is std_srvs/srv/Trigger here, but std_srvs/srv/Empty in "
-                    "b.py:9: they do not connect",
+                    "'reset' has type std_srvs/srv/Trigger here, but std_srvs/srv/Empty "
+                    "in b.py:9: they never connect",
                 ),
                 Report(
                     "b.py:9:28",
-                    "'reset' is std_srvs/srv/Empty here, but std_srvs/srv/Trigger in "
-                    "a.py:9: they do not connect",
+                    "'reset' has type std_srvs/srv/Empty here, but std_srvs/srv/Trigger "
+                    "in a.py:9: they never connect",
                 ),
             ),
         ),
@@ -91,20 +91,20 @@ class TopicTypeDiffers(Rule):
                 yield from self._check(name, service.services, service.clients)
 
     def _check(
-        self, name: str, ones: Sequence[Endpoint], others: Sequence[Endpoint]
+        self, name: str, sides: Sequence[Endpoint], others: Sequence[Endpoint]
     ) -> Iterator[Diagnostic]:
-        types = [{one.interface for one in side} for side in (ones, others)]
+        types = [{endpoint.interface for endpoint in side} for side in (sides, others)]
         if any(len(side) != 1 or None in side for side in types) or types[0] == types[1]:
             return
-        for here, there in ((ones[0], others[0]), (others[0], ones[0])):
+        for here, there in ((sides[0], others[0]), (others[0], sides[0])):
             message = (
-                f"{name!r} is {here.interface} here, but {there.interface} in "
-                f"{there.location.path}:{there.location.line}: they do not connect"
+                f"{name!r} has type {here.interface} here, but {there.interface} in "
+                f"{there.location.path}:{there.location.line}: they never connect"
             )
             yield self.report(here.type_argument or here, message)
 
 
 def _are_known(types: MessageTypes, *sides: Sequence[Endpoint]) -> bool:
-    """Tell whether the definitions of all types are at hand: else another rule may say why."""
-    names = {one.interface for side in sides for one in side}
+    """Return whether all types are defined; another rule reports those that are not."""
+    names = {endpoint.interface for side in sides for endpoint in side}
     return all(name is not None and types.definitions.find(name) for name in names)

@@ -1,4 +1,4 @@
-"""ND065: callbacks of an action server return what the server needs."""
+"""ND065: callbacks of an action server return what the server expects."""
 
 from __future__ import annotations
 
@@ -30,14 +30,15 @@ _JUDGED = "return GoalResponse.ACCEPT"
 
 
 class ActionCallbackResult(Rule):
-    """A callback of an action server returns something else than the server needs, or nothing.
+    """A callback of an action server returns nothing, or a value the server cannot use.
 
     **Why.** A goal callback that does not return a ``GoalResponse`` rejects every goal, a cancel
-    callback without ``CancelResponse`` every request; work that does not return the result ends
-    the node with ``AssertionError`` or ``AttributeError``, and the client waits for ever.
+    callback without a ``CancelResponse`` rejects every request; an execute callback that does not
+    return the result ends the node with ``AssertionError`` or ``AttributeError``, and the client
+    waits forever.
 
     **Fix.** ``return GoalResponse.ACCEPT``, ``return CancelResponse.ACCEPT``, and the result of
-    the action on every path of the work.
+    the action on every path of the execute callback.
 
     **Source.** ``rclpy/action/server.py``, ``_execute_goal_request``, ``_execute_goal``.
     """
@@ -52,18 +53,18 @@ class ActionCallbackResult(Rule):
             reports=(
                 Report(
                     "server.py:13:9",
-                    "returns True, not a GoalResponse for the action server made in "
-                    "line 9: it counts as a refusal",
+                    "returns True, not a GoalResponse for the action server of line 9: "
+                    "it counts as a rejection",
                 ),
                 Report(
                     "server.py:15:9",
-                    "work does not return the result for the action server made in line "
-                    "9: AssertionError",
+                    "work() does not return the result for the action server of line 9: "
+                    "AssertionError",
                 ),
             ),
         ),
         Example(
-            "the answer to another question, the feedback",
+            "the wrong response, the feedback",
             {
                 "server.py": _NODE.format(
                     "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
@@ -73,12 +74,12 @@ class ActionCallbackResult(Rule):
                 Report(
                     "server.py:13:9",
                     "returns a CancelResponse, not a GoalResponse for the action server "
-                    "made in line 9: it counts as a refusal",
+                    "of line 9: it counts as a rejection",
                 ),
                 Report(
                     "server.py:17:9",
                     "returns example_interfaces/action/Fibonacci.Feedback, not the "
-                    "result for the action server made in line 9: AssertionError",
+                    "result for the action server of line 9: AssertionError",
                 ),
             ),
         ),
@@ -98,11 +99,11 @@ class ActionCallbackResult(Rule):
         self, types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str
     ) -> Iterator[Diagnostic]:
         wanted = f"a {answer}" if answer else "the result"
-        happens = "it counts as a refusal" if answer else "AssertionError"
-        made = f"for the action server made in line {server.location.line}"
+        happens = "it counts as a rejection" if answer else "AssertionError"
+        made = f"for the action server of line {server.location.line}"
         if may_end(function):
             never = " on every path" if returned(function) else ""
-            message = f"{function.name} does not return {wanted}{never} {made}: {happens}"
+            message = f"{function.name}() does not return {wanted}{never} {made}: {happens}"
             yield self.report(types.module.name_location(function), message)
         for statement in returned(function):
             wrong = _wrong(types, server, statement.value, answer)
@@ -112,7 +113,7 @@ class ActionCallbackResult(Rule):
 
 
 def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
-    """Return the definition of a callback, where nothing wraps it."""
+    """Return the definition of a callback that nothing wraps."""
     given = server.argument(name)
     callback = types.facts.callback(given.node) if given else None
     function = callback.function if callback else None
@@ -123,16 +124,16 @@ def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionN
 
 
 def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, answer: str) -> str:
-    """Return what is returned if that surely is something else, else nothing."""
+    """Describe a returned value that is certainly wrong; empty for others."""
     if value is None:
         return "nothing"
     if isinstance(value, ast.Constant):
         return repr(value.value)
     name = types.module.qualified_name(value) or ""
     if answer:
-        other = next((one for one in _ANSWERS.values() if f".{one}." in name), answer)
+        other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
         return "" if other == answer else f"a {other}"
-    found = types.type_of(value)
-    if found is None or types.definitions.find(server.interface or "") is None:
+    message = types.type_of(value)
+    if message is None or types.definitions.find(server.interface or "") is None:
         return ""
-    return "" if found.name == f"{server.interface}.Result" else found.name
+    return "" if message.name == f"{server.interface}.Result" else message.name

@@ -1,4 +1,4 @@
-"""ND067: action servers and clients are given a node, a type and goals of that type."""
+"""ND067: action servers and clients get a node, an action type and goals of that type."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
+from scaffold.api.python import kind_of
 from scaffold.api.rclpy import ActionClient, RclpyFile
 
 _WHOLE = r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*"
@@ -25,10 +26,10 @@ _GOAL = "Fibonacci.Goal(order=3)"
 
 
 class ActionTypeWrong(MessageRule):
-    """An action server or client is given something else than its node, a type or a goal.
+    """An action server or client gets a wrong node, action type or goal.
 
     **Why.** ``AttributeError: type object 'Fibonacci' has no attribute 'handle'``, or rclpy finds
-    no support for the type; what is sent as a goal has to be one: ``TypeError``.
+    no type support; a goal of another type raises ``TypeError``.
 
     **Fix.** ``ActionClient(self, Fibonacci, 'fibonacci')``, and ``Fibonacci.Goal()`` to send.
 
@@ -44,16 +45,15 @@ class ActionTypeWrong(MessageRule):
             {"sender.py": _NODE.format("Fibonacci", _GOAL)},
             reports=(
                 Report(
-                    "sender.py:9:36", "Fibonacci is no node: the node comes first, then the type"
+                    "sender.py:9:36",
+                    "'Fibonacci' is not a node; pass the node first, then the type",
                 ),
             ),
         ),
         Example(
             "a part of the action",
             {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
-            reports=(
-                Report("sender.py:9:42", "this is a part of an action; the type is Fibonacci"),
-            ),
+            reports=(Report("sender.py:9:42", "this is only a part of an action; pass Fibonacci"),),
         ),
         Example(
             "a number, the class of goals, the result",
@@ -65,19 +65,19 @@ class ActionTypeWrong(MessageRule):
             reports=(
                 Report(
                     "sender.py:12:37",
-                    "sends a int; the client made in line 9 takes "
+                    "an int sent through the client of line 9, which takes "
                     "example_interfaces/action/Fibonacci.Goal: TypeError",
                 ),
                 Report(
                     "sender.py:13:31",
-                    "sends the class example_interfaces/action/Fibonacci.Goal; the "
-                    "client made in line 9 takes "
+                    "the class example_interfaces/action/Fibonacci.Goal sent through "
+                    "the client of line 9, which takes "
                     "example_interfaces/action/Fibonacci.Goal: TypeError",
                 ),
                 Report(
                     "sender.py:14:31",
-                    "sends example_interfaces/action/Fibonacci.Result; the client made "
-                    "in line 9 takes example_interfaces/action/Fibonacci.Goal: "
+                    "example_interfaces/action/Fibonacci.Result sent through the client "
+                    "of line 9, which takes example_interfaces/action/Fibonacci.Goal: "
                     "TypeError",
                 ),
             ),
@@ -105,34 +105,34 @@ class ActionTypeWrong(MessageRule):
                     continue
                 given = _given(types, client, call.args[0]) if call.args else ""
                 if given and not types.is_tolerated(call):
-                    message = f"sends {given}; the client made in line {client.location.line} "
-                    message += f"takes {client.interface}.Goal: TypeError"
+                    message = f"{given} sent through the client of line {client.location.line}, "
+                    message += f"which takes {client.interface}.Goal: TypeError"
                     yield self.report(types.module.location(call.args[0]), message)
 
 
 def _problem(facts: RclpyFile, node: ast.expr, name: str) -> str:
-    """Return what is wrong about the first or the second argument of an action server."""
+    """Return the message for a wrong first or second argument of an action server."""
     full = facts.module.qualified_name(node) or ""
     if name == "node":
         kind = full.rpartition(".")[2]
         is_type = re.fullmatch(_WHOLE, full) and facts.interface(node) is not None
-        return f"{kind} is no node: the node comes first, then the type" if is_type else ""
+        return f"'{kind}' is not a node; pass the node first, then the type" if is_type else ""
     if re.fullmatch(_WHOLE + r"\.(Goal|Result|Feedback)", full):
-        return f"this is a part of an action; the type is {full.split('.')[2]}"
+        return f"this is only a part of an action; pass {full.split('.')[2]}"
     if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and facts.interface(node):
-        return f"{full.rpartition('.')[2]} is no action"
+        return f"{full.rpartition('.')[2]!r} is not an action type"
     return ""
 
 
 def _given(types: MessageTypes, client: ActionClient, node: ast.expr) -> str:
-    """Return what is sent if that surely is no goal of the client, else nothing."""
+    """Describe a goal that certainly has another type than the client's; empty for others."""
     if client.interface is None or types.definitions.find(client.interface) is None:
         return ""
-    found = types.type_of(node)
-    if found is not None:
-        return found.name if found.name != f"{client.interface}.Goal" else ""
+    owner = types.type_of(node)
+    if owner is not None:
+        return owner.name if owner.name != f"{client.interface}.Goal" else ""
     if isinstance(node, ast.Name | ast.Attribute):
         class_ = types.class_of(node)
         whole = types.facts.interface(node)
         return f"the class {class_.name}" if class_ else f"the class {whole}" if whole else ""
-    return f"a {type(node.value).__name__}" if isinstance(node, ast.Constant) else ""
+    return kind_of(node.value) if isinstance(node, ast.Constant) else ""

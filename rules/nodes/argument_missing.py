@@ -1,4 +1,4 @@
-"""ND056: the functions of rclpy get all that they need."""
+"""ND056: functions of rclpy get all required arguments."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ _NODE = (
 
 
 class ArgumentMissing(RclpyRule):
-    """A function of rclpy is called without an argument that it needs.
+    """A function of rclpy is called without a required argument.
 
     **Why.** ``TypeError: Node.create_timer() missing 1 required positional argument: 'callback'``.
 
-    **Fix.** Give it.
+    **Fix.** Pass the argument.
 
     **Source.** ``rclpy/__init__.py``, ``rclpy/node.py``, ``rclpy/publisher.py``,
     ``rclpy/client.py``.
@@ -57,17 +57,17 @@ class ArgumentMissing(RclpyRule):
     code = "ND056"
     name = "argument-missing"
     examples = (
-        Example("all", {"talker.py": _NODE.format("0.1, print", "Talker()")}),
+        Example("all arguments", {"talker.py": _NODE.format("0.1, print", "Talker()")}),
         Example(
             "a callback, a node",
             {"talker.py": _NODE.format("0.1", "")},
             reports=(
-                Report("talker.py:8:9", "create_timer() needs callback as well: TypeError"),
-                Report("talker.py:13:5", "spin() needs node as well: TypeError"),
+                Report("talker.py:8:9", "create_timer() is missing 'callback': TypeError"),
+                Report("talker.py:13:5", "spin() is missing 'node': TypeError"),
             ),
         ),
         Example(
-            "what an action server does",
+            "an action server without its callback",
             {
                 "talker.py": "from rclpy.action import ActionServer\n"
                 + _NODE.format("0.1, print", "Talker()").replace(
@@ -75,7 +75,7 @@ class ArgumentMissing(RclpyRule):
                 )
             },
             reports=(
-                Report("talker.py:9:9", "ActionServer() needs execute_callback as well: TypeError"),
+                Report("talker.py:9:9", "ActionServer() is missing 'execute_callback': TypeError"),
             ),
         ),
     )
@@ -83,19 +83,19 @@ class ArgumentMissing(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for call in facts.module.walk(ast.Call):
             needed = _needed(facts, call)
-            if not needed or any(isinstance(one, ast.Starred) for one in call.args):
+            if not needed or any(isinstance(argument, ast.Starred) for argument in call.args):
                 continue
             words = {word.arg for word in call.keywords}
-            missing = [one for one in needed[len(call.args) :] if one not in words]
+            missing = [key for key in needed[len(call.args) :] if key not in words]
             if None in words or not missing or set(missing) <= _LEFT_TO_ND010:
                 continue
             name = facts.module.text(call.func).rpartition(".")[2]
-            message = f"{name}() needs {', '.join(missing)} as well: TypeError"
+            message = f"{name}() is missing {', '.join(map(repr, missing))}: TypeError"
             yield self.report(facts.module.location(call), message)
 
 
 def _needed(facts: RclpyFile, call: ast.Call) -> tuple[str, ...]:
-    """Return the parameters without a default of what is called."""
+    """Return the required parameters of the called function."""
     func = call.func
     name = facts.module.qualified_name(func) or ""
     if name in _FUNCTIONS or not isinstance(func, ast.Attribute):

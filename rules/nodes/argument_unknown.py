@@ -1,4 +1,4 @@
-"""ND040: the functions of rclpy get arguments that they have."""
+"""ND040: functions of rclpy get only arguments that they take."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _RIGHT = _CODE.format("", "", "args=", ", timeout_sec=0.1")
 
 
 class ArgumentUnknown(RclpyRule):
-    """A function of rclpy is given an argument that it does not take.
+    """A function of rclpy gets an argument that it does not take.
 
     **Why.** ``TypeError: init() takes 0 positional arguments but 1 was given`` as soon as the
-    call is made. Many arguments of rclpy can be given by name only, other than in ROS 1 or C++.
+    call is made. Many arguments of rclpy are keyword-only, unlike in ROS 1 or C++.
 
-    **Fix.** Give the argument by its name, or leave it out.
+    **Fix.** Pass the argument as a keyword, or remove it.
 
     **Source.** ``rclpy/__init__.py``, ``rclpy/node.py``, ``rclpy/qos.py`` of Jazzy.
     """
@@ -38,22 +38,22 @@ class ArgumentUnknown(RclpyRule):
     code = "ND040"
     name = "argument-unknown"
     examples = (
-        Example("by name", {"server.py": _RIGHT}),
+        Example("as keywords", {"server.py": _RIGHT}),
         Example(
-            "by position",
+            "positional",
             {"server.py": _CODE.format("", "", "", ", 0.1")},
             reports=(
                 Report(
                     "server.py:16:16",
-                    "rclpy.init() takes no positional arguments: TypeError; by name: "
-                    "args, context, domain_id, signal_handler_options",
-                    fix="give it as args=",
+                    "rclpy.init() takes no positional arguments: TypeError; as "
+                    "keywords: args, context, domain_id, signal_handler_options",
+                    fix="pass it as args=",
                 ),
                 Report(
                     "server.py:17:31",
                     "rclpy.spin_once() takes at most 1 positional argument: TypeError; "
-                    "by name: executor, timeout_sec",
-                    fix="give it as timeout_sec=",
+                    "as keywords: executor, timeout_sec",
+                    fix="pass it as timeout_sec=",
                 ),
             ),
             fixed={"server.py": _RIGHT},
@@ -65,13 +65,13 @@ class ArgumentUnknown(RclpyRule):
                 Report(
                     "server.py:11:54",
                     "create_service() takes at most 3 positional arguments: TypeError; "
-                    "by name: callback_group, qos_profile",
+                    "as keywords: callback_group, qos_profile",
                 ),
                 Report("server.py:12:47", "create_timer() has no argument 'oneshot': TypeError"),
             ),
         ),
         Example(
-            "of clients and publishers",
+            "a misspelled keyword of a client",
             {
                 "server.py": _RIGHT.replace(
                     "self.create_timer(0.1, print)",
@@ -81,12 +81,13 @@ class ArgumentUnknown(RclpyRule):
             reports=(
                 Report(
                     "server.py:12:67",
-                    "wait_for_service() has no argument 'timeout', but 'timeout_sec': TypeError",
+                    "wait_for_service() has no argument 'timeout': TypeError; did you "
+                    "mean 'timeout_sec'?",
                 ),
             ),
         ),
         Example(
-            "a message for what returns the logger",
+            "a message for the getter of the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
             reports=(
                 Report("server.py:10:25", "get_logger() takes no positional arguments: TypeError"),
@@ -105,18 +106,18 @@ def _message(excess: Excess) -> str:
     if excess.keyword:
         known = sorted({*signature.positional, *signature.keywords})
         near = get_close_matches(excess.keyword, known, n=1)
-        hint = f", but {near[0]!r}" if near else ""
-        return f"{excess.function}() has no argument {excess.keyword!r}{hint}: TypeError"
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        return f"{excess.function}() has no argument {excess.keyword!r}: TypeError{hint}"
     count = len(signature.positional)
     most = f"at most {count}" if count else "no"
     plural = "" if count == 1 else "s"
     by_name = sorted(signature.keywords)
-    hint = f"; by name: {', '.join(by_name)}" if by_name else ""
+    hint = f"; as keywords: {', '.join(by_name)}" if by_name else ""
     return f"{excess.function}() takes {most} positional argument{plural}: TypeError{hint}"
 
 
 def _fix(facts: RclpyFile, excess: Excess) -> Fix | None:
-    """Name an argument where its name is plain."""
+    """Return the fix that names an argument, where the name is obvious."""
     if excess.keyword or excess.node is not excess.call.args[-1]:
         return None
     name = ""
@@ -128,7 +129,7 @@ def _fix(facts: RclpyFile, excess: Excess) -> Fix | None:
     if not name or any(word.arg in {name, None} for word in excess.call.keywords):
         return None
     start, _ = facts.module.span(excess.node)
-    return Fix(f"give it as {name}=", (Edit(facts.module.path, start, start, f"{name}="),))
+    return Fix(f"pass it as {name}=", (Edit(facts.module.path, start, start, f"{name}="),))
 
 
 def _is_command_line(facts: RclpyFile, node: ast.expr) -> bool:

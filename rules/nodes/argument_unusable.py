@@ -1,4 +1,4 @@
-"""ND055: the functions of rclpy get values that they can use."""
+"""ND055: functions of rclpy get values of usable types."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ _HELPER = {
 
 
 class ArgumentUnusable(RclpyRule):
-    """A function of rclpy gets a value of a kind that it cannot use.
+    """A function of rclpy gets a value of a type that it cannot use.
 
     **Why.** ``TypeError: 'str' object is not callable`` and the like, at start or at the first
     call.
 
-    **Fix.** Give what the parameter is for: a class for a type, a text for a name, a function for
+    **Fix.** Pass what the parameter expects: a class for a type, a str for a name, a function for
     a callback.
 
     **Source.** ``rclpy/node.py``, ``rclpy/parameter.py``.
@@ -59,17 +59,18 @@ class ArgumentUnusable(RclpyRule):
         Example("usable", {"talker.py": _NODE.format("String", "self.tick", "[1.0, 2.0]")}),
         Example("a method of the same name", _HELPER),
         Example(
-            "an object, a text, two types",
+            "an object, a str, mixed types",
             {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
             reports=(
                 Report(
-                    "talker.py:8:31", "this is an object, not its class: remove the parentheses"
+                    "talker.py:8:31",
+                    "this is an instance, not the message type; remove the parentheses",
                 ),
-                Report("talker.py:9:32", "a callback is a function, and this is a str: TypeError"),
                 Report(
-                    "talker.py:10:41",
-                    "the values of a parameter have one type, and these are float, int: TypeError",
+                    "talker.py:9:32",
+                    "the callback must be a function, but this is a str: TypeError",
                 ),
+                Report("talker.py:10:41", "a list parameter cannot mix float, int: TypeError"),
             ),
         ),
         Example(
@@ -78,8 +79,7 @@ class ArgumentUnusable(RclpyRule):
             reports=(
                 Report(
                     "talker.py:10:41",
-                    "a parameter holds no dictionary: TypeError; declare one parameter "
-                    "for each key",
+                    "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
                 ),
             ),
         ),
@@ -100,38 +100,40 @@ def _problem(facts: RclpyFile, entity: Entity, argument: Argument) -> str:
         return _default_problem(value) if name == "value" else ""
     if isinstance(entity, Endpoint) and name in _TYPES and isinstance(node, ast.Call):
         is_made = facts.interface(node.func) is not None
-        problem = "this is an object, not its class: remove the parentheses" if is_made else ""
+        problem = (
+            "this is an instance, not the message type; remove the parentheses" if is_made else ""
+        )
     elif isinstance(entity, Service | Client) and name == "srv_type":
         problem = _service_problem(facts, node)
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
-        problem = f"a name is text, and this is {kind_of(value)}: TypeError"
+        problem = f"the name must be a str, but this is {kind_of(value)}: TypeError"
     elif name in _CALLBACKS and isinstance(value, str):
-        problem = f"a callback is a function, and this is {kind_of(value)}: TypeError"
+        problem = f"the callback must be a function, but this is {kind_of(value)}: TypeError"
     elif name == "callback_group" and isinstance(value, str):
-        problem = "a callback group is an object of rclpy, and this is a str: AttributeError"
+        problem = "the callback group must be a CallbackGroup, but this is a str: AttributeError"
     elif name == "callback_group":
         full = facts.module.qualified_name(node) or ""
         is_class = full.startswith("rclpy.callback_groups.")
-        problem = "this is the class of a callback group: make an object of it" if is_class else ""
+        problem = "this is a class, not a callback group; instantiate it" if is_class else ""
     return problem
 
 
 def _service_problem(facts: RclpyFile, node: ast.expr) -> str:
-    """Return what is wrong about a type that should be that of a service."""
+    """Return the message for a type that is not a service."""
     full = facts.module.qualified_name(node) or ""
     if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
-        return f"this is a part of a service; the type is {full.split('.')[2]}: RuntimeError"
+        return f"this is only a part of a service: RuntimeError; pass {full.split('.')[2]}"
     if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):
-        return f"{full.rpartition('.')[2]} is no service: RuntimeError"
+        return f"{full.rpartition('.')[2]!r} is not a service type: RuntimeError"
     return ""
 
 
 def _default_problem(value: object) -> str:
     if isinstance(value, dict):
-        return "a parameter holds no dictionary: TypeError; declare one parameter for each key"
+        return "a parameter cannot hold a dict: TypeError; declare a parameter for each key"
     if isinstance(value, list | tuple) and UNKNOWN not in value:
         kinds = {type(item) for item in value}
         if len(kinds) > 1 or kinds & {list, dict, tuple}:
             names = ", ".join(sorted(kind.__name__ for kind in kinds))
-            return f"the values of a parameter have one type, and these are {names}: TypeError"
+            return f"a list parameter cannot mix {names}: TypeError"
     return ""

@@ -1,4 +1,4 @@
-"""ND004: arguments stand in the order of rclpy."""
+"""ND004: arguments are in the order that rclpy expects."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NODE = (
 class ArgumentsSwapped(RclpyRule):
     """The first two arguments of a ``create_...`` call are swapped.
 
-    **Why.** ``create_timer`` wants the period first, ``create_publisher`` and its like the type:
+    **Why.** ``create_timer`` takes the period first, ``create_publisher`` and the like the type:
     the node ends with ``TypeError`` or ``AttributeError`` at start.
 
     **Fix.** Swap them.
@@ -41,12 +41,12 @@ class ArgumentsSwapped(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:31",
-                    "the type comes first, then the name 'chatter'",
+                    "swapped arguments: the type comes first, then the name 'chatter'",
                     fix="swap the arguments",
                 ),
                 Report(
                     "talker.py:9:27",
-                    "create_timer() wants the period in seconds first, then the callback",
+                    "swapped arguments: create_timer() takes the period first, then the callback",
                     fix="swap the arguments",
                 ),
             ),
@@ -68,7 +68,7 @@ class ArgumentsSwapped(RclpyRule):
                 yield self.report(at, wanted, Fix("swap the arguments", edits))
 
     def _wanted(self, facts: RclpyFile, entity: Entity) -> str | None:
-        """Return what is wrong, if the first two arguments are surely swapped."""
+        """Return the message if the first two arguments are certainly swapped."""
         if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
             return None
         first, second = entity.call.args[:2]
@@ -78,11 +78,11 @@ class ArgumentsSwapped(RclpyRule):
                 evaluate(first), int | float
             )
             if is_callable and isinstance(evaluate(second), int | float):
-                return "create_timer() wants the period in seconds first, then the callback"
+                return "swapped arguments: create_timer() takes the period first, then the callback"
         elif (
             isinstance(entity, Endpoint)
             and isinstance(evaluate(first), str)
             and facts.interface(second) is not None
         ):
-            return f"the type comes first, then the name {evaluate(first)!r}"
+            return f"swapped arguments: the type comes first, then the name {evaluate(first)!r}"
         return None

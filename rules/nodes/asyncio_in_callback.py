@@ -1,4 +1,4 @@
-"""ND020: coroutines of rclpy wait for what rclpy knows."""
+"""ND020: coroutines of rclpy await rclpy futures only."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _NODE = (
 
 
 class AsyncioInCallback(RclpyRule):
-    """A callback awaits something of asyncio.
+    """A callback awaits an asyncio function.
 
-    **Why.** rclpy runs coroutines itself, without an event loop of asyncio: ``RuntimeError: no
+    **Why.** rclpy runs coroutines itself, without an asyncio event loop: ``RuntimeError: no
     running event loop``.
 
-    **Fix.** Await a Future of rclpy, or use a timer.
+    **Fix.** Await an rclpy Future, or use a timer.
 
     **Source.** rclpy issue 1313; ``rclpy/task.py``.
     """
@@ -34,15 +34,16 @@ class AsyncioInCallback(RclpyRule):
     code = "ND020"
     name = "asyncio-in-callback"
     examples = (
-        Example("a future of rclpy", {"talker.py": _NODE.format("self.client.call_async(None)")}),
-        Example("none at all", {"talker.py": _NODE.format("asyncio.sleep(0)")}),
+        Example("an rclpy future", {"talker.py": _NODE.format("self.client.call_async(None)")}),
+        Example("no await", {"talker.py": _NODE.format("asyncio.sleep(0)")}),
         Example(
             "asyncio",
             {"talker.py": _NODE.format("asyncio.sleep(0.1)")},
             reports=(
                 Report(
                     "talker.py:12:9",
-                    "asyncio.sleep() needs an event loop of asyncio, which rclpy does not run",
+                    "asyncio.sleep() needs an asyncio event loop, which rclpy does not "
+                    "run: RuntimeError",
                 ),
             ),
         ),
@@ -57,8 +58,10 @@ class AsyncioInCallback(RclpyRule):
             if id(function) not in functions or not isinstance(node.value, ast.Call):
                 continue
             name = facts.module.qualified_name(node.value.func)
-            # sleep(0) hands over, which any event loop understands.
+            # sleep(0) only yields, which works in any event loop.
             waits = ast.unparse(node.value) != "asyncio.sleep(0)"
             if name in AWAITED and waits:
-                message = f"{name}() needs an event loop of asyncio, which rclpy does not run"
+                message = (
+                    f"{name}() needs an asyncio event loop, which rclpy does not run: RuntimeError"
+                )
                 yield self.report(facts.module.location(node), message)

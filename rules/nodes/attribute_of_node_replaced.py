@@ -14,14 +14,14 @@ PROPERTIES = frozenset(
     | {"services", "subscriptions", "timers", "waitables"}
 )
 _LISTS = frozenset({"clients", "guards", "services", "subscriptions", "timers", "waitables"})
-"""Properties that an executor loops over."""
+"""Properties that an executor iterates over."""
 _ASKED = frozenset({"get_clock", "get_logger", "get_name", "get_namespace"})
 """Methods that rclpy calls without arguments."""
 _PRIVATE = frozenset(
     {"_clients", "_clock", "_context", "_descriptors", "_guards", "_logger", "_parameters"}
     | {"_publishers", "_services", "_subscriptions", "_timers", "_waitables"}
 )
-"""Attributes that Node keeps its own things in."""
+"""Private attributes of Node."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -32,7 +32,7 @@ _NODE = (
 
 
 class AttributeOfNodeReplaced(RclpyRule):
-    """A node assigns to an attribute that Node has as a property.
+    """A node assigns to a property of Node, or overrides a method that rclpy calls.
 
     **Why.** ``AttributeError: property 'publishers' of 'Talker' object has no setter``; an
     ``executor`` of another kind fails with ``has no attribute 'add_node'``.
@@ -45,22 +45,31 @@ class AttributeOfNodeReplaced(RclpyRule):
     code = "ND013"
     name = "attribute-of-node-replaced"
     examples = (
-        Example("a name of its own", {"talker.py": _NODE.format("my_publishers")}),
+        Example("another name", {"talker.py": _NODE.format("my_publishers")}),
         Example(
             "a property",
             {"talker.py": _NODE.format("publishers")},
-            reports=(Report("talker.py:7:9", "Node has 'publishers' itself, which this replaces"),),
+            reports=(
+                Report(
+                    "talker.py:7:9",
+                    "'publishers' is an attribute of rclpy's Node; choose another name",
+                ),
+            ),
         ),
         Example(
-            "what Node keeps, and a method",
+            "a private attribute, and a method",
             {
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
             reports=(
-                Report("talker.py:7:9", "Node has '_timers' itself, which this replaces"),
                 Report(
-                    "talker.py:9:9", "rclpy itself uses timers of Node, which this method replaces"
+                    "talker.py:7:9",
+                    "'_timers' is an attribute of rclpy's Node; choose another name",
+                ),
+                Report(
+                    "talker.py:9:9",
+                    "'timers' overrides an attribute of rclpy's Node; choose another name",
                 ),
             ),
         ),
@@ -70,17 +79,19 @@ class AttributeOfNodeReplaced(RclpyRule):
         for node in facts.classes:
             for target in _targets(node):
                 at = facts.module.location(target)
-                message = f"Node has {target.attr!r} itself, which this replaces"
+                message = f"{target.attr!r} is an attribute of rclpy's Node; choose another name"
                 yield self.report(at, message)
             for name, method in node.methods.items():
                 if _breaks(name, method):
                     at = facts.module.name_location(method)
-                    message = f"rclpy itself uses {name} of Node, which this method replaces"
+                    message = (
+                        f"{name!r} overrides an attribute of rclpy's Node; choose another name"
+                    )
                     yield self.report(at, message)
 
 
 def _breaks(name: str, method: FunctionNode) -> bool:
-    """Tell whether rclpy cannot use a method that has the name of something in Node."""
+    """Return whether a method overrides an attribute of Node in a way rclpy cannot use."""
     if name in _LISTS:
         return not method.decorator_list
     arguments = [*method.args.posonlyargs, *method.args.args]
@@ -107,7 +118,7 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
 
 
 def _is_usable(node: NodeClass, target: ast.Attribute) -> bool:
-    """Tell whether an attribute of Node is given what Node can work with, or what is unknown."""
+    """Return whether the assigned value works for Node, or is unknown."""
     if target.attr in _PRIVATE:
         parent = node.facts.module.parent(target)
         value = parent.value if isinstance(parent, ast.Assign | ast.AnnAssign) else None

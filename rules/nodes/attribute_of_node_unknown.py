@@ -1,4 +1,4 @@
-"""ND046: what a node uses of itself exists."""
+"""ND046: attributes that a node uses on itself exist."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ _ELSEWHERE = {
     "set_parameter": "set_parameters",
     "spin": "rclpy.spin(...)",
 }
-"""What other libraries call it."""
+"""Names in other libraries, and their names in rclpy."""
 
 
 class AttributeOfNodeUnknown(Rule):
-    """A node uses an attribute or method of itself that nobody defines.
+    """A node uses an attribute or method of itself that is not defined.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'create_subscriber'`` when the line
-    is reached, for a callback in the constructor, else at the first message.
+    is reached: at start in a constructor, at the first message in a callback.
 
-    **Fix.** Spell it as it is defined, or define it.
+    **Fix.** Correct the spelling, or define it.
 
     **Source.** ``rclpy/node.py``, ``Node``.
     """
@@ -67,7 +67,7 @@ class AttributeOfNodeUnknown(Rule):
             },
         ),
         Example(
-            "misspelt",
+            "misspelled",
             {"talker.py": _NODE.format("on_tick", "publisher")},
             reports=(
                 Report(
@@ -76,8 +76,8 @@ class AttributeOfNodeUnknown(Rule):
                 ),
                 Report(
                     "talker.py:12:9",
-                    "neither Talker nor rclpy's Node has 'publisher'; 'publishers' is "
-                    "meant: AttributeError",
+                    "neither Talker nor rclpy's Node has 'publisher': AttributeError; "
+                    "did you mean 'publishers'?",
                 ),
             ),
         ),
@@ -102,23 +102,23 @@ class AttributeOfNodeUnknown(Rule):
                 continue
             names = names or {*defined, *given, *_names_of_rclpy()}
             near = _ELSEWHERE.get(name) or _near(package, name, names)
-            hint = f"; {near!r} is meant" if near else ""
-            message = f"neither {node.name} nor rclpy's Node has {name!r}{hint}: AttributeError"
+            hint = f"; did you mean {near!r}?" if near else ""
+            message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
             yield self.report(node.facts.module.location(attribute), message)
 
 
 def _names_of_rclpy() -> Iterator[str]:
-    return (one.removesuffix("()") for one in known_names()[NODE])
+    return (name.removesuffix("()") for name in known_names()[NODE])
 
 
 def _near(package: Package, name: str, names: set[str]) -> str:
-    # rclpy's own attributes start with an underscore: nobody means those.
+    # Private attributes of rclpy, with an underscore, are never the intended ones.
     hidden = "__" if name.startswith("_") else "_"
-    return nearest(package, name, [one for one in names if not one.startswith(hidden)], 0.7)
+    return nearest(package, name, [x for x in names if not x.startswith(hidden)], 0.7)
 
 
 def _may_fail(facts: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether the code is ready for the attribute not to be there."""
+    """Return whether the code handles a missing attribute."""
     if is_harmless(facts.module, node, "AttributeError"):
         return True
     return f"'{node.attr}'" in facts.module.source.text or (

@@ -1,4 +1,4 @@
-"""ND047: what is used of publishers, timers, clocks, futures ... exists."""
+"""ND047: attributes of publishers, timers, clocks and futures exist."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ _ELSEWHERE = {
 
 
 class AttributeOfObjectUnknown(Rule):
-    """A publisher, client, goal handle, future, clock or time has no such attribute.
+    """An attribute of a publisher, client, goal handle, future, clock or time does not exist.
 
     **Why.** ``AttributeError: 'Publisher' object has no attribute 'send'``.
 
-    **Fix.** Spell it as rclpy does.
+    **Fix.** Use the name that rclpy defines.
 
     **Source.** The classes of rclpy 7.1 (ROS 2 Jazzy).
     """
@@ -45,9 +45,7 @@ class AttributeOfObjectUnknown(Rule):
         Example(
             "unknown",
             {"talker.py": _NODE.format("send")},
-            reports=(
-                Report("talker.py:11:9", "a Publisher of rclpy has no 'send': AttributeError"),
-            ),
+            reports=(Report("talker.py:11:9", "rclpy's Publisher has no 'send': AttributeError"),),
         ),
     )
 
@@ -63,10 +61,8 @@ class AttributeOfObjectUnknown(Rule):
             return
         if is_harmless(facts.module, node, "AttributeError"):
             return
-        known = [one.removesuffix("()") for one in known_names()[owner] if one[0] != "_"]
+        known = [name.removesuffix("()") for name in known_names()[owner] if name[0] != "_"]
         near = _ELSEWHERE.get(node.attr) or next(iter(get_close_matches(node.attr, known, 1)), "")
-        hint = f"; {near!r} is meant" if near else ""
-        kind = owner.rpartition(".")[2]
-        article = "an" if kind[0] in "AEIOU" else "a"
-        message = f"{article} {kind} of rclpy has no {node.attr!r}{hint}: AttributeError"
+        hint = f"; did you mean {near!r}?" if near else ""
+        message = f"rclpy's {owner.rpartition('.')[2]} has no {node.attr!r}: AttributeError{hint}"
         yield self.report(facts.module.location(node), message)

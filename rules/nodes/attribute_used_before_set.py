@@ -1,4 +1,4 @@
-"""ND062: a constructor sets attributes before it uses them."""
+"""ND062: constructors set attributes before they use them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,11 @@ class AttributeUsedBeforeSet(RclpyRule):
         Example(
             "used first",
             {"talker.py": _NODE.format(_USE + _MAKE)},
-            reports=(Report("talker.py:8:9", "self.pub is set in line 9 only: AttributeError"),),
+            reports=(
+                Report(
+                    "talker.py:8:9", "self.pub is used before it is set in line 9: AttributeError"
+                ),
+            ),
         ),
     )
 
@@ -46,21 +50,23 @@ class AttributeUsedBeforeSet(RclpyRule):
             if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
                 continue
             for used, line in _used_early(facts, node):
-                message = f"self.{used.attr} is set in line {line} only: AttributeError"
+                message = (
+                    f"self.{used.attr} is used before it is set in line {line}: AttributeError"
+                )
                 yield self.report(facts.module.location(used), message)
 
 
 def _used_early(facts: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
-    """Yield the first use of each attribute that stands above all places that set it."""
+    """Yield the first use of each attribute that is set only in later lines."""
     bound = facts.module.index.bindings(node.node)
-    told: set[str] = set()
+    reported: set[str] = set()
     first_lines: dict[str, int] = {}
     if node.constructor is None:
         return
     for used in facts.module.below(node.constructor, ast.Attribute):
         if not isinstance(used.ctx, ast.Load):
             continue
-        if used.attr in told or used.attr in bound or has(NODE, used.attr):
+        if used.attr in reported or used.attr in bound or has(NODE, used.attr):
             continue
         if facts.evaluator.self_class(used.value) is not node.node:
             continue
@@ -73,12 +79,12 @@ def _used_early(facts: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribu
             isinstance(parent, ast.For | ast.While) for parent in facts.module.parents(used)
         )
         if not in_loop and not is_harmless(facts.module, used, "AttributeError"):
-            told.add(used.attr)
+            reported.add(used.attr)
             yield used, line
 
 
 def _first_line(facts: RclpyFile, node: NodeClass, name: str) -> int:
-    """Return where an attribute is set first; 0 unless the constructor alone sets it."""
+    """Return the first line that sets an attribute; 0 unless only the constructor sets it."""
     stores = facts.evaluator.stores(name)
     if {facts.function_of(store.node) for store in stores} != {node.constructor}:
         return 0

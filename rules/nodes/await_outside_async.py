@@ -1,4 +1,4 @@
-"""ND053: only async functions await."""
+"""ND053: await is used in async functions only."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _NODE = (
 
 
 class AwaitOutsideAsync(PythonRule):
-    """``await`` stands in a function that is not ``async``.
+    """``await`` is used in a function that is not ``async``.
 
-    **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``; colcon
-    does not say so, the node dies when it is started.
+    **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``. colcon
+    does not report it: the node dies at start.
 
     **Fix.** Write ``async def``; rclpy runs such callbacks.
 
@@ -34,7 +34,7 @@ class AwaitOutsideAsync(PythonRule):
         Example(
             "not async",
             {"caller.py": _NODE.format("")},
-            reports=(Report("caller.py:6:9", "'await' outside of an async function: SyntaxError"),),
+            reports=(Report("caller.py:6:9", "'await' outside an async function: SyntaxError"),),
         ),
     )
 
@@ -44,6 +44,6 @@ class AwaitOutsideAsync(PythonRule):
                 if isinstance(parent, ast.AsyncFunctionDef):
                     break
                 if isinstance(parent, ast.FunctionDef | ast.Lambda | ast.Module):
-                    message = "'await' outside of an async function: SyntaxError"
+                    message = "'await' outside an async function: SyntaxError"
                     yield self.report(module.location(node), message)
                     break

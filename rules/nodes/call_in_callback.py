@@ -1,4 +1,4 @@
-"""ND058: callbacks do not wait for services."""
+"""ND058: callbacks do not block on services."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _NODE = (
     "{}"
 )
 _BLOCKING = {
-    "call": ("rclpy.client.Client", "a service"),
-    "send_goal": ("rclpy.action.client.ActionClient", "the result of an action"),
-    "get_result": ("rclpy.action.client.ClientGoalHandle", "the result of an action"),
+    "call": ("rclpy.client.Client", "a service response"),
+    "send_goal": ("rclpy.action.client.ActionClient", "an action result"),
+    "get_result": ("rclpy.action.client.ClientGoalHandle", "an action result"),
 }
 
 
 class CallInCallback(RclpyRule):
-    """A callback or constructor calls a service and waits for the answer.
+    """A callback or constructor calls a service and blocks until the response.
 
-    **Why.** The answer is taken by the executor, which waits for the callback: the node stands
-    still for ever, without an error.
+    **Why.** The executor receives the response, but waits for the callback: the node hangs
+    forever, without an error.
 
     **Fix.** ``call_async`` with ``add_done_callback``, or an ``async`` callback that awaits.
 
@@ -55,7 +55,8 @@ class CallInCallback(RclpyRule):
             reports=(
                 Report(
                     "caller.py:12:9",
-                    "waits for a service in the callback ask: the answer cannot come meanwhile",
+                    "waits for a service response in callback 'ask': deadlock, no "
+                    "response is processed meanwhile",
                 ),
             ),
         ),
@@ -70,8 +71,8 @@ class CallInCallback(RclpyRule):
             reports=(
                 Report(
                     "caller.py:13:9",
-                    "waits for the result of an action in the callback ask: the answer "
-                    "cannot come meanwhile",
+                    "waits for an action result in callback 'ask': deadlock, no "
+                    "response is processed meanwhile",
                 ),
             ),
         ),
@@ -86,8 +87,8 @@ class CallInCallback(RclpyRule):
             reports=(
                 Report(
                     "caller.py:13:9",
-                    "loops until a future is done in the callback ask: the answer "
-                    "cannot come meanwhile",
+                    "busy-waits for a future in callback 'ask': deadlock, no response "
+                    "is processed meanwhile",
                 ),
             ),
         ),
@@ -101,7 +102,9 @@ class CallInCallback(RclpyRule):
             for node, what in _waits(facts, executed.function):
                 if node not in seen:
                     seen.add(node)
-                    message = f"{what} in {executed.origin}: the answer cannot come meanwhile"
+                    message = (
+                        f"{what} in {executed.origin}: deadlock, no response is processed meanwhile"
+                    )
                     yield self.report(facts.module.location(node), message)
 
 
@@ -114,7 +117,7 @@ def _waits(facts: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str]]
                     yield node, f"waits for {what}"
             case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
                 if isinstance(func, ast.Attribute) and _loops_until_done(facts, func, node):
-                    yield node, "loops until a future is done"
+                    yield node, "busy-waits for a future"
 
 
 def _loops_until_done(facts: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:

@@ -1,4 +1,4 @@
-"""ND003: callbacks take what they are given."""
+"""ND003: callbacks take the arguments that rclpy passes."""
 
 from __future__ import annotations
 
@@ -34,23 +34,23 @@ _ASKING = (
     "        super().__init__('asking')\n"
     "        self.client = self.create_client(Trigger, 'report')\n"
     "        future = self.client.call_async(Trigger.Request({}))\n"
-    "        future.add_done_callback(self.one)\n"
-    "        future.add_done_callback(self.two)\n\n"
-    "    def one(self{}):\n"
+    "        future.add_done_callback(self.log)\n"
+    "        future.add_done_callback(self.end)\n\n"
+    "    def log(self{}):\n"
     "        pass\n\n"
-    "    def two(self{}):\n"
+    "    def end(self{}):\n"
     "        pass\n"
-).replace("def two(self{})", "def two(self, done{})")
+).replace("def end(self{})", "def end(self, future{})")
 
 
 class CallbackArity(RclpyRule):
-    """A callback takes another number of arguments than it is given.
+    """A callback does not accept the arguments that rclpy passes.
 
-    **Why.** rclpy refuses the callback of a subscription at once; others end the node with
+    **Why.** rclpy rejects the callback of a subscription at once; others end the node with
     ``TypeError`` when they are first called.
 
-    **Fix.** A subscription gives the message (and, if wanted, its information), a service the
-    request and the response, a timer nothing, an action server the goal handle.
+    **Fix.** A subscription passes the message (and optionally its info), a service the request
+    and the response, a timer nothing, an action server the goal handle.
 
     **Source.** ``rclpy/subscription.py``, ``rclpy/service.py``, ``rclpy/executors.py``.
     """
@@ -59,25 +59,32 @@ class CallbackArity(RclpyRule):
     name = "callback-arity"
     examples = (
         Example(
-            "the future that is done",
+            "the future",
             {"listener.py": _ASKING.format("", ", future", "")},
         ),
         Example(
-            "no future, one parameter too many",
+            "no parameter, two parameters",
             {"listener.py": _ASKING.format("", "", ", future, other")},
             reports=(
-                Report("listener.py:10:34", "one takes 0 arguments; a future gives it itself"),
-                Report("listener.py:11:34", "two takes 3 arguments; a future gives it itself"),
+                Report(
+                    "listener.py:10:34",
+                    "callback 'log' takes 0 arguments, but a future passes itself: TypeError",
+                ),
+                Report(
+                    "listener.py:11:34",
+                    "callback 'end' takes 3 arguments, but a future passes itself: TypeError",
+                ),
             ),
         ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
         Example(
-            "nothing",
+            "no parameter",
             {"listener.py": _NODE.format("")},
             reports=(
                 Report(
                     "listener.py:8:53",
-                    "hear takes 0 arguments; a subscription gives it the message",
+                    "callback 'hear' takes 0 arguments, but a subscription passes the "
+                    "message: TypeError",
                 ),
             ),
         ),
@@ -91,12 +98,16 @@ class CallbackArity(RclpyRule):
             least, most = takes.start, takes.stop - 1
             has = str(least) if least == most else f"{least} to {most}"
             noun = "argument" if has == "1" else "arguments"
-            message = f"{callback.name or 'the callback'} takes {has} {noun}; {given[1]}"
+            message = f"{_shown(callback)} takes {has} {noun}, but {given[1]}: TypeError"
             yield self.report(callback, message)
 
 
+def _shown(callback: Callback) -> str:
+    return f"callback {callback.name!r}" if callback.name else "this callback"
+
+
 def _given_callbacks(facts: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
-    """Yield the callbacks of a file, each with what it is given."""
+    """Yield the callbacks of a file, each with the arguments it gets."""
     for entity, callback in facts.callbacks:
         given = _given(entity)
         if given is not None:
@@ -105,17 +116,17 @@ def _given_callbacks(facts: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], 
         match facts.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
                 if class_of(facts, attribute.value) == "rclpy.task.Future":
-                    yield ((1,), "a future gives it itself"), facts.callback(passed)
+                    yield ((1,), "a future passes itself"), facts.callback(passed)
 
 
 def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
-    """Return how many arguments a callback may be given, and a text that says so."""
+    """Return the possible numbers of arguments of a callback, and their description."""
     if isinstance(entity, Subscription):
-        return (1, 2), "a subscription gives it the message"
+        return (1, 2), "a subscription passes the message"
     if isinstance(entity, Timer):
-        return (0,), "a timer gives it none"
+        return (0,), "a timer passes none"
     if isinstance(entity, Service):
-        return (2,), "a service gives it the request and the response"
+        return (2,), "a service passes the request and the response"
     if isinstance(entity, ActionServer):
-        return (1,), "an action server gives it the goal handle"
+        return (1,), "an action server passes the goal handle"
     return None

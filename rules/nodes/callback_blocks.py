@@ -1,4 +1,4 @@
-"""ND030: a callback comes to its end soon."""
+"""ND030: callbacks return quickly."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from scaffold.api.programs import has_more_threads, in_callbacks
 from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
-"""Seconds of sleep that nobody notices."""
+"""Sleeps shorter than this, in seconds, do no harm."""
 VERBS = ("get", "post", "put", "patch", "delete", "head", "request")
 WAITING = frozenset(
     {f"{library}.{verb}" for library in ("requests", "httpx") for verb in VERBS}
     | {"urllib.request.urlopen", "urllib.request.urlretrieve"}
 )
-"""What waits for a server. Other programs are mostly short, or not: that is not known."""
+"""Calls that wait for a server. How long subprocesses run is not known."""
 _NODE = (
     "import time\n\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -29,12 +29,12 @@ _NODE = (
 
 
 class CallbackBlocks(RclpyRule):
-    """A callback sleeps, or waits for a key or a server.
+    """A callback sleeps, or waits for input or for a server.
 
     **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
-    of the node is served, and a timer runs slower than its period says.
+    of the node is served, and a timer misses its period.
 
-    **Fix.** Use a timer for what comes later, and a thread of its own for what has to wait.
+    **Fix.** Use a timer to do something later, and a separate thread to wait.
 
     **Source.** ROS 2 documentation, "Executors"; "Migrating a Python package example".
     """
@@ -44,14 +44,15 @@ class CallbackBlocks(RclpyRule):
     severity = Severity.WARNING
     examples = (
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
-        Example("so short that it does no harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
+        Example("too short to do harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
         Example(
             "a sleep",
             {"talker.py": _NODE.format("time.sleep(1.0)")},
             reports=(
                 Report(
                     "talker.py:12:9",
-                    "time.sleep(1) holds up the callback tick, and with it all others of the node",
+                    "time.sleep(1) blocks callback 'tick', and with it all other "
+                    "callbacks of the node",
                 ),
             ),
         ),
@@ -61,17 +62,18 @@ class CallbackBlocks(RclpyRule):
             reports=(
                 Report(
                     "talker.py:13:9",
-                    "requests.get() holds up the callback tick, and with it all others of the node",
+                    "requests.get() blocks callback 'tick', and with it all other "
+                    "callbacks of the node",
                 ),
             ),
         ),
         Example(
-            "a question",
+            "user input",
             {"talker.py": _NODE.format("input()")},
             reports=(
                 Report(
                     "talker.py:12:9",
-                    "input() holds up the callback tick, and with it all others of the node",
+                    "input() blocks callback 'tick', and with it all other callbacks of the node",
                 ),
             ),
         ),
@@ -84,12 +86,12 @@ class CallbackBlocks(RclpyRule):
             for call in facts.calls_in(function):
                 name = _blocking(facts, call)
                 if name:
-                    message = f"{name} holds up {origin}, and with it all others of the node"
+                    message = f"{name} blocks {origin}, and with it all other callbacks of the node"
                     yield self.report(facts.module.location(call), message)
 
 
 def _blocking(facts: RclpyFile, call: ast.Call) -> str:
-    """Return how a call reads that surely takes long; empty for any other."""
+    """Return the name of a call that certainly blocks; empty for others."""
     name = facts.module.qualified_name(call.func)
     if name == "time.sleep" and call.args:
         seconds = facts.evaluator.evaluate(call.args[0])

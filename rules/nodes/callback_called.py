@@ -19,12 +19,12 @@ _NODE = (
 
 
 class CallbackCalled(RclpyRule):
-    """A callback is called where it should be passed.
+    """A callback is called instead of passed.
 
-    **Why.** It runs once, at once, and its result, ``None``, becomes the callback: ``TypeError:
+    **Why.** It runs once, immediately, and its result, ``None``, becomes the callback: ``TypeError:
     'NoneType' object is not callable``.
 
-    **Fix.** Leave out the parentheses.
+    **Fix.** Remove the parentheses.
 
     **Source.** ``rclpy/node.py``, ``create_timer`` and ``create_subscription``.
     """
@@ -39,8 +39,8 @@ class CallbackCalled(RclpyRule):
             reports=(
                 Report(
                     "talker.py:7:32",
-                    "self.tick() is called here, and what it returns becomes the callback",
-                    fix="pass it",
+                    "self.tick() is called here: its return value becomes the callback",
+                    fix="remove the parentheses",
                 ),
             ),
             fixed={"talker.py": _NODE.format("self.tick")},
@@ -56,6 +56,6 @@ class CallbackCalled(RclpyRule):
             if text.endswith("()"):
                 _, end = facts.module.span(callback.node)
                 edit = Edit(facts.module.path, end - 2, end, "")
-                fix = Fix("pass it", (edit,))
-            message = f"{text} is called here, and what it returns becomes the callback"
+                fix = Fix("remove the parentheses", (edit,))
+            message = f"{text} is called here: its return value becomes the callback"
             yield self.report(callback, message, fix)

@@ -1,4 +1,4 @@
-"""ND082: defaults of parameters are in the range of their descriptor."""
+"""ND082: parameter defaults are in the range of their descriptor."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _NODE = (
 
 
 class DefaultOutOfRange(RclpyRule):
-    """The default of a parameter is not in the range of its own descriptor.
+    """The default of a parameter is outside the range in its descriptor.
 
     **Why.** The node ends at start: ``InvalidParameterValueException: Invalid parameter value (5.0)
-    for parameter. Reason: Parameter gain out of range Min: 0.0, Max: 1.0, value: 5.0``. A range of
-    the other kind of numbers is not looked at: any value is taken.
+    for parameter. Reason: Parameter gain out of range Min: 0.0, Max: 1.0, value: 5.0``. A range
+    for the other number type is ignored: any value is accepted.
 
     **Fix.** Change the default or the range; write ``1.0`` for a floating_point_range.
 
@@ -37,13 +37,13 @@ class DefaultOutOfRange(RclpyRule):
         Example("in the range", {"talker.py": _NODE.format("", "0.55")}),
         Example("on a step", {"talker.py": _NODE.format(", step=0.1", "0.7")}),
         Example(
-            "too much",
+            "too large",
             {"talker.py": _NODE.format("", "5.0")},
             reports=(
                 Report(
                     "talker.py:10:40",
-                    "the default 5.0 is not in the range of the descriptor, 0.0 to 1.0: "
-                    "the node dies",
+                    "default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
+                    "InvalidParameterValueException",
                 ),
             ),
         ),
@@ -53,31 +53,32 @@ class DefaultOutOfRange(RclpyRule):
             reports=(
                 Report(
                     "talker.py:10:40",
-                    "the default 0.25 is not in the range of the descriptor, 0.0 to 1.0 "
-                    "in steps of 0.1: the node dies",
+                    "default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of "
+                    "the descriptor: InvalidParameterValueException",
                 ),
             ),
         ),
         Example(
-            "an integer",
+            "an integer with a range of doubles",
             {"talker.py": _NODE.format("", "1")},
             reports=(
                 Report(
                     "talker.py:10:40",
-                    "the default 1 is an integer, so the descriptor's range of doubles "
-                    "holds for nothing; it takes integer_range",
+                    "default 1 is an integer: the double range of the descriptor is "
+                    "ignored; use integer_range",
                 ),
             ),
         ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for one in (one for one in facts.parameters if is_of_node(facts, one)):
-            message = _problem(one) if one.default_node is not None else ""
+        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
+            message = _problem(parameter) if parameter.default_node is not None else ""
             if message and not is_harmless(
-                facts.module, one.call, "InvalidParameterValueException"
+                facts.module, parameter.call, "InvalidParameterValueException"
             ):
-                yield self.report(facts.module.location(one.default_node or one.call), message)
+                at = parameter.default_node or parameter.call
+                yield self.report(facts.module.location(at), message)
 
 
 def _problem(parameter: Parameter) -> str:
@@ -88,13 +89,13 @@ def _problem(parameter: Parameter) -> str:
     for limits in ranges:
         if limits.type == kind and not limits.allows(default):
             return (
-                f"the default {default} is not in the range of the descriptor, {limits.text}: "
-                "the node dies"
+                f"default {default} is outside the range {limits.text} of the descriptor: "
+                "InvalidParameterValueException"
             )
     if ranges and all(limits.type != kind for limits in ranges):
         article = "an" if kind == "integer" else "a"
         return (
-            f"the default {default} is {article} {kind}, so the descriptor's range of "
-            f"{ranges[0].type}s holds for nothing; it takes {_RIGHT[kind]}"
+            f"default {default} is {article} {kind}: the {ranges[0].type} range of the "
+            f"descriptor is ignored; use {_RIGHT[kind]}"
         )
     return ""

@@ -21,12 +21,12 @@ _LOOP = "        while rclpy.ok():\n            self.tick()\n\n"
 
 
 class EndlessLoop(RclpyRule):
-    """A constructor or a callback of a node loops for ever.
+    """A constructor or callback of a node loops forever.
 
-    **Why.** The node never comes to ``rclpy.spin``, or never back to it: it may publish, but
-    subscriptions, services and parameters do not answer.
+    **Why.** The node never reaches ``rclpy.spin``, or never returns to it: it may publish, but
+    its subscriptions, services and parameters never respond.
 
-    **Fix.** Do one step of the loop in the callback of a timer.
+    **Fix.** Run one step of the loop in a timer callback.
 
     **Source.** ROS 2 documentation, "Migrating a Python package example"; "Executors".
     """
@@ -43,7 +43,7 @@ class EndlessLoop(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:9",
-                    "this loop never ends, and the constructor of Talker never returns",
+                    "endless loop: the constructor of Talker never returns; use a timer",
                 ),
             ),
         ),
@@ -61,7 +61,7 @@ class EndlessLoop(RclpyRule):
             for loop in _endless(facts, executed):
                 if loop not in seen:
                     seen.add(loop)
-                    message = f"this loop never ends, and {executed.origin} never returns"
+                    message = f"endless loop: {executed.origin} never returns; use a timer"
                     yield self.report(facts.module.location(loop), message)
 
 
@@ -69,18 +69,18 @@ def _endless(facts: RclpyFile, executed: Executed) -> Iterator[ast.While]:
     for loop in facts.module.below(executed.function, ast.While):
         if facts.function_of(loop) is not executed.function:
             continue
-        if _is_for_ever(facts, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
+        if _is_endless(facts, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
             yield loop
 
 
-def _is_for_ever(facts: RclpyFile, test: ast.expr) -> bool:
+def _is_endless(facts: RclpyFile, test: ast.expr) -> bool:
     if isinstance(test, ast.Constant):
         return bool(test.value)
     return isinstance(test, ast.Call) and facts.module.qualified_name(test.func) == "rclpy.ok"
 
 
 def _leaves(node: ast.AST) -> bool:
-    """Tell whether a node may end a loop, or lets callbacks run in it."""
+    """Return whether a node may end a loop or let callbacks run in it."""
     match node:
         case ast.Break() | ast.Return() | ast.Raise() | ast.Yield() | ast.Await():
             return True

@@ -1,4 +1,4 @@
-"""ND100: the properties of Node that give its entities are gone through, not kept things in."""
+"""ND100: the entity properties of Node are iterated over, not used as lists."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def _files(line: str) -> dict[str, str]:
 class EntitiesTakenForList(RclpyRule):
     """``self.publishers``, ``self.timers`` and the like are used as lists or dictionaries.
 
-    **Why.** Node has them as properties that give a generator: ``AttributeError: 'generator' object
-    has no attribute 'append'``, ``TypeError: 'generator' object is not subscriptable``.
+    **Why.** They are properties of Node that return a generator: ``AttributeError: 'generator'
+    object has no attribute 'append'``, ``TypeError: 'generator' object is not subscriptable``.
 
-    **Fix.** Keep what the node makes under another name, such as ``self.publishers_by_name``.
+    **Fix.** Use another name, such as ``self.publishers_by_name``.
 
     **Source.** ``rclpy/node.py``, the properties of ``Node``.
     """
@@ -40,37 +40,39 @@ class EntitiesTakenForList(RclpyRule):
     code = "ND100"
     name = "entities-taken-for-list"
     examples = (
-        Example("gone through", _files("print([one.topic for one in self.publishers])")),
-        Example("a list of it", _files("print(list(self.timers)[0])")),
+        Example("iterated over", _files("print([one.topic for one in self.publishers])")),
+        Example("converted to a list", _files("print(list(self.timers)[0])")),
         Example(
-            "its own",
+            "overridden",
             {"talker.py": _NODE.format("self.timers.append(1)") + "\n    timers = []\n"},
         ),
         Example(
-            "added to",
+            "appended to",
             _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
             reports=(
                 Report(
                     "talker.py:8:9",
-                    "Node has publishers itself, which gives a generator: AttributeError",
+                    "'publishers' is a property of Node that returns a generator: AttributeError",
                 ),
             ),
         ),
         Example(
-            "by name",
+            "indexed",
             _files("self.clients['a'] = None"),
             reports=(
                 Report(
-                    "talker.py:8:9", "Node has clients itself, which gives a generator: TypeError"
+                    "talker.py:8:9",
+                    "'clients' is a property of Node that returns a generator: TypeError",
                 ),
             ),
         ),
         Example(
-            "counted",
+            "its length",
             _files("print(len(self.timers))"),
             reports=(
                 Report(
-                    "talker.py:8:19", "Node has timers itself, which gives a generator: TypeError"
+                    "talker.py:8:19",
+                    "'timers' is a property of Node that returns a generator: TypeError",
                 ),
             ),
         ),
@@ -80,14 +82,14 @@ class EntitiesTakenForList(RclpyRule):
         for name in _PROPERTIES:
             for attribute in facts.module.index.attributes(name):
                 error = _error(facts, attribute)
-                is_told = error and not is_harmless(facts.module, attribute, error)
-                if is_told and _is_of_node(facts, attribute):
-                    message = f"Node has {name} itself, which gives a generator: {error}"
+                is_flaw = error and not is_harmless(facts.module, attribute, error)
+                if is_flaw and _is_of_node(facts, attribute):
+                    message = f"{name!r} is a property of Node that returns a generator: {error}"
                     yield self.report(facts.module.location(attribute), message)
 
 
 def _error(facts: RclpyFile, attribute: ast.Attribute) -> str:
-    """Return the error that ends what a generator is used for."""
+    """Return the error that a use of a generator raises."""
     match facts.module.parent(attribute):
         case ast.Attribute(attr=name) if name in _METHODS:
             return "AttributeError"
@@ -99,7 +101,7 @@ def _error(facts: RclpyFile, attribute: ast.Attribute) -> str:
 
 
 def _is_of_node(facts: RclpyFile, attribute: ast.Attribute) -> bool:
-    """Tell whether nothing but Node itself has the attribute: no class sets or defines it."""
+    """Return whether only Node has the attribute: no class sets or defines it."""
     owner = facts.owner_of(attribute.value)
     while isinstance(owner, NodeClass):
         bindings = owner.facts.module.index.bindings(owner.node)

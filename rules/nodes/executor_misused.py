@@ -1,4 +1,4 @@
-"""ND096: executors have nodes, and are spun."""
+"""ND096: executors have nodes and are spun."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _SPIN = "    executor.spin()\n"
 
 
 class ExecutorMisused(RclpyRule):
-    """An executor has no node, is given a class for one, or is never spun.
+    """An executor has no node, gets a class instead of a node, or is never spun.
 
-    **Why.** No callback is ever called: an executor without nodes waits for ever, and one that
-    nobody spins does nothing. A class in place of a node ends in ``TypeError: 'property' object is
-    not iterable``.
+    **Why.** No callback is ever called: an executor without nodes waits forever, and does nothing
+    unless it is spun. A class instead of a node raises ``TypeError: 'property' object is not
+    iterable``.
 
     **Fix.** ``executor.add_node(node)`` and ``executor.spin()``.
 
@@ -38,13 +38,13 @@ class ExecutorMisused(RclpyRule):
     code = "ND096"
     name = "executor-misused"
     examples = (
-        Example("a node, spun", {"talker.py": _NODE.format(_ADD + _SPIN)}),
+        Example("with a node, spun", {"talker.py": _NODE.format(_ADD + _SPIN)}),
         Example(
             "a class",
             {"talker.py": _NODE.format(_ADD.replace("node)", "Talker)") + _SPIN)},
             reports=(
                 Report(
-                    "talker.py:16:23", "this adds the class Talker: make a node of it, Talker()"
+                    "talker.py:16:23", "'Talker' is a class, not a node: TypeError; write Talker()"
                 ),
             ),
         ),
@@ -54,7 +54,7 @@ class ExecutorMisused(RclpyRule):
             reports=(
                 Report(
                     "talker.py:16:5",
-                    "this executor has no node: nothing is ever called; add_node() first",
+                    "executor without nodes: no callback ever runs; call add_node() first",
                 ),
             ),
         ),
@@ -64,7 +64,7 @@ class ExecutorMisused(RclpyRule):
             reports=(
                 Report(
                     "talker.py:15:16",
-                    "nothing spins this executor: the callbacks of its nodes never run",
+                    "executor is never spun: the callbacks of its nodes never run",
                 ),
             ),
         ),
@@ -74,7 +74,7 @@ class ExecutorMisused(RclpyRule):
         for call in facts.module.walk(ast.Call):
             added = _added_class(facts, call)
             if added:
-                message = f"this adds the class {added}: make a node of it, {added}()"
+                message = f"'{added}' is a class, not a node: TypeError; write {added}()"
                 yield self.report(facts.module.location(call.args[0]), message)
             used = used_of_executor(facts, call)
             if used is None:
@@ -82,15 +82,15 @@ class ExecutorMisused(RclpyRule):
             is_spun = any(name.startswith("spin") for name in used)
             if is_spun and "add_node" not in used:
                 spin = used["spin"] if "spin" in used else next(iter(used.values()))
-                message = "this executor has no node: nothing is ever called; add_node() first"
+                message = "executor without nodes: no callback ever runs; call add_node() first"
                 yield self.report(facts.module.location(spin), message)
             elif "add_node" in used and not is_spun and not facts.spin_calls:
-                message = "nothing spins this executor: the callbacks of its nodes never run"
+                message = "executor is never spun: the callbacks of its nodes never run"
                 yield self.report(facts.module.location(call), message)
 
 
 def _added_class(facts: RclpyFile, call: ast.Call) -> str:
-    """Return the class of nodes that is handed to ``add_node``, if it is no node."""
+    """Return the name of a node class that is passed to ``add_node`` instead of a node."""
     match call:
         case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):
             class_ = facts.evaluator.named_class(node)

@@ -30,14 +30,14 @@ class FieldOfPlainValue(RclpyRule):
     code = "ND098"
     name = "field-of-plain-value"
     examples = (
-        Example("of the message", {"talker.py": _NODE.format(".get_parameter_value()")}),
+        Example("a field of the message", {"talker.py": _NODE.format(".get_parameter_value()")}),
         Example(
-            "of the value",
+            "a field of the value",
             {"talker.py": _NODE.format(".value")},
             reports=(
                 Report(
                     "talker.py:8:21",
-                    "value is the value already, without double_value: AttributeError",
+                    "'.value' is the value itself, without 'double_value': AttributeError",
                 ),
             ),
         ),
@@ -52,5 +52,5 @@ class FieldOfPlainValue(RclpyRule):
                     case _:
                         continue
                 if is_parameter and not is_harmless(facts.module, attribute, "AttributeError"):
-                    message = f"value is the value already, without {field}: AttributeError"
+                    message = f"'.value' is the value itself, without {field!r}: AttributeError"
                     yield self.report(facts.module.location(attribute), message)

@@ -1,4 +1,4 @@
-"""ND063: nodes read files of their package, not of their author's machine."""
+"""ND063: nodes read files of their package, not of the author's machine."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _NODE = "import rclpy\n\n\ndef words():\n    with open({}) as file:\n        ret
 class FileOfAuthor(Rule):
     """A node opens a file in a home directory, or a file of its package by a relative path.
 
-    **Why.** ``FileNotFoundError`` on every other machine; a relative path is one of the directory
-    that ``ros2 run`` was called in.
+    **Why.** ``FileNotFoundError`` on every other machine; a relative path is resolved against the
+    directory that ``ros2 run`` is called in.
 
-    **Fix.** Install the file, and look it up below
+    **Fix.** Install the file, and open it from
     ``get_package_share_directory('<package>')``.
 
     **Source.** ROS 2 documentation, "Using ament_index_python"; ``ament_index_python/packages.py``.
@@ -36,25 +36,29 @@ class FileOfAuthor(Rule):
     examples = (
         Example("a parameter", {"talker.py": _NODE.format("get('path')")}),
         Example(
-            "of a user",
+            "in a home directory",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
             reports=(
-                Report("talker.py:5:15", "/home/dev/ws/words.txt is on the author's machine only"),
+                Report(
+                    "talker.py:5:15",
+                    "'/home/dev/ws/words.txt' exists only on the author's machine: "
+                    "FileNotFoundError",
+                ),
             ),
         ),
         Example(
-            "relative",
+            "a relative path",
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
             reports=(
                 Report(
                     "talker.py:5:15",
-                    "config/words.txt is looked for where `ros2 run` is called, not in "
+                    "'config/words.txt' is relative to the directory of the shell, not "
                     "the package; use get_package_share_directory()",
                 ),
             ),
         ),
         Example(
-            "by its name alone; what is written may be anywhere",
+            "a bare file name; files that are written may be anywhere",
             {
                 "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
                 "config/words.txt": "",
@@ -62,7 +66,7 @@ class FileOfAuthor(Rule):
             reports=(
                 Report(
                     "talker.py:5:15",
-                    "words.txt is looked for where `ros2 run` is called, not in the "
+                    "'words.txt' is relative to the directory of the shell, not the "
                     "package; use get_package_share_directory()",
                 ),
             ),
@@ -81,25 +85,25 @@ class FileOfAuthor(Rule):
                 if not isinstance(text, str):
                     continue
                 if re.fullmatch(_HOME, text):
-                    message = f"{text} is on the author's machine only"
+                    message = f"{text!r} exists only on the author's machine: FileNotFoundError"
                     yield self.report(module.location(call.args[0]), message)
                 elif name == "open" and _reads(call) and _is_in(package, text):
                     message = (
-                        f"{text} is looked for where `ros2 run` is called, not in the package; "
+                        f"{text!r} is relative to the directory of the shell, not the package; "
                         "use get_package_share_directory()"
                     )
                     yield self.report(module.location(call.args[0]), message)
 
 
 def _reads(call: ast.Call) -> bool:
-    """Tell whether ``open`` is to read: no mode is given, or a constant that says so."""
+    """Return whether ``open`` reads: it has no mode, or a constant for reading."""
     modes = [*call.args[1:2], *(word.value for word in call.keywords if word.arg == "mode")]
-    return all(isinstance(one, ast.Constant) and str(one.value)[:1] == "r" for one in modes)
+    return all(isinstance(mode, ast.Constant) and str(mode.value)[:1] == "r" for mode in modes)
 
 
 def _is_in(package: Package, text: str) -> bool:
-    """Tell whether a relative path is that of a file of the package, or of one in it."""
+    """Return whether a relative path is a file of the package, or the name of one."""
     path = text.removeprefix("./")
     if "/" in path:
         return package.has(path)
-    return any(one == path or one.endswith(f"/{path}") for one in package.files)
+    return any(file == path or file.endswith(f"/{path}") for file in package.files)

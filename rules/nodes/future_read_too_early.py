@@ -1,4 +1,4 @@
-"""ND021: the result of a call is read when it is there."""
+"""ND021: the result of a call is read when the future is done."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ _NODE = (
 class FutureReadTooEarly(RclpyRule):
     """The result of an asynchronous call is read right after the call.
 
-    **Why.** Nothing has answered yet: ``result()`` is None, and ``AttributeError: 'NoneType'
-    object has no attribute ...`` follows.
+    **Why.** No response has arrived yet: ``result()`` returns None, and ``AttributeError:
+    'NoneType' object has no attribute ...`` follows.
 
     **Fix.** Read it in ``future.add_done_callback``, or ``await`` the future.
 
@@ -37,18 +37,28 @@ class FutureReadTooEarly(RclpyRule):
     name = "future-read-too-early"
     examples = (
         Example(
-            "when it is done",
+            "when the future is done",
             {"caller.py": _NODE.format("future.add_done_callback(self.answer)")},
         ),
         Example(
-            "at once",
+            "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
-            reports=(Report("caller.py:7:16", "future is not done here: its result is None"),),
+            reports=(
+                Report(
+                    "caller.py:7:16",
+                    "'future' is not done here: result() returns None; use add_done_callback()",
+                ),
+            ),
         ),
         Example(
-            "by the callback, called at once",
+            "in the callback, called directly",
             {"caller.py": _NODE.format("self.answer(future)")},
-            reports=(Report("caller.py:7:9", "future is not done here: its result is None"),),
+            reports=(
+                Report(
+                    "caller.py:7:9",
+                    "'future' is not done here: result() returns None; use add_done_callback()",
+                ),
+            ),
         ),
     )
 
@@ -60,7 +70,8 @@ class FutureReadTooEarly(RclpyRule):
                 for call in facts.calls_in(function):
                     if self._reads(facts, call, name) and not _is_asked(facts, call, name):
                         at = facts.module.location(call)
-                        message = f"{name} is not done here: its result is None"
+                        message = f"{name!r} is not done here: result() returns None; "
+                        message += "use add_done_callback()"
                         yield self.report(at, message)
 
     def _reads(self, facts: RclpyFile, call: ast.Call, name: str) -> bool:
@@ -84,24 +95,24 @@ class FutureReadTooEarly(RclpyRule):
 
 
 def _is_asked(facts: RclpyFile, call: ast.Call, name: str) -> bool:
-    """Tell whether a call is reached only if the future is done, as a condition says."""
+    """Return whether a condition makes sure that the future is done."""
     return is_asked_about(facts.module, call, ast.Name(id=name))
 
 
 def _futures(module: PythonModule, function: FunctionNode) -> list[str]:
     """Return the variables that hold the future of an asynchronous call."""
-    found: list[str] = []
+    names: list[str] = []
     for statement in module.below(function, ast.Assign):
         match statement:
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Attribute(attr=method))
             ) if method in CALLS:
-                found.append(name)
-    return found
+                names.append(name)
+    return names
 
 
 def _waits(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether anything in a function may let the future finish."""
+    """Return whether anything in a function may let the future finish."""
     if any(True for _ in module.below(function, ast.Await, ast.While, ast.Yield)):
         return True
     attributes = [node.attr for node in module.below(function, ast.Attribute)]

@@ -1,4 +1,4 @@
-"""ND068: work on a goal ends with ``succeed()``."""
+"""ND068: execute callbacks set the goal state."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _NODE = (
 
 
 class GoalNeverSucceeds(Rule):
-    """Work on a goal returns the result without a word on how it ended.
+    """An execute callback returns the result without setting the goal state.
 
-    **Why.** rclpy takes the goal for failed: "Goal state not set, assuming aborted"; the client
+    **Why.** rclpy treats the goal as failed: "Goal state not set, assuming aborted"; the client
     gets ``STATUS_ABORTED``, with the result.
 
-    **Fix.** ``goal_handle.succeed()`` before the result is returned.
+    **Fix.** Call ``goal_handle.succeed()`` before returning the result.
 
     **Source.** ``rclpy/action/server.py``, ``_execute_goal``.
     """
@@ -40,17 +40,19 @@ class GoalNeverSucceeds(Rule):
     code = "ND068"
     name = "goal-never-succeeds"
     examples = (
-        Example("it succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
-        Example("it fails", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
-        Example("others end it", {"server.py": _NODE.format("        self.end(goal_handle)\n")}),
+        Example("succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
+        Example("aborts", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
         Example(
-            "nothing is said",
+            "passes the handle on", {"server.py": _NODE.format("        self.end(goal_handle)\n")}
+        ),
+        Example(
+            "sets no state",
             {"server.py": _NODE.format("")},
             reports=(
                 Report(
                     "server.py:15:9",
-                    "the result is returned without succeed(): the goals of the action "
-                    "server made in line 9 end as aborted",
+                    "result returned without succeed(): goals of the action server of "
+                    "line 9 end as aborted",
                 ),
             ),
         ),
@@ -68,14 +70,14 @@ class GoalNeverSucceeds(Rule):
                     if _leaves_open(function):
                         line = server.location.line
                         message = (
-                            "the result is returned without succeed(): the goals of the action "
-                            f"server made in line {line} end as aborted"
+                            "result returned without succeed(): goals of the action server of "
+                            f"line {line} end as aborted"
                         )
                         yield self.report(facts.module.location(function.body[-1]), message)
 
 
 def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:
-    """Return the function that works on goals, if it keeps the handle of the goal to itself."""
+    """Return the execute callback, unless it passes the goal handle on."""
     callback = server.callback
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
@@ -90,7 +92,7 @@ def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:
 
 
 def _leaves_open(function: FunctionNode) -> bool:
-    """Tell whether the last statement returns a result, and none beside it ends the goal."""
+    """Return whether the last statement returns a result, and no other one ends the goal."""
     last = function.body[-1]
     if not isinstance(last, ast.Return) or last.value is None:
         return False

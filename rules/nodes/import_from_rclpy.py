@@ -1,4 +1,4 @@
-"""ND012: Node is imported from where it is."""
+"""ND012: names of rclpy are imported from their modules."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.api.rclpy import PLACES
 
 
 class ImportFromRclpy(PythonRule):
-    """A name is imported from rclpy that rclpy does not have.
+    """A name is imported from rclpy instead of from its module.
 
     **Why.** ``ImportError: cannot import name 'Node' from 'rclpy'`` at start.
 
@@ -24,18 +24,22 @@ class ImportFromRclpy(PythonRule):
     examples = (
         Example("from its module", {"talker.py": "from rclpy.node import Node\n"}),
         Example(
-            "from the top",
+            "from the package",
             {"talker.py": "from rclpy import Node\n"},
-            reports=(Report("talker.py:1:19", "rclpy has no 'Node'; import it from rclpy.node"),),
+            reports=(
+                Report(
+                    "talker.py:1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"
+                ),
+            ),
         ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
-        for one in module.imports_by_root.get("rclpy", ()):
-            if one.module != "rclpy":
+        for statement in module.imports_by_root.get("rclpy", ()):
+            if statement.module != "rclpy":
                 continue
-            for name in one.names:
+            for name in statement.names:
                 place = PLACES.get(name.name)
                 if place is not None:
-                    message = f"rclpy has no {name.name!r}; import it from {place}"
+                    message = f"rclpy has no {name.name!r}: ImportError; import it from {place}"
                     yield self.report(name, message)

@@ -1,4 +1,4 @@
-"""ND007: ``rclpy.init()`` is no context manager on Jazzy."""
+"""ND007: ``rclpy.init()`` is not a context manager on Jazzy."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
 
 
 class InitAsContextManager(RclpyRule):
-    """``with rclpy.init()`` needs a newer ROS than Jazzy.
+    """``with rclpy.init()`` needs a newer ROS distribution than Jazzy.
 
     **Why.** On Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not support the
     context manager protocol``.
@@ -32,7 +32,7 @@ class InitAsContextManager(RclpyRule):
             reports=(
                 Report(
                     "talker.py:5:10",
-                    "rclpy.init() of Jazzy is no context manager: the node never starts",
+                    "rclpy.init() is not a context manager on Jazzy: TypeError at start",
                 ),
             ),
         ),
@@ -41,5 +41,5 @@ class InitAsContextManager(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for call in facts.init_calls:
             if call.in_with:
-                message = "rclpy.init() of Jazzy is no context manager: the node never starts"
+                message = "rclpy.init() is not a context manager on Jazzy: TypeError at start"
                 yield self.report(call, message)

@@ -1,4 +1,4 @@
-"""ND041: rclpy is initialized before a node is made."""
+"""ND041: rclpy is initialized before a node is constructed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _FILES = {"package.xml": _XML, "CMakeLists.txt": _CMAKE}
 
 
 class InitMissing(Rule):
-    """A program makes a node, and has not called ``rclpy.init`` before.
+    """A program constructs a node without calling ``rclpy.init`` first.
 
     **Why.** ``NotInitializedException: rclpy.init() has not been called. msg:cannot create node``.
 
@@ -60,7 +60,7 @@ class InitMissing(Rule):
             reports=(
                 Report(
                     "demo/talker.py:12:12",
-                    "nothing calls rclpy.init() before Talker is made: NotInitializedException",
+                    "Talker is constructed without rclpy.init(): NotInitializedException",
                 ),
             ),
         ),
@@ -73,7 +73,7 @@ class InitMissing(Rule):
             reports=(
                 Report(
                     "demo/talker.py:12:12",
-                    "Talker is made before rclpy.init() in line 13: NotInitializedException",
+                    "Talker is constructed before rclpy.init() in line 13: NotInitializedException",
                 ),
             ),
         ),
@@ -99,8 +99,8 @@ class InitMissing(Rule):
 def _problem(package: Package, run: Run, made: ast.Call) -> str | None:
     facts = run.facts
     late = late_init(facts, made)
-    for one in files_of(package, facts.module.path):
-        if may_init(one) and not (late and one is facts):
+    for file in files_of(package, facts.module.path):
+        if may_init(file) and not (late and file is facts):
             return None
     if any(word.arg in {"context", None} for word in made.keywords):
         return None
@@ -111,5 +111,5 @@ def _problem(package: Package, run: Run, made: ast.Call) -> str | None:
     name = facts.module.text(made.func)
     if late is not None:
         line = facts.module.location(late).line
-        return f"{name} is made before rclpy.init() in line {line}: NotInitializedException"
-    return f"nothing calls rclpy.init() before {name} is made: NotInitializedException"
+        return f"{name} is constructed before rclpy.init() in line {line}: NotInitializedException"
+    return f"{name} is constructed without rclpy.init(): NotInitializedException"

@@ -1,4 +1,4 @@
-"""ND005: rclpy is started once."""
+"""ND005: rclpy is initialized once."""
 
 from __future__ import annotations
 
@@ -33,17 +33,19 @@ class InitRepeated(RclpyRule):
         Example(
             "twice",
             {"talker.py": _MAIN.format("    rclpy.init()\n")},
-            reports=(Report("talker.py:6:5", "rclpy.init() was called in line 5 already"),),
+            reports=(
+                Report("talker.py:6:5", "rclpy.init() is already called in line 5: RuntimeError"),
+            ),
         ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         started: RclpyCall | None = None
-        calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda one: one.location)
+        calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda call: call.location)
         for call in calls:
             in_node = call.name == "init" and self._is_in_node(facts, call)
-            if in_node and any(not self._is_in_node(facts, one) for one in facts.init_calls):
-                message = "rclpy.init() was called before this node is made: RuntimeError"
+            if in_node and any(not self._is_in_node(facts, x) for x in facts.init_calls):
+                message = "rclpy.init() is called before this node is constructed: RuntimeError"
                 yield self.report(call, message)
                 continue
             if call.name != "init":
@@ -54,11 +56,13 @@ class InitRepeated(RclpyRule):
                 continue
             if started is not None and started.function is call.function:
                 line = started.location.line
-                yield self.report(call, f"rclpy.init() was called in line {line} already")
+                yield self.report(
+                    call, f"rclpy.init() is already called in line {line}: RuntimeError"
+                )
             started = call
 
     def _is_in_node(self, facts: RclpyFile, call: RclpyCall) -> bool:
-        """Tell whether a method of a node class calls it: then the node exists already."""
+        """Return whether a method of a node class calls it: the node already exists then."""
         class_ = facts.module.enclosing_class(call.call)
         return class_ is not None and facts.node_class(class_) is not None
 

@@ -1,4 +1,4 @@
-"""ND006: the command line reaches rclpy."""
+"""ND006: rclpy gets the command line."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.s
 
 
 class InitWithoutArguments(RclpyRule):
-    """``rclpy.init`` is given an empty list of arguments.
+    """``rclpy.init`` gets an empty list of arguments.
 
-    **Why.** It replaces the command line: ``--ros-args`` with remappings and parameters, also
-    those of a launch file, have no effect.
+    **Why.** It replaces the command line: ``--ros-args``, with the remappings and parameters of a
+    launch file, have no effect.
 
     **Fix.** Write ``rclpy.init(args=args)``, where ``None`` means the command line.
 
@@ -33,7 +33,7 @@ class InitWithoutArguments(RclpyRule):
                 Report(
                     "talker.py:5:21",
                     "an empty list replaces the command line: --ros-args have no effect",
-                    fix="hand on the arguments",
+                    fix="pass the arguments on",
                 ),
             ),
             fixed={"talker.py": _MAIN.format("args=args")},
@@ -50,6 +50,6 @@ class InitWithoutArguments(RclpyRule):
             fix = None
             if any(argument.arg == "args" for argument in own):
                 edit = Edit(facts.module.path, *facts.module.span(given[0]), "args")
-                fix = Fix("hand on the arguments", (edit,))
+                fix = Fix("pass the arguments on", (edit,))
             message = "an empty list replaces the command line: --ros-args have no effect"
             yield self.report(facts.module.location(given[0]), message, fix)

@@ -1,4 +1,4 @@
-"""ND059: loggers get options that they have, and texts with their values."""
+"""ND059: loggers get known options and formatted messages."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _NODE = (
 
 
 class LogKeywordUnknown(RclpyRule):
-    """A logger gets an option that it does not have, or a text whose braces nobody fills.
+    """A logger gets an unknown option, or a message that is not formatted.
 
     **Why.** ``TypeError: parameter "throttle" is not one of the recognized logging options``; a
-    text without ``f`` is shown with its braces; text and a number cannot be added.
+    string without ``f`` is logged with its braces; a str and a number cannot be added.
 
     **Fix.** ``throttle_duration_sec``, ``skip_first``, ``once``; ``f'...'``.
 
@@ -34,40 +34,39 @@ class LogKeywordUnknown(RclpyRule):
     code = "ND059"
     name = "log-keyword-unknown"
     examples = (
-        Example("known", {"talker.py": _NODE.format("f'{text}', throttle_duration_sec=1.0")}),
         Example(
-            "known to a logger of one's own",
+            "known option", {"talker.py": _NODE.format("f'{text}', throttle_duration_sec=1.0")}
+        ),
+        Example(
+            "an option of another logger",
             {
                 "talker.py": _NODE.format("text, internal=True")
                 + "\n    def get_logger(self):\n        return self.log\n"
             },
         ),
         Example(
-            "unknown",
+            "unknown option",
             {"talker.py": _NODE.format("text, throttle=1.0")},
             reports=(
                 Report(
                     "talker.py:6:38",
-                    "a logger has no option 'throttle'; 'throttle_duration_sec' is "
-                    "meant: TypeError",
+                    "a logger has no option 'throttle': TypeError; did you mean "
+                    "'throttle_duration_sec'?",
                 ),
             ),
         ),
         Example(
-            "no f",
+            "a missing f prefix",
             {"talker.py": _NODE.format("'heard {text}'")},
             reports=(
-                Report(
-                    "talker.py:6:32",
-                    "{text} is not filled in: the f in front of the text is missing",
-                ),
+                Report("talker.py:6:32", "{text} is logged literally: the string has no f prefix"),
             ),
         ),
         Example(
-            "a number",
+            "a number added",
             {"talker.py": _NODE.format("'heard ' + 1")},
             reports=(
-                Report("talker.py:6:32", "text and a number are added: TypeError; write f'...'"),
+                Report("talker.py:6:32", "a number is added to a str: TypeError; use an f-string"),
             ),
         ),
     )
@@ -83,23 +82,23 @@ class LogKeywordUnknown(RclpyRule):
             if word.arg is None or word.arg in (*_KNOWN, "message"):
                 continue
             near = get_close_matches(word.arg, _KNOWN, 1, 0.5)
-            hint = f"; {near[0]!r} is meant" if near else ""
-            message = f"a logger has no option {word.arg!r}{hint}: TypeError"
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            message = f"a logger has no option {word.arg!r}: TypeError{hint}"
             yield self.report(facts.module.location(word), message)
         text = call.args[0] if call.args else None
         if isinstance(text, ast.BinOp) and _adds_number(facts, text):
-            message = "text and a number are added: TypeError; write f'...'"
+            message = "a number is added to a str: TypeError; use an f-string"
             yield self.report(facts.module.location(text), message)
         if isinstance(text, ast.Constant) and isinstance(text.value, str):
             for name in re.findall(r"\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}", text.value):
                 if _is_bound(facts, text, name.partition(".")[0]):
-                    message = f"{{{name}}} is not filled in: the f in front of the text is missing"
+                    message = f"{{{name}}} is logged literally: the string has no f prefix"
                     yield self.report(facts.module.location(text), message)
                     return
 
 
 def _log_call(facts: RclpyFile, attribute: ast.Attribute) -> ast.Call | None:
-    """Return the call that logs with a logger that is asked for on the spot."""
+    """Return the logging call on the result of ``get_logger()``."""
     logger = facts.module.parent(attribute)
     method = facts.module.parent(logger) if isinstance(logger, ast.Call) else None
     call = facts.module.parent(method) if isinstance(method, ast.Attribute) else None

@@ -1,4 +1,4 @@
-"""ND099: levels of loggers are severities."""
+"""ND099: logger levels are severities."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NODE = (
 
 
 class LogLevelUnusable(RclpyRule):
-    """The level of a logger is a text, or a number that is no severity.
+    """The level of a logger is a str, or a number that is not a severity.
 
     **Why.** ``ValueError: 'debug' is not a valid LoggingSeverity``.
 
@@ -38,7 +38,7 @@ class LogLevelUnusable(RclpyRule):
         Example("a severity", {"talker.py": _NODE.format("LoggingSeverity.DEBUG")}),
         Example("the number of a severity", {"talker.py": _NODE.format("10")}),
         Example(
-            "a logger of one's own",
+            "another logger",
             {
                 "talker.py": "import rclpy\n\n\nclass Log:\n    def get_logger(self):\n"
                 "        return self\n\n    def start(self):\n"
@@ -46,25 +46,19 @@ class LogLevelUnusable(RclpyRule):
             },
         ),
         Example(
-            "a text",
+            "a str",
             {"talker.py": _NODE.format("'debug'")},
             reports=(
-                Report(
-                    "talker.py:8:37",
-                    "a level is a LoggingSeverity, and 'debug' is none: ValueError",
-                ),
-                Report(
-                    "talker.py:9:36",
-                    "a level is a LoggingSeverity, and 'debug' is none: ValueError",
-                ),
+                Report("talker.py:8:37", "'debug' is not a LoggingSeverity: ValueError"),
+                Report("talker.py:9:36", "'debug' is not a LoggingSeverity: ValueError"),
             ),
         ),
         Example(
             "a number",
             {"talker.py": _NODE.format("1")},
             reports=(
-                Report("talker.py:8:37", "a level is a LoggingSeverity, and 1 is none: ValueError"),
-                Report("talker.py:9:36", "a level is a LoggingSeverity, and 1 is none: ValueError"),
+                Report("talker.py:8:37", "1 is not a LoggingSeverity: ValueError"),
+                Report("talker.py:9:36", "1 is not a LoggingSeverity: ValueError"),
             ),
         ),
     )
@@ -78,12 +72,12 @@ class LogLevelUnusable(RclpyRule):
                 and not is_severity
                 and not is_harmless(facts.module, call, "ValueError")
             ):
-                message = f"a level is a LoggingSeverity, and {value!r} is none: ValueError"
+                message = f"{value!r} is not a LoggingSeverity: ValueError"
                 yield self.report(facts.module.location(level), message)
 
 
 def _levels(facts: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
-    """Yield the levels that loggers of rclpy are given."""
+    """Yield the levels that rclpy loggers are set to."""
     for attribute in facts.module.index.attributes("set_level"):
         call = facts.module.parent(attribute)
         if not isinstance(call, ast.Call) or call.func is not attribute or len(call.args) != 1:
@@ -96,7 +90,7 @@ def _levels(facts: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def _is_logger(facts: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression asks for a logger: a node, or rclpy itself."""
+    """Return whether an expression gets a logger from a node or from rclpy itself."""
     match node:
         case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):
             is_node = facts.owner_of(owner) is not None and is_of_rclpy(facts, method)

@@ -1,4 +1,4 @@
-"""ND018: log messages are text."""
+"""ND018: log messages are strings."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NODE = (
 
 
 class LogMessageNotText(RclpyRule):
-    """A logger is given something that is not text.
+    """A logger gets a message that is not a str, or arguments to format.
 
     **Why.** rclpy does not convert it: ``TypeError`` when the line is reached.
 
@@ -31,9 +31,9 @@ class LogMessageNotText(RclpyRule):
     code = "ND018"
     name = "log-message-not-text"
     examples = (
-        Example("text", {"talker.py": _NODE.format("f'{1}'")}),
+        Example("a str", {"talker.py": _NODE.format("f'{1}'")}),
         Example(
-            "a logger of one's own",
+            "another logger",
             {
                 "talker.py": _NODE.format("'%d', 42")
                 + "\n    def get_logger(self):\n        return self.log\n"
@@ -45,8 +45,8 @@ class LogMessageNotText(RclpyRule):
             reports=(
                 Report(
                     "talker.py:6:32",
-                    "a logger wants text, and this is none: TypeError",
-                    fix="convert it to text",
+                    "log message is not a str: TypeError",
+                    fix="convert it to a str",
                 ),
             ),
             fixed={"talker.py": _NODE.format("str(42)")},
@@ -61,16 +61,16 @@ class LogMessageNotText(RclpyRule):
             message = call.args[0]
             if len(call.args) > 1 and not isinstance(message, ast.Starred):
                 at = facts.module.location(call.args[1])
-                yield self.report(at, "a logger takes one text; it does not format arguments")
-            elif self._is_no_text(facts, message):
+                yield self.report(at, "loggers do not format arguments: TypeError; use an f-string")
+            elif self._is_not_str(facts, message):
                 start, end = facts.module.span(message)
                 path = facts.module.path
                 edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
                 at = facts.module.location(message)
-                problem = "a logger wants text, and this is none: TypeError"
-                yield self.report(at, problem, Fix("convert it to text", edits))
+                problem = "log message is not a str: TypeError"
+                yield self.report(at, problem, Fix("convert it to a str", edits))
 
-    def _is_no_text(self, facts: RclpyFile, node: ast.expr) -> bool:
+    def _is_not_str(self, facts: RclpyFile, node: ast.expr) -> bool:
         if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):
             return True
         if isinstance(node, ast.Call):

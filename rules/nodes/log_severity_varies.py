@@ -1,4 +1,4 @@
-"""ND019: a log statement has one severity."""
+"""ND019: a log statement has a single severity."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _CHOICE = (
 
 
 class LogSeverityVaries(RclpyRule):
-    """One log statement is reached with more than one severity.
+    """The same log statement is executed with different severities.
 
     **Why.** rclpy remembers the severity of each place: ``ValueError: Logger severity cannot be
-    changed between calls`` when the second one comes.
+    changed between calls`` at the second severity.
 
-    **Fix.** Write one call per severity.
+    **Fix.** Write a separate call for each severity.
 
     **Source.** ``rclpy/impl/rcutils_logger.py``; rclpy issue 1199.
     """
@@ -34,14 +34,14 @@ class LogSeverityVaries(RclpyRule):
     code = "ND019"
     name = "log-severity-varies"
     examples = (
-        Example("a call for each", {"talker.py": _NODE.format(_BRANCHES)}),
+        Example("separate calls", {"talker.py": _NODE.format(_BRANCHES)}),
         Example(
-            "a choice of methods",
+            "a conditional method",
             {"talker.py": _NODE.format(_CHOICE)},
             reports=(
                 Report(
                     "talker.py:6:15",
-                    "this log statement has two severities: rclpy raises ValueError",
+                    "log statement with two severities: ValueError; write two calls",
                 ),
             ),
         ),
@@ -50,9 +50,9 @@ class LogSeverityVaries(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         module = facts.module
         for node in module.walk(ast.IfExp):
-            chosen = {self._severity(one) for one in (node.body, node.orelse)}
+            chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
             if None not in chosen and len(chosen) > 1:
-                message = "this log statement has two severities: rclpy raises ValueError"
+                message = "log statement with two severities: ValueError; write two calls"
                 yield self.report(module.location(node), message)
 
     def _severity(self, node: ast.expr) -> str | None:

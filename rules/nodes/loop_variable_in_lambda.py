@@ -1,4 +1,4 @@
-"""ND035: a callback made in a loop keeps what it was made with."""
+"""ND035: callbacks created in a loop bind the loop variable."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NODE = (
 
 
 class LoopVariableInLambda(RclpyRule):
-    """A lambda that is made in a loop reads the loop's variable when it is called.
+    """A lambda created in a loop reads the loop variable only when it is called.
 
     **Why.** By then the loop is over: all callbacks get the last value.
 
@@ -38,13 +38,13 @@ class LoopVariableInLambda(RclpyRule):
             {"listener.py": _NODE.format("lambda m, name=name: self.hear(m, name)")},
         ),
         Example(
-            "late",
+            "not bound",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
             reports=(
                 Report(
                     "listener.py:9:52",
-                    "name is read when the callback runs: it is the last of the loop, "
-                    "in all callbacks",
+                    "'name' is read when the callback runs: all callbacks get the last "
+                    "value; bind it: name=name",
                 ),
             ),
         ),
@@ -56,12 +56,12 @@ class LoopVariableInLambda(RclpyRule):
             if isinstance(function, ast.Lambda) and callback.node is function:
                 name = _late_name(facts, function)
                 if name:
-                    message = f"{name} is read when the callback runs: it is the last of the"
-                    yield self.report(callback, f"{message} loop, in all callbacks")
+                    message = f"{name!r} is read when the callback runs: all callbacks get the last"
+                    yield self.report(callback, f"{message} value; bind it: {name}={name}")
 
 
 def _late_name(facts: RclpyFile, function: ast.Lambda) -> str:
-    """Return a variable of the loops around a lambda that its body reads; empty if none."""
+    """Return a variable of an enclosing loop that a lambda reads; empty if none."""
     given = {arg.arg for arg in ast.walk(function.args) if isinstance(arg, ast.arg)}
     read = {
         node.id
@@ -80,5 +80,5 @@ def _late_name(facts: RclpyFile, function: ast.Lambda) -> str:
 
 
 def _leaves(loop: ast.For) -> bool:
-    """Tell whether a loop may be left in its first turn."""
+    """Return whether a loop may end in its first iteration."""
     return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))

@@ -1,4 +1,4 @@
-"""ND022: an installed script starts its main function."""
+"""ND022: installed scripts call their main function."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _GUARD = "\n\nif __name__ == '__main__':\n    main()\n"
 
 
 class MainGuardMissing(Rule):
-    """An installed script defines ``main`` and does not call it.
+    """An installed script defines ``main`` but does not call it.
 
     **Why.** ``ros2 run`` returns at once, with exit code 0 and no output.
 
@@ -34,25 +34,22 @@ class MainGuardMissing(Rule):
             reports=(
                 Report(
                     "talker/node.py:5:5",
-                    "installed as a program, but nothing calls main()",
+                    "installed as a program, but main() is never called",
                     fix="call main()",
                 ),
             ),
             fixed={"talker/node.py": _MAIN + _GUARD},
         ),
         Example(
-            "misspelt, and not called",
+            "misspelled, and not called",
             {
                 "CMakeLists.txt": _LISTS + _LISTS.partition("\n")[2].replace("node", "other"),
                 "talker/node.py": _MAIN + _GUARD.replace("__main__", "main"),
                 "talker/other.py": _MAIN + _GUARD.replace("main()", "main"),
             },
             reports=(
-                Report(
-                    "talker/node.py:9:4",
-                    "'main' is nobody's name, so main() is not called: '__main__'",
-                ),
-                Report("talker/other.py:10:5", "main is named here, not called: main()"),
+                Report("talker/node.py:9:4", "__name__ is never 'main'; did you mean '__main__'?"),
+                Report("talker/other.py:10:5", "'main' is not called here; write main()"),
             ),
         ),
     )
@@ -74,20 +71,20 @@ class MainGuardMissing(Rule):
             end = len(module.source.text)
             text = _GUARD if module.source.text.endswith("\n") else f"\n{_GUARD}"
             fix = Fix("call main()", (Edit(path, end, end, text),))
-            yield self.report(main, "installed as a program, but nothing calls main()", fix)
+            yield self.report(main, "installed as a program, but main() is never called", fix)
 
     def _guard_problem(self, module: PythonModule) -> tuple[Location, str] | None:
-        """Return what is wrong about the test of the module's name, and where."""
+        """Return the message for a wrong comparison of ``__name__``, and its place."""
         for statement in module.tree.body:
             test = statement.test if isinstance(statement, ast.If) else None
             match test:
                 case ast.Compare(left=ast.Name(id="__name__"), comparators=[ast.Constant(value)]):
                     if value != "__main__" and str(value).strip("_") == "main":
-                        message = f"{value!r} is nobody's name, so main() is not called: '__main__'"
+                        message = f"__name__ is never {value!r}; did you mean '__main__'?"
                         return module.location(test), message
                     body = statement.body if isinstance(statement, ast.If) else []
                     if value == "__main__" and _only_names_main(body):
-                        return module.location(body[0]), "main is named here, not called: main()"
+                        return module.location(body[0]), "'main' is not called here; write main()"
         return None
 
     def _rest(self, text: str) -> str:

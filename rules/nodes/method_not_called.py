@@ -1,4 +1,4 @@
-"""ND093: methods of nodes and other objects of rclpy, and rclpy.ok, are called."""
+"""ND093: methods of rclpy objects are called, not only referenced."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.api.rclpy import NODE, RclpyFile, class_of, is_method, rclpy_files
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
-"""Attributes of what wraps a method."""
+"""Attributes of bound methods and wrappers."""
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Talker(Node):\n"
@@ -26,12 +26,12 @@ _NODE = (
 
 
 class MethodNotCalled(Rule):
-    """A method of an object of rclpy is named where only its call makes sense.
+    """A method of an rclpy object is referenced where only a call makes sense.
 
-    **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition a method
-    is always true, and as a statement it does nothing.
+    **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition, a
+    method is always true; as a statement, it does nothing.
 
-    **Fix.** Write the parentheses of the call.
+    **Fix.** Add the parentheses.
 
     **Source.** The classes of rclpy 7.1 (ROS 2 Jazzy).
     """
@@ -41,19 +41,23 @@ class MethodNotCalled(Rule):
     examples = (
         Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
-            "not called: for what it gives, as conditions, as a statement",
+            "not called: for its result, as conditions, as a statement",
             {"talker.py": _NODE.format("", "", "", "", "")},
             reports=(
-                Report("talker.py:10:22", "get_clock is a method: call it, get_clock()"),
                 Report(
-                    "talker.py:11:15",
-                    "rclpy.ok is a function, which is always true: call it, rclpy.ok()",
+                    "talker.py:10:22",
+                    "'get_clock' is a method that is not called; write get_clock()",
+                ),
+                Report("talker.py:11:15", "rclpy.ok is a function: always true; write rclpy.ok()"),
+                Report(
+                    "talker.py:11:32",
+                    "'service_is_ready' is a method that is not called; write service_is_ready()",
                 ),
                 Report(
-                    "talker.py:11:32", "service_is_ready is a method: call it, service_is_ready()"
+                    "talker.py:13:9",
+                    "'destroy_node' is a method that is not called; write destroy_node()",
                 ),
-                Report("talker.py:13:9", "destroy_node is a method: call it, destroy_node()"),
-                Report("talker.py:14:9", "rclpy.shutdown is a function: call it"),
+                Report("talker.py:14:9", "rclpy.shutdown is not called; add the parentheses"),
             ),
         ),
     )
@@ -64,18 +68,18 @@ class MethodNotCalled(Rule):
                 if not isinstance(node.ctx, ast.Load) or not _wants_value(facts, node):
                     continue
                 if facts.module.qualified_name(node) == "rclpy.ok":
-                    message = "rclpy.ok is a function, which is always true: call it, rclpy.ok()"
+                    message = "rclpy.ok is a function: always true; write rclpy.ok()"
                     yield self.report(facts.module.location(node), message)
                 elif facts.module.qualified_name(node) in _FUNCTIONS:
-                    message = f"{facts.module.text(node)} is a function: call it"
+                    message = f"{facts.module.text(node)} is not called; add the parentheses"
                     yield self.report(facts.module.location(node), message)
                 elif _is_method_of_rclpy(facts, node):
-                    message = f"{node.attr} is a method: call it, {node.attr}()"
+                    message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
                     yield self.report(facts.module.location(node), message)
 
 
 def _wants_value(facts: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an expression stands where a method that is not called makes no sense."""
+    """Return whether a method that is not called makes no sense in this place."""
     match facts.module.parent(node):
         case ast.Attribute(attr=attr):
             return not attr.startswith("__") and attr not in _FUNCTION_HAS

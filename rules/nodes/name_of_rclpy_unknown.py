@@ -1,4 +1,4 @@
-"""ND045: what is imported and used of rclpy exists."""
+"""ND045: names of rclpy that are imported or used exist."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _RIGHT = _CODE.format("qos", "ReliabilityPolicy", "init", "RELIABLE")
 
 
 class NameOfRclpyUnknown(Rule):
-    """A name of rclpy is used that rclpy does not have.
+    """Code uses a name that rclpy does not have.
 
     **Why.** ``AttributeError`` or ``ImportError`` when the line is reached: ``module 'rclpy' has
     no attribute 'spin_forever'``, ``type object 'DurabilityPolicy' has no attribute 'LATCHED'``.
 
-    **Fix.** Spell it as rclpy does; what rospy had is often a method of the node now.
+    **Fix.** Use the name in rclpy; functions of rospy are often methods of the node now.
 
     **Source.** The modules of rclpy 7.1 (ROS 2 Jazzy).
     """
@@ -30,7 +30,7 @@ class NameOfRclpyUnknown(Rule):
     examples = (
         Example("known names", {"talker.py": _RIGHT}),
         Example(
-            "for readers alone",
+            "for type checkers only",
             {
                 "talker.py": "from __future__ import annotations\n\nimport rclpy\n\n\n"
                 "def name_of(node: rclpy.Node) -> str:\n    return node.get_name()\n"
@@ -40,10 +40,11 @@ class NameOfRclpyUnknown(Rule):
             "a module and an import",
             {"talker.py": "from rclpy.nodes import Node\nfrom rclpy.qos import Reliability\n"},
             reports=(
-                Report("talker.py:1:1", "rclpy has no 'nodes'; 'node' is meant: ImportError"),
+                Report("talker.py:1:1", "rclpy has no 'nodes': ImportError; did you mean 'node'?"),
                 Report(
                     "talker.py:2:23",
-                    "rclpy.qos has no 'Reliability'; 'ReliabilityPolicy' is meant: ImportError",
+                    "rclpy.qos has no 'Reliability': ImportError; did you mean "
+                    "'ReliabilityPolicy'?",
                 ),
             ),
         ),
@@ -64,22 +65,22 @@ class NameOfRclpyUnknown(Rule):
             return
         for module in package.modules():
             if "rclpy" in module.imports_by_root and not module.in_tests:
-                for one in module.imports_by_root["rclpy"]:
-                    yield from self._check_import(one)
+                for statement in module.imports_by_root["rclpy"]:
+                    yield from self._check_import(statement)
                 yield from self._check_uses(module)
 
-    def _check_import(self, one: Import) -> Iterator[Diagnostic]:
-        if one.guarded or one.conditional or one.type_checking:
+    def _check_import(self, statement: Import) -> Iterator[Diagnostic]:
+        if statement.guarded or statement.conditional or statement.type_checking:
             return
-        unknown = first_unknown(one.module)
+        unknown = first_unknown(statement.module)
         if unknown is not None:
-            yield self.report(one, f"{_said(*unknown)}: ImportError")
+            yield self.report(statement, _message(*unknown, "ImportError"))
             return
-        for name in one.names:
-            unknown = first_unknown(f"{one.module}.{name.name}")
-            is_misplaced = one.module == "rclpy" and name.name in PLACES
+        for name in statement.names:
+            unknown = first_unknown(f"{statement.module}.{name.name}")
+            is_misplaced = statement.module == "rclpy" and name.name in PLACES
             if unknown is not None and name.name != "*" and not is_misplaced:
-                yield self.report(name, f"{_said(*unknown)}: ImportError")
+                yield self.report(name, _message(*unknown, "ImportError"))
 
     def _check_uses(self, module: PythonModule) -> Iterator[Diagnostic]:
         for node in module.walk(ast.Attribute):
@@ -90,11 +91,11 @@ class NameOfRclpyUnknown(Rule):
             name = module.qualified_name(node) or ""
             unknown = first_unknown(name) if name.startswith("rclpy.") else None
             if unknown is not None:
-                yield self.report(module.location(node), f"{_said(*unknown)}: AttributeError")
+                yield self.report(module.location(node), _message(*unknown, "AttributeError"))
 
 
-def _said(owner: str, name: str) -> str:
-    known = [one.removesuffix("()") for one in known_names()[owner] if not one.startswith("_")]
+def _message(owner: str, name: str, error: str) -> str:
+    known = [x.removesuffix("()") for x in known_names()[owner] if not x.startswith("_")]
     near = get_close_matches(name, known, n=1, cutoff=0.75)
-    hint = f"; {near[0]!r} is meant" if near else ""
-    return f"{owner} has no {name!r}{hint}"
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    return f"{owner} has no {name!r}: {error}{hint}"

@@ -1,4 +1,4 @@
-"""ND014: a node that waits for something is spun."""
+"""ND014: nodes with callbacks are spun."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NODE = (
 
 
 class NodeNeverSpun(RclpyRule):
-    """A node has timers or subscriptions, and nothing in its program spins it.
+    """A node has timers or subscriptions, but nothing in the program spins it.
 
     **Why.** Callbacks run only while the node is spun: the program ends at once, or hangs without
     doing anything.
@@ -40,25 +40,31 @@ class NodeNeverSpun(RclpyRule):
     examples = (
         Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
         Example(
-            "never",
+            "never spun",
             {"talker.py": _NODE.format("")},
             reports=(
-                Report("talker.py:16:12", "nothing spins this Talker: its callbacks never run"),
+                Report(
+                    "talker.py:16:12",
+                    "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+                ),
             ),
         ),
         Example(
-            "asleep",
+            "sleeping in a loop",
             {"talker.py": _NODE.format("    time.sleep(9)\n")},
             reports=(
-                Report("talker.py:16:12", "nothing spins this Talker: its callbacks never run"),
+                Report(
+                    "talker.py:16:12",
+                    "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+                ),
             ),
         ),
         Example(
-            "in a loop",
+            "spun in a loop",
             {"talker.py": _NODE.format("    while rclpy.ok():\n        rclpy.spin_once(node)\n")},
         ),
         Example(
-            "once, until a message comes",
+            "once, for one message",
             {
                 "talker.py": _NODE.replace(
                     "timer(1.0, self.tick)", "subscription(Empty, 'go', self.go, 1)"
@@ -66,12 +72,12 @@ class NodeNeverSpun(RclpyRule):
             },
         ),
         Example(
-            "once",
+            "spun once",
             {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
             reports=(
                 Report(
                     "talker.py:17:5",
-                    "spin_once() runs one callback at most, and no loop is around it",
+                    "spin_once() outside a loop runs at most one callback; use spin()",
                 ),
             ),
         ),
@@ -83,31 +89,33 @@ class NodeNeverSpun(RclpyRule):
             return
         lasts = any(node.timers or node.services for node in waiting.values())
         if lasts and len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
-            message = "spin_once() runs one callback at most, and no loop is around it"
+            message = "spin_once() outside a loop runs at most one callback; use spin()"
             yield self.report(facts.spin_calls[0], message)
         if facts.spin_calls or self._may_run(facts):
             return
         for call in facts.module.walk(ast.Call):
             if isinstance(call.func, ast.Name) and call.func.id in waiting:
-                message = f"nothing spins this {call.func.id}: its callbacks never run"
+                message = (
+                    f"nothing spins this {call.func.id}: its callbacks never run; call rclpy.spin()"
+                )
                 yield self.report(facts.module.location(call), message)
 
     def _may_run(self, facts: RclpyFile) -> bool:
-        """Tell whether anything in the file may run callbacks in some other way."""
+        """Return whether anything in the file may run callbacks in some other way."""
         names = {node.attr for node in facts.module.walk(ast.Attribute)}
         names |= {node.id for node in facts.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
 
 
 def _is_once(facts: RclpyFile, spin: RclpyCall) -> bool:
-    """Tell whether a program that begins here spins its node a single time, and ends."""
+    """Return whether a program that starts here spins its node once and ends."""
     if spin.name != "spin_once" or spin.function is None or not facts.module.has_main_guard:
         return False
     in_loop = any(
         isinstance(parent, ast.For | ast.While) and parent.lineno > spin.function.lineno
         for parent in facts.module.parents(spin.call)
     )
-    return not in_loop and spin.function in {one.function for one in facts.init_calls}
+    return not in_loop and spin.function in {init.function for init in facts.init_calls}
 
 
 def _waits(node: NodeOwner) -> bool:

@@ -1,4 +1,4 @@
-"""ND054: the constructor of a node makes a node with a name, before it is used."""
+"""ND054: node constructors call Node's constructor with a name, first."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _INIT = "        super().__init__('talker')\n"
 
 
 class NodeNotConstructed(RclpyRule):
-    """The constructor of a node gives it no name, calls that of Node too late, or is misspelt.
+    """A node constructor passes no name, calls Node's constructor too late, or is misspelled.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
     or ``AttributeError: 'Talker' object has no attribute '_Node__...'`` when the node is used.
 
-    **Fix.** Begin ``def __init__(self):`` with ``super().__init__('talker')``.
+    **Fix.** Start ``def __init__(self):`` with ``super().__init__('talker')``.
 
     **Source.** ``rclpy/node.py``, ``Node.__init__``; Python documentation, ``super``.
     """
@@ -33,11 +33,13 @@ class NodeNotConstructed(RclpyRule):
     code = "ND054"
     name = "node-not-constructed"
     examples = (
-        Example("first", {"talker.py": _NODE.format("__init__", _INIT)}),
+        Example("called first", {"talker.py": _NODE.format("__init__", _INIT)}),
         Example(
             "without a name",
             {"talker.py": _NODE.format("__init__", _INIT.replace("'talker'", ""))},
-            reports=(Report("talker.py:6:9", "Node.__init__() is given no name: TypeError"),),
+            reports=(
+                Report("talker.py:6:9", "Node.__init__() is called without a node name: TypeError"),
+            ),
         ),
         Example(
             "without parentheses",
@@ -45,7 +47,7 @@ class NodeNotConstructed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:6:9",
-                    "super is called without parentheses: write super().__init__(...)",
+                    "'super' is not called: TypeError; write super().__init__(...)",
                 ),
             ),
         ),
@@ -55,15 +57,18 @@ class NodeNotConstructed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:6:9",
-                    "self.create_timer is used before Node.__init__ in line 7: AttributeError",
+                    "self.create_timer is used before Node.__init__() in line 7: AttributeError",
                 ),
             ),
         ),
         Example(
-            "misspelt",
+            "misspelled",
             {"talker.py": _NODE.format("_init_", _INIT)},
             reports=(
-                Report("talker.py:5:9", "_init_ is no constructor: Python calls __init__ only"),
+                Report(
+                    "talker.py:5:9",
+                    "'_init_' is never called as a constructor; did you mean '__init__'?",
+                ),
             ),
         ),
     )
@@ -75,7 +80,7 @@ class NodeNotConstructed(RclpyRule):
     def _check(self, facts: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
         for name, method in node.methods.items():
             if name in _MISSPELT and node.constructor is None and _calls_init(method):
-                message = f"{name} is no constructor: Python calls __init__ only"
+                message = f"{name!r} is never called as a constructor; did you mean '__init__'?"
                 yield self.report(facts.module.name_location(method), message)
         call = node.super_init
         if call is None or node.base is not None or not isinstance(call.func, ast.Attribute):
@@ -83,15 +88,15 @@ class NodeNotConstructed(RclpyRule):
         at, value = facts.module.location(call), call.func.value
         is_call = isinstance(value, ast.Call)
         if isinstance(value, ast.Name) and value.id == "super":
-            yield self.report(
-                at, "super is called without parentheses: write super().__init__(...)"
-            )
+            yield self.report(at, "'super' is not called: TypeError; write super().__init__(...)")
         elif not is_call and facts.is_node_class(value) and _is_text(call.args[:1]):
-            yield self.report(at, "Node.__init__ is given no self: write super().__init__(...)")
+            yield self.report(
+                at, "Node.__init__() is called without self: TypeError; write super().__init__(...)"
+            )
         elif is_call and not call.args and not call.keywords and len(node.node.bases) == 1:
-            yield self.report(at, "Node.__init__() is given no name: TypeError")
+            yield self.report(at, "Node.__init__() is called without a node name: TypeError")
         for used in _used_before(facts, node, call):
-            message = f"self.{used.attr} is used before Node.__init__ in line {at.line}"
+            message = f"self.{used.attr} is used before Node.__init__() in line {at.line}"
             yield self.report(facts.module.location(used), f"{message}: AttributeError")
 
 

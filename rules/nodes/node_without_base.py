@@ -1,4 +1,4 @@
-"""ND092: what is written as a node inherits from Node."""
+"""ND092: classes that use Node methods inherit from Node."""
 
 from __future__ import annotations
 
@@ -34,25 +34,21 @@ class NodeWithoutBase(RclpyRule):
     examples = (
         Example("a node", {"talker.py": _NODE.format("(Node)")}),
         Example(
-            "a part of nodes, which another class takes in",
+            "a mixin",
             {"talker.py": _NODE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
         ),
         Example(
-            "none",
+            "no base class",
             {"talker.py": _NODE.format("")},
             reports=(
-                Report(
-                    "talker.py:4:7", "Talker uses methods of Node, but does not inherit from it"
-                ),
+                Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
             ),
         ),
         Example(
-            "any object",
+            "object as base class",
             {"talker.py": _NODE.format("(object)")},
             reports=(
-                Report(
-                    "talker.py:4:7", "Talker uses methods of Node, but does not inherit from it"
-                ),
+                Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
             ),
         ),
     )
@@ -60,14 +56,14 @@ class NodeWithoutBase(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for class_ in facts.module.classes.values():
             if _lacks_base(facts, class_.node):
-                message = f"{class_.name} uses methods of Node, but does not inherit from it"
+                message = f"class {class_.name!r} uses methods of Node; inherit from Node"
                 yield self.report(class_, message)
 
 
 def _lacks_base(facts: RclpyFile, class_: ast.ClassDef) -> bool:
-    """Tell whether a class without bases treats itself as a node."""
+    """Return whether a class without bases treats itself as a node."""
     bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
-    if [one for one in bases if one != "object"] or class_.keywords or class_.decorator_list:
+    if [base for base in bases if base != "object"] or class_.keywords or class_.decorator_list:
         return False
     text = facts.module.source.text
     if class_.name in {base for other in facts.module.walk(ast.ClassDef) for base in _bases(other)}:
@@ -77,8 +73,8 @@ def _lacks_base(facts: RclpyFile, class_: ast.ClassDef) -> bool:
         f"self.{name}(" in text
         and name not in own
         and any(
-            facts.evaluator.self_class(one.value) is class_ and not facts.evaluator.stores(name)
-            for one in facts.module.index.attributes(name)
+            facts.evaluator.self_class(use.value) is class_ and not facts.evaluator.stores(name)
+            for use in facts.module.index.attributes(name)
         )
         for name in _CREATES
     )

@@ -1,4 +1,4 @@
-"""ND094: times and durations are computed with durations, not with numbers."""
+"""ND094: arithmetic with rclpy times uses durations, not numbers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NODE = (
 
 
 class NumberForDuration(RclpyRule):
-    """A number stands where a time of rclpy wants a duration.
+    """A number is used where an rclpy time needs a duration.
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'float'``, or ``'>' not
     supported between instances of 'Duration' and 'float'``; ``Duration(1.0)`` takes keywords only.
@@ -45,20 +45,22 @@ class NumberForDuration(RclpyRule):
             {"talker.py": _NODE.format("1.0", "5.0")},
             reports=(
                 Report(
-                    "talker.py:8:22", "a Time and a number: TypeError; use Duration(seconds=...)"
+                    "talker.py:8:22",
+                    "Time plus or minus a number: TypeError; use Duration(seconds=...)",
                 ),
                 Report(
                     "talker.py:11:16",
-                    "a Duration and a number cannot be compared: write Duration(seconds=...)",
+                    "Duration compared with a number: TypeError; use Duration(seconds=...)",
                 ),
             ),
         ),
         Example(
-            "a duration by position",
+            "a positional argument",
             {"talker.py": _NODE.format("Duration(1.0)", "Duration(seconds=5.0)")},
             reports=(
                 Report(
-                    "talker.py:8:47", "Duration() takes keywords only: seconds=..., nanoseconds=..."
+                    "talker.py:8:47",
+                    "Duration() takes only keyword arguments: TypeError; write seconds=...",
                 ),
             ),
         ),
@@ -70,21 +72,21 @@ class NumberForDuration(RclpyRule):
 
 
 def _problems(facts: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
-    """Yield what holds a number that should be a duration, and what is wrong with it."""
+    """Yield expressions with a number instead of a duration, and their messages."""
     for call in facts.module.walk(ast.Call):
         name = facts.module.qualified_name(call.func)
         if name in {_DURATION, _TIME} and call.args:
             kind = name.rpartition(".")[2]
-            yield call, f"{kind}() takes keywords only: seconds=..., nanoseconds=..."
+            yield call, f"{kind}() takes only keyword arguments: TypeError; write seconds=..."
     for comparison in facts.module.walk(ast.Compare):
         left, operator, right = comparison.left, comparison.ops[0], comparison.comparators[0]
         if isinstance(operator, _ORDERS) and _is_number(facts, right) and _kind(facts, left):
-            problem = "cannot be compared: write Duration(seconds=...)"
-            yield comparison, f"a {_kind(facts, left)} and a number {problem}"
+            problem = "compared with a number: TypeError; use Duration(seconds=...)"
+            yield comparison, f"{_kind(facts, left)} {problem}"
     for sum_ in facts.module.walk(ast.BinOp):
         is_sum = isinstance(sum_.op, ast.Add | ast.Sub) and _is_number(facts, sum_.right)
         if is_sum and class_of(facts, sum_.left) == _TIME:
-            yield sum_, "a Time and a number: TypeError; use Duration(seconds=...)"
+            yield sum_, "Time plus or minus a number: TypeError; use Duration(seconds=...)"
 
 
 def _is_number(facts: RclpyFile, node: ast.expr) -> bool:
@@ -92,7 +94,7 @@ def _is_number(facts: RclpyFile, node: ast.expr) -> bool:
 
 
 def _kind(facts: RclpyFile, node: ast.expr) -> str:
-    """Return ``Time`` or ``Duration`` for an expression that surely is one."""
+    """Return ``Time`` or ``Duration`` if an expression certainly is one of them."""
     value = facts.evaluator.single_value(node)
     if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub):
         both = {class_of(facts, value.left), class_of(facts, value.right)}

@@ -1,4 +1,4 @@
-"""ND061: only what is a function is called."""
+"""ND061: only callable objects are called."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ _RIGHT = ("", "Trigger.Request()", "self.done", ".publish")
 
 
 class ObjectCalledWrongly(RclpyRule):
-    """Something is called that is no function, or a function that should be passed.
+    """An object that is not callable is called, or a function that should be passed.
 
     **Why.** ``TypeError: 'QoSProfile' object is not callable``, ``NotImplementedError: Service
-    classes can not be instantiated``; a callback that is called at once gives ``None``.
+    classes can not be instantiated``; a callback that is called instead of passed is ``None``.
 
     **Fix.** ``Trigger.Request()``, ``add_done_callback(self.done)``,
     ``publisher.publish(message)``.
@@ -50,25 +50,31 @@ class ObjectCalledWrongly(RclpyRule):
     code = "ND061"
     name = "object-called-wrongly"
     examples = (
-        Example("right", {"talker.py": _NODE.format(*_RIGHT)}),
+        Example("the right calls", {"talker.py": _NODE.format(*_RIGHT)}),
         Example(
-            "all wrong",
+            "four calls",
             {"talker.py": _NODE.format("()", "Trigger()", "self.done()", "")},
             reports=(
                 Report(
                     "talker.py:10:55",
-                    "qos_profile_sensor_data is a profile, no function: leave the parentheses out",
+                    "qos_profile_sensor_data is a profile, not a function: TypeError; "
+                    "remove the ()",
                 ),
-                Report("talker.py:13:9", "done() is called here: pass the function itself"),
+                Report(
+                    "talker.py:13:9", "done() is called here; pass the function itself, without ()"
+                ),
                 Report(
                     "talker.py:13:32",
-                    "Trigger itself cannot be made: NotImplementedError; write Trigger.Request()",
+                    "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
                 ),
-                Report("talker.py:16:9", "a Publisher cannot be called itself: TypeError"),
+                Report(
+                    "talker.py:16:9",
+                    "a Publisher is not callable: TypeError; call one of its methods",
+                ),
             ),
         ),
         Example(
-            "a class of a module that is called action",
+            "a class of a module named action",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "talker/action.py": "class Step:\n    pass\n",
@@ -76,11 +82,12 @@ class ObjectCalledWrongly(RclpyRule):
             },
         ),
         Example(
-            "a value of an object",
+            "a property",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
             reports=(
                 Report(
-                    "talker.py:12:22", "nanoseconds is a value, no method: TypeError; leave () out"
+                    "talker.py:12:22",
+                    "'nanoseconds' is a property, not a method: TypeError; remove the ()",
                 ),
             ),
         ),
@@ -97,27 +104,29 @@ def _problem(facts: RclpyFile, call: ast.Call) -> str:
     name = facts.module.qualified_name(call.func) or ""
     problem = ""
     if name.startswith(_PRESETS):
-        problem = f"{name[10:]} is a profile, no function: leave the parentheses out"
+        problem = f"{name[10:]} is a profile, not a function: TypeError; remove the ()"
     elif re.fullmatch(_WHOLE, name) and facts.interface(call.func):
         part = "Goal" if ".action." in name else "Request"
         kind = name.rpartition(".")[2]
-        problem = f"{kind} itself cannot be made: NotImplementedError; write {kind}.{part}()"
+        problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
     elif isinstance(call.func, ast.Attribute | ast.Name) and not name:
         class_ = class_of(facts, call.func) or ""
         if class_ in _NOT_CALLED:
-            problem = f"a {class_.rpartition('.')[2]} cannot be called itself: TypeError"
+            problem = (
+                f"a {class_.rpartition('.')[2]} is not callable: TypeError; call one of its methods"
+            )
         elif isinstance(call.func, ast.Attribute) and _is_value(facts, call.func):
-            problem = f"{call.func.attr} is a value, no method: TypeError; leave () out"
+            problem = f"{call.func.attr!r} is a property, not a method: TypeError; remove the ()"
     match call:
         case ast.Call(func=ast.Attribute(attr="add_done_callback"), args=[ast.Call() as given]):
             callback = facts.callback(given)
             if callback.is_called and not callback.is_partial:
-                problem = f"{callback.name}() is called here: pass the function itself"
+                problem = f"{callback.name}() is called here; pass the function itself, without ()"
     return problem
 
 
 def _is_value(facts: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an attribute of an object of rclpy is no method."""
+    """Return whether an attribute of an rclpy object is a property."""
     if node.attr not in _VALUES:
         return False
     owner = class_of(facts, node.value)

@@ -1,4 +1,4 @@
-"""ND039: what is published once is kept for who comes later."""
+"""ND039: topics that are published once are transient local."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 class OneShotVolatile(RclpyRule):
     """A message is published once, in the constructor, with volatile durability.
 
-    **Why.** Subscribers are found only after the constructor: nobody ever gets the message.
+    **Why.** Subscribers are discovered only after the constructor: they never get the message.
 
     **Fix.** Publish with ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)``,
-    and subscribe with the same.
+    and subscribe with the same profile.
 
     **Source.** ROS 2 documentation, "Quality of Service settings".
     """
@@ -36,15 +36,15 @@ class OneShotVolatile(RclpyRule):
     name = "one-shot-volatile"
     severity = Severity.WARNING
     examples = (
-        Example("kept", {"server.py": _NODE.format(_LATCHED)}),
+        Example("transient local", {"server.py": _NODE.format(_LATCHED)}),
         Example(
-            "lost",
+            "volatile",
             {"server.py": _NODE.format("1")},
             reports=(
                 Report(
                     "server.py:11:9",
-                    "the only message on 'map' is published in the constructor, as "
-                    "volatile: before any subscriber is found",
+                    "the only message on 'map' is published in the constructor: later "
+                    "subscribers miss it; use TRANSIENT_LOCAL",
                 ),
             ),
         ),
@@ -64,6 +64,8 @@ class OneShotVolatile(RclpyRule):
             if facts.function_of(call) is not owner.constructor or facts.is_conditional(call):
                 continue
             topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
-            message = f"the only message{topic} is published in the constructor, as volatile"
-            at = facts.module.location(call)
-            yield self.report(at, f"{message}: before any subscriber is found")
+            message = (
+                f"the only message{topic} is published in the constructor: later subscribers "
+                "miss it; use TRANSIENT_LOCAL"
+            )
+            yield self.report(facts.module.location(call), message)

@@ -1,4 +1,4 @@
-"""ND070: own methods are called with the arguments that they take."""
+"""ND070: methods and functions of the package get the arguments that they take."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class OwnCallUnfit(Rule):
     """A method of the node, or a function of the file, gets other arguments than it takes.
 
     **Why.** ``TypeError: Talker.talk() missing 1 required positional argument: 'text'`` when the
-    line is reached; in a callback that ends the node.
+    line is reached; in a callback, it ends the node.
 
-    **Fix.** Give what it takes.
+    **Fix.** Pass the arguments of the signature.
 
     **Source.** Python documentation, "Function definitions".
     """
@@ -36,9 +36,9 @@ class OwnCallUnfit(Rule):
     code = "ND070"
     name = "own-call-unfit"
     examples = (
-        Example("what it takes", {"talker.py": _NODE.format("'hello', times=2")}),
+        Example("the right arguments", {"talker.py": _NODE.format("'hello', times=2")}),
         Example(
-            "of another module",
+            "a function of another module",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "talker/__init__.py": "",
@@ -46,30 +46,32 @@ class OwnCallUnfit(Rule):
                 "talker/node.py": "import rclpy\n\nfrom talker.text import make\n\n"
                 "rclpy.init()\nprint(make('a', 1))\nprint(make('a'))\n",
             },
-            reports=(Report("talker/node.py:7:7", "make() needs count as well: TypeError"),),
+            reports=(Report("talker/node.py:7:7", "make() is missing 'count': TypeError"),),
         ),
         Example(
             "a constructor",
             {"talker.py": _NODE.format("'a'") + "\n\nTALKER = Talker('talker')\n"},
-            reports=(Report("talker.py:16:10", "Talker() takes no arguments, not 1: TypeError"),),
+            reports=(
+                Report("talker.py:16:10", "Talker() takes no arguments, but gets 1: TypeError"),
+            ),
         ),
         Example(
-            "nothing",
+            "no argument",
             {"talker.py": _NODE.format("")},
-            reports=(Report("talker.py:9:9", "talk() needs text as well: TypeError"),),
+            reports=(Report("talker.py:9:9", "talk() is missing 'text': TypeError"),),
         ),
         Example(
-            "too much",
+            "too many arguments",
             {"talker.py": _NODE.format("'a', 2, 3")},
-            reports=(Report("talker.py:9:9", "talk() takes 2 arguments, not 3: TypeError"),),
+            reports=(Report("talker.py:9:9", "talk() takes 2 arguments, but gets 3: TypeError"),),
         ),
         Example(
-            "another name",
+            "an unknown keyword",
             {"talker.py": _NODE.format("txt='a'")},
             reports=(Report("talker.py:9:9", "talk() has no argument 'txt': TypeError"),),
         ),
         Example(
-            "replaced in a class that inherits, or by hand",
+            "overridden in a subclass, or reassigned",
             {
                 "talker.py": _NODE.format("")
                 + "\n\nclass Loud(Talker):\n    def talk(self):\n        pass\n"

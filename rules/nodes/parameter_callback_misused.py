@@ -1,4 +1,4 @@
-"""ND084: callbacks for parameters are functions that take a list."""
+"""ND084: parameter callbacks are functions that take a list."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ _NODE = (
 
 
 class ParameterCallbackMisused(RclpyRule):
-    """A callback for parameters is called where it is passed, or takes its list for a parameter.
+    """A parameter callback is called instead of passed, or treats its list as a parameter.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
     'list' object has no attribute 'value'`` as soon as a parameter is set.
 
-    **Fix.** Pass the function, and go through the list: ``for parameter in parameters:``.
+    **Fix.** Pass the function, and iterate over the list: ``for parameter in parameters:``.
 
     **Source.** ``rclpy/node.py``, ``add_on_set_parameters_callback``; ROS 2 documentation,
     "Monitoring for parameter changes".
@@ -50,19 +50,22 @@ class ParameterCallbackMisused(RclpyRule):
             reports=(
                 Report(
                     "talker.py:9:45",
-                    "self.on_set([]) is called here: pass it without (): TypeError",
+                    "self.on_set([]) is called here: TypeError; pass it without ()",
                 ),
             ),
         ),
         Example(
-            "a text",
+            "a str",
             {"talker.py": _NODE.format("'on_set'", "[0]")},
             reports=(
-                Report("talker.py:9:45", "a callback is a function, and this is a text: TypeError"),
+                Report(
+                    "talker.py:9:45",
+                    "the callback must be a function, but this is a str: TypeError",
+                ),
             ),
         ),
         Example(
-            "the list itself; a dictionary",
+            "the list as a parameter, as a dict",
             {
                 "one.py": _NODE.format("self.on_set", ""),
                 "two.py": _NODE.format("self.on_set", "['rate']"),
@@ -70,11 +73,11 @@ class ParameterCallbackMisused(RclpyRule):
             reports=(
                 Report(
                     "one.py:12:21",
-                    "parameters is a list of parameters, and has no value: AttributeError",
+                    "'parameters' is a list of parameters, without 'value': AttributeError",
                 ),
                 Report(
                     "two.py:12:21",
-                    "parameters is a list of parameters, no dictionary: 'rate' is no place in it",
+                    "'parameters' is a list of parameters, not a dict: ['rate'] is a TypeError",
                 ),
             ),
         ),
@@ -96,38 +99,38 @@ class ParameterCallbackMisused(RclpyRule):
 
 
 def _problem(facts: RclpyFile, given: ast.expr) -> str:
-    """Return what is wrong about an expression in place of a callback."""
+    """Return the message for an expression that is not a callback."""
     callback = facts.callback(given)
     if isinstance(given, ast.Call) and not callback.is_partial:
         inner = facts.callback(given.func)
         if callback.is_called or _gives_results(facts, inner):
-            return f"{facts.module.text(given)} is called here: pass it without (): TypeError"
+            return f"{facts.module.text(given)} is called here: TypeError; pass it without ()"
     if isinstance(facts.evaluator.evaluate(given), str):
-        return "a callback is a function, and this is a text: TypeError"
+        return "the callback must be a function, but this is a str: TypeError"
     return ""
 
 
 def _gives_results(facts: RclpyFile, callback: Callback) -> bool:
-    """Tell whether a function gives what a callback gives, and no callback."""
+    """Return whether a function returns the result of a callback, not a callback."""
     function = callback.function
     if not isinstance(function, ast.FunctionDef):
         return False
-    made = [facts.evaluator.single_value(one.value) for one in returned(function) if one.value]
-    return bool(made) and all(
-        isinstance(one, ast.Call) and facts.module.qualified_name(one.func) == RESULT
-        for one in made
+    values = [facts.evaluator.single_value(x.value) for x in returned(function) if x.value]
+    return bool(values) and all(
+        isinstance(value, ast.Call) and facts.module.qualified_name(value.func) == RESULT
+        for value in values
     )
 
 
 def _list_problem(facts: RclpyFile, name: ast.Name) -> str:
-    """Return what is wrong about a use of the list of parameters."""
+    """Return the message for a wrong use of the list of parameters."""
     match facts.module.parent(name):
         case ast.Attribute(attr=attr) if attr in _OF_ONE:
-            return f"{name.id} is a list of parameters, and has no {attr}: AttributeError"
+            return f"{name.id!r} is a list of parameters, without {attr!r}: AttributeError"
         case ast.Attribute(attr=attr) if attr in _OF_MAPPINGS:
-            return f"{name.id} is a list of parameters, no dictionary: AttributeError"
+            return f"{name.id!r} is a list of parameters, not a dict: AttributeError"
         case ast.For(iter=iterated, target=ast.Tuple()) if iterated is name:
-            return f"{name.id} is a list of parameters, not of pairs: TypeError"
+            return f"{name.id!r} is a list of parameters, not of pairs: TypeError"
         case ast.Subscript(value=value, slice=ast.Constant(value=str() as text)) if value is name:
-            return f"{name.id} is a list of parameters, no dictionary: {text!r} is no place in it"
+            return f"{name.id!r} is a list of parameters, not a dict: [{text!r}] is a TypeError"
     return ""

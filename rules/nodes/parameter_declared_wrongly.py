@@ -1,4 +1,4 @@
-"""ND081: parameters are declared in a form that rclpy takes."""
+"""ND081: parameters are declared in a form that rclpy accepts."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _RANGE = "FloatingPointRange(from_value=0.0, to_value=9.0)"
 
 
 class ParameterDeclaredWrongly(RclpyRule):
-    """A parameter is declared with something else than a name, a default and a descriptor.
+    """A parameter declaration is not a name, a default and a descriptor.
 
     **Why.** ``TypeError: Third element ... is not a ParameterDescriptor``, ``TypeError: Invalid
     parameter tuple length``, ``TypeError: 'FloatingPointRange' object is not subscriptable``.
 
-    **Fix.** ``ParameterDescriptor(description=...)``; ranges are lists of one.
+    **Fix.** ``ParameterDescriptor(description=...)``; a range is a list with one item.
 
     **Source.** ``rclpy/node.py``, ``declare_parameters``; ``ParameterDescriptor.msg``.
     """
@@ -43,18 +43,18 @@ class ParameterDeclaredWrongly(RclpyRule):
     examples = (
         Example("a descriptor", {"talker.py": _NODE.format("'rate'", _TEXT, f", {_TEXT}")}),
         Example(
-            "a text; four values",
+            "a str; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
             reports=(
-                Report("talker.py:8:45", "a ParameterDescriptor belongs here, not 'Hz': TypeError"),
+                Report("talker.py:8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
                 Report(
                     "talker.py:9:38",
-                    "a parameter is name, default and descriptor, not 4 values: TypeError",
+                    "expected name, default and descriptor, but this has 4 values: TypeError",
                 ),
             ),
         ),
         Example(
-            "a range that is no list; the class",
+            "a range that is not a list; the class",
             {
                 "talker.py": _NODE.format(
                     "'rate'",
@@ -65,17 +65,16 @@ class ParameterDeclaredWrongly(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:45",
-                    "floating_point_range is a list of one range, and this is a range "
-                    "alone: TypeError",
+                    "floating_point_range must be a list with one range, not a range: TypeError",
                 ),
                 Report(
                     "talker.py:9:55",
-                    "this is the class ParameterDescriptor: make an object of it: TypeError",
+                    "expected a ParameterDescriptor object, not the class: TypeError",
                 ),
             ),
         ),
         Example(
-            "a class that is no node",
+            "a class that is not a node",
             {
                 "state.py": "import rclpy\nfrom yasmin import State\n\n\n"
                 "class Wait(State):\n    def __init__(self):\n"
@@ -86,44 +85,51 @@ class ParameterDeclaredWrongly(RclpyRule):
             "a number",
             {"talker.py": _NODE.format("1.0", "None", "")},
             reports=(
-                Report("talker.py:8:32", "the name of a parameter is text, not 1.0: TypeError"),
+                Report("talker.py:8:32", "the parameter name must be a str, not 1.0: TypeError"),
             ),
         ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for one in (one for one in facts.parameters if is_of_node(facts, one)):
-            for node, problem in _problems(facts, one):
-                if not is_harmless(facts.module, one.call, problem.rpartition(": ")[2]):
+        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
+            for node, problem in _problems(facts, parameter):
+                if not is_harmless(facts.module, parameter.call, problem.rpartition(": ")[2]):
                     yield self.report(facts.module.location(node), problem)
 
 
-def _problems(facts: RclpyFile, one: Parameter) -> Iterator[tuple[ast.expr, str]]:
-    name = facts.evaluator.evaluate(one.name_node)
-    if one.name_node is not None and name is not UNKNOWN and (not name or type(name) is not str):
-        yield one.name_node, f"the name of a parameter is text, not {name!r}: TypeError"
+def _problems(facts: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr, str]]:
+    name = facts.evaluator.evaluate(parameter.name_node)
+    if (
+        parameter.name_node is not None
+        and name is not UNKNOWN
+        and (not name or type(name) is not str)
+    ):
+        yield parameter.name_node, f"the parameter name must be a str, not {name!r}: TypeError"
         return
-    entry = facts.module.parent(one.name_node) if one.name_node is not None else None
+    entry = facts.module.parent(parameter.name_node) if parameter.name_node is not None else None
     if isinstance(entry, ast.Tuple | ast.List) and len(entry.elts) > 3:  # noqa: PLR2004  see Fix
         count = len(entry.elts)
-        yield entry, f"a parameter is name, default and descriptor, not {count} values: TypeError"
-    if one.descriptor_node is not None:
-        problem = _descriptor_problem(facts, one, one.descriptor_node)
+        yield (
+            entry,
+            f"expected name, default and descriptor, but this has {count} values: TypeError",
+        )
+    if parameter.descriptor_node is not None:
+        problem = _descriptor_problem(facts, parameter, parameter.descriptor_node)
         if problem:
-            yield one.descriptor_node, problem
+            yield parameter.descriptor_node, problem
 
 
-def _descriptor_problem(facts: RclpyFile, one: Parameter, node: ast.expr) -> str:
+def _descriptor_problem(facts: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
     value = facts.evaluator.evaluate(node)
-    is_listed = "parameters" in one.arguments
+    is_listed = "parameters" in parameter.arguments
     if value is not UNKNOWN and (value is not None or is_listed):
-        return f"a ParameterDescriptor belongs here, not {value!r}: TypeError"
+        return f"expected a ParameterDescriptor, not {value!r}: TypeError"
     if facts.module.qualified_name(node) == DESCRIPTOR:
-        return "this is the class ParameterDescriptor: make an object of it: TypeError"
+        return "expected a ParameterDescriptor object, not the class: TypeError"
     fields = message_made(facts, node, DESCRIPTOR) or {}
     for name in _RANGES:
         made = facts.evaluator.single_value(fields[name]) if name in fields else None
         func = facts.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
         if func is not None and func.startswith("rcl_interfaces.msg."):
-            return f"{name} is a list of one range, and this is a range alone: TypeError"
+            return f"{name} must be a list with one range, not a range: TypeError"
     return ""

@@ -19,10 +19,10 @@ _NODE = (
 class ParameterDefaultMissing(RclpyRule):
     """A parameter is declared without a default, or with an empty list.
 
-    **Why.** Without one its value is None until somebody sets it, and rclpy warns. An empty list
-    is one of bytes to rclpy: a list of strings is then refused.
+    **Why.** Without a default, the value is None until it is set, and rclpy warns. rclpy takes an
+    empty list for a byte array, and then rejects a list of strings.
 
-    **Fix.** Give a default, or the type: ``Parameter.Type.STRING_ARRAY``.
+    **Fix.** Pass a default, or the type: ``Parameter.Type.STRING_ARRAY``.
 
     **Source.** rclpy issue 1030; ``rclpy/parameter.py``: ``[]`` is a ``BYTE_ARRAY``.
     """
@@ -30,12 +30,15 @@ class ParameterDefaultMissing(RclpyRule):
     code = "ND015"
     name = "parameter-default-missing"
     examples = (
-        Example("with", {"talker.py": _NODE.format("'rate', 2.0")}),
+        Example("with a default", {"talker.py": _NODE.format("'rate', 2.0")}),
         Example(
-            "without",
+            "without a default",
             {"talker.py": _NODE.format("'rate'")},
             reports=(
-                Report("talker.py:7:32", "parameter 'rate' has no default: its value is None"),
+                Report(
+                    "talker.py:7:32",
+                    "parameter 'rate' has no default: its value is None until it is set",
+                ),
             ),
         ),
         Example(
@@ -43,7 +46,8 @@ class ParameterDefaultMissing(RclpyRule):
             {"talker.py": _NODE.format("'names', []")},
             reports=(
                 Report(
-                    "talker.py:7:32", "parameter 'names': an empty list is a list of bytes to rclpy"
+                    "talker.py:7:32",
+                    "parameter 'names' becomes a byte array: the default is an empty list",
                 ),
             ),
         ),
@@ -64,7 +68,9 @@ class ParameterDefaultMissing(RclpyRule):
         if parameter.argument("descriptor") is not None:
             return None
         if parameter.default_node is None:
-            return f"parameter {parameter.name!r} has no default: its value is None"
+            return f"parameter {parameter.name!r} has no default: its value is None until it is set"
         if parameter.default in ([], ()):
-            return f"parameter {parameter.name!r}: an empty list is a list of bytes to rclpy"
+            return (
+                f"parameter {parameter.name!r} becomes a byte array: the default is an empty list"
+            )
         return None

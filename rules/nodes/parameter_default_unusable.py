@@ -1,4 +1,4 @@
-"""ND083: parameters have a default or a type that rclpy takes."""
+"""ND083: parameters have a default or a type that rclpy accepts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.api.python import is_harmless
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
-_TYPE = "the type is Parameter.Type.{}"
+_TYPE = "expected Parameter.Type.{}"
 _CLASSES = {"bool": "BOOL", "float": "DOUBLE", "int": "INTEGER", "str": "STRING"}
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor, ParameterType\n"
@@ -22,13 +22,13 @@ _NODE = (
 
 
 class ParameterDefaultUnusable(RclpyRule):
-    """The default of a parameter is none: nothing, a class, a constant of ``ParameterType``.
+    """The default of a parameter is missing, a class, or a constant of ``ParameterType``.
 
     **Why.** ``ValueError: Cannot declare a statically typed parameter with default value of type
     PARAMETER_NOT_SET``, or ``TypeError: The given value is not one of the allowed types``. The
-    constants of ``ParameterType`` are numbers, so one in place of a default makes an integer.
+    constants of ``ParameterType`` are numbers: as a default, they make the parameter an integer.
 
-    **Fix.** Without a default give ``Parameter.Type.DOUBLE``, or a descriptor with
+    **Fix.** Without a default, pass ``Parameter.Type.DOUBLE``, or a descriptor with
     ``dynamic_typing=True``. The ``type`` of a descriptor is ignored.
 
     **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rclpy/parameter.py``.
@@ -43,73 +43,76 @@ class ParameterDefaultUnusable(RclpyRule):
             {"talker.py": _NODE.format("None", "dynamic_typing=True", "Parameter.Type.STRING")},
         ),
         Example(
-            "nothing",
+            "no default",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
             reports=(
                 Report(
                     "talker.py:9:40",
-                    "parameter 'rate' has no default: write one, or a Parameter.Type: ValueError",
+                    "parameter 'rate' needs a default or a Parameter.Type: ValueError",
                 ),
                 Report(
                     "talker.py:10:47",
-                    "parameter 'mode' has no default: write one, or a Parameter.Type: ValueError",
+                    "parameter 'mode' needs a default or a Parameter.Type: ValueError",
                 ),
             ),
         ),
         Example(
-            "a class; a number in place of a type",
+            "a class; a constant of ParameterType",
             {"talker.py": _NODE.format("float", "", "ParameterType.PARAMETER_STRING")},
             reports=(
                 Report(
                     "talker.py:9:40",
-                    "this is the class float: the type is Parameter.Type.DOUBLE: TypeError",
+                    "expected Parameter.Type.DOUBLE, not the class 'float': TypeError",
                 ),
                 Report(
                     "talker.py:10:47",
-                    "this is a number, so the parameter is an integer; the type is "
-                    "Parameter.Type.STRING",
+                    "this constant makes the parameter an integer; expected Parameter.Type.STRING",
                 ),
             ),
         ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for one in (one for one in facts.parameters if is_of_node(facts, one)):
-            node = one.default_node
-            problem = _type_problem(one) or (_default_problem(facts, one, node) if node else "")
+        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
+            node = parameter.default_node
+            problem = _type_problem(parameter) or (
+                _default_problem(facts, parameter, node) if node else ""
+            )
             error = problem.rpartition(": ")[2]
-            if problem and not is_harmless(facts.module, one.call, error):
-                yield self.report(facts.module.location(node or one.call), problem)
+            if problem and not is_harmless(facts.module, parameter.call, error):
+                yield self.report(facts.module.location(node or parameter.call), problem)
 
 
-def _default_problem(facts: RclpyFile, one: Parameter, node: ast.expr) -> str:
+def _default_problem(facts: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
     full = facts.module.qualified_name(node) or ""
     if full.startswith(_TYPES):
         kind = full.removeprefix(_TYPES)
-        return f"this is a number, so the parameter is an integer; {_TYPE.format(kind)}"
+        return f"this constant makes the parameter an integer; {_TYPE.format(kind)}"
     is_builtin = isinstance(node, ast.Name) and not facts.module.index.lookup(node.id, node)
     if isinstance(node, ast.Name) and is_builtin and node.id in _CLASSES:
-        return f"this is the class {node.id}: {_TYPE.format(_CLASSES[node.id])}: TypeError"
+        return f"{_TYPE.format(_CLASSES[node.id])}, not the class {node.id!r}: TypeError"
     if class_of(facts, node) == PARAMETER:
-        return "this is a Parameter, and its value belongs here: TypeError"
-    is_dictionary = isinstance(one.default, dict) and "parameters" in one.arguments
-    if is_dictionary or isinstance(node, ast.Set) or isinstance(one.default, bytes):
-        word = "set" if isinstance(node, ast.Set) else type(one.default).__name__
-        return f"a parameter holds no {word}: TypeError"
+        return "expected the default itself, not a Parameter: TypeError"
+    is_dictionary = isinstance(parameter.default, dict) and "parameters" in parameter.arguments
+    if is_dictionary or isinstance(node, ast.Set) or isinstance(parameter.default, bytes):
+        word = "set" if isinstance(node, ast.Set) else type(parameter.default).__name__
+        return f"a parameter cannot hold a {word}: TypeError"
     return ""
 
 
-def _type_problem(one: Parameter) -> str:
-    """Return what is wrong about a default that is none, by the descriptor."""
-    if one.declared_type == "not_set":
-        return "a parameter of the type NOT_SET holds nothing: ValueError"
-    if one.descriptor is None:
+def _type_problem(parameter: Parameter) -> str:
+    """Return the message for a declaration without a usable default."""
+    if parameter.declared_type == "not_set":
+        return "a parameter of type NOT_SET cannot be declared: ValueError"
+    if parameter.descriptor is None:
         return ""
-    if one.declared_type is not None and one.descriptor.is_dynamic:
-        return "either a type or dynamic_typing=True, not both: ValueError"
-    is_none = one.default is None or (one.default_node is None and "name" in one.arguments)
-    is_alone = one.descriptor_node is None and "name" in one.arguments
-    if not is_none or one.descriptor.is_dynamic or is_alone:
+    if parameter.declared_type is not None and parameter.descriptor.is_dynamic:
+        return "a type and dynamic_typing=True exclude each other: ValueError"
+    is_none = parameter.default is None or (
+        parameter.default_node is None and "name" in parameter.arguments
+    )
+    is_alone = parameter.descriptor_node is None and "name" in parameter.arguments
+    if not is_none or parameter.descriptor.is_dynamic or is_alone:
         return ""
-    name = repr(one.name) if isinstance(one.name, str) else "of this name"
-    return f"parameter {name} has no default: write one, or a Parameter.Type: ValueError"
+    name = repr(parameter.name) if isinstance(parameter.name, str) else "of this name"
+    return f"parameter {name} needs a default or a Parameter.Type: ValueError"

@@ -1,4 +1,4 @@
-"""ND037: a parameter's value is read from the field that its type fills."""
+"""ND037: parameter values are read from the field of their type."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _VARIABLES = (
 
 
 class ParameterFieldDiffers(Rule):
-    """A parameter is read from a field of ParameterValue that its type does not fill.
+    """A parameter is read from a field of ParameterValue that belongs to another type.
 
     **Why.** No error: the other fields are 0, False or empty, whatever the parameter is set to.
 
@@ -51,7 +51,7 @@ class ParameterFieldDiffers(Rule):
     examples = (
         Example("the field of its type", {"talker.py": _NODE.format("double_value")}),
         Example(
-            "another field where the first one cannot be read",
+            "another field as a fallback",
             {
                 "talker.py": _VARIABLES.format("double_value").replace(
                     "        self.period = value.double_value\n",
@@ -67,8 +67,9 @@ class ParameterFieldDiffers(Rule):
             reports=(
                 Report(
                     "talker.py:8:23",
-                    "'period' is declared as double, so integer_value stays empty",
-                    unsafe_fix="read the field of its type",
+                    "'period' is declared as double: integer_value is always empty; use "
+                    "double_value",
+                    unsafe_fix="read the field of the declared type",
                 ),
             ),
             fixed={"talker.py": _NODE.format("double_value")},
@@ -79,8 +80,9 @@ class ParameterFieldDiffers(Rule):
             reports=(
                 Report(
                     "talker.py:9:23",
-                    "'period' is declared as double, so string_value stays empty",
-                    unsafe_fix="read the field of its type",
+                    "'period' is declared as double: string_value is always empty; use "
+                    "double_value",
+                    unsafe_fix="read the field of the declared type",
                 ),
             ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
@@ -96,18 +98,19 @@ class ParameterFieldDiffers(Rule):
                         continue
                     parents = facts.module.parents(field)
                     if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
-                        continue  # for a value that cannot be read otherwise
+                        continue  # a fallback
                     _, end = facts.module.span(field)
                     edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
-                    message = f"{read!r} is declared as {declared}, so {field.attr} stays empty"
-                    fix = Fix("read the field of its type", (edit,), Safety.UNSAFE)
+                    message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
+                    message += f"use {declared}_value"
+                    fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
                     yield self.report(facts.module.location(field), message, fix)
 
 
 def _read(package: Package, facts: RclpyFile, field: ast.Attribute) -> tuple[str, str]:
-    """Return name and declared type of the parameter that ``....integer_value`` is read of.
+    """Return name and declared type of the parameter that a field is read from.
 
-    Both empty when that is not sure.
+    Both are empty if that is not certain.
     """
     match facts.evaluator.single_value(field.value):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
@@ -123,7 +126,7 @@ def _read(package: Package, facts: RclpyFile, field: ast.Attribute) -> tuple[str
 
 
 def _of_empty_list(declared: Declared, name: str) -> str:
-    """Return what rclpy takes an empty list for, if the default is one."""
+    """Return the type that rclpy infers from an empty default list, else nothing."""
     place = declared.places.get(name)
     is_empty = place is not None and place.default == [] and place.descriptor_node is None
     return "byte_array" if is_empty else ""

@@ -1,4 +1,4 @@
-"""ND060: parameters are made and declared as rclpy has them."""
+"""ND060: parameters are constructed and declared in the form of rclpy."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]")
 
 
 class ParameterMadeWrongly(RclpyRule):
-    """A parameter is made or declared in a form that rclpy does not take.
+    """A parameter is constructed or declared in a form that rclpy rejects.
 
     **Why.** ``ValueError: Type '2' and value ... do not agree``, or ``TypeError``.
 
@@ -45,13 +45,13 @@ class ParameterMadeWrongly(RclpyRule):
     code = "ND060"
     name = "parameter-made-wrongly"
     examples = (
-        Example("right", {"talker.py": _NODE.format(*_RIGHT)}),
+        Example("pairs, a type with a value", {"talker.py": _NODE.format(*_RIGHT)}),
         Example(
-            "no pairs, a type alone",
+            "no pairs, a type without a value",
             {"talker.py": _NODE.format("'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]")},
             reports=(
-                Report("talker.py:8:38", "each parameter is a pair ('name', default): TypeError"),
-                Report("talker.py:9:45", "a type needs a value of it: ValueError"),
+                Report("talker.py:8:38", "expected a pair ('name', default): TypeError"),
+                Report("talker.py:9:45", "type without a value: ValueError"),
             ),
         ),
         Example(
@@ -64,11 +64,11 @@ class ParameterMadeWrongly(RclpyRule):
             },
             reports=(
                 Report(
-                    "talker.py:9:48", "the second argument is the type: write value=... for a value"
+                    "talker.py:9:48", "the second argument is the type: TypeError; write value=..."
                 ),
                 Report(
                     "talker.py:9:95",
-                    "the type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
+                    "type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
                 ),
             ),
         ),
@@ -90,7 +90,7 @@ def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
             if isinstance(listed, ast.List) and facts.owner_of(owner) is not None:
                 for item in listed.elts:
                     if isinstance(item, ast.Constant):
-                        yield item, "each parameter is a pair ('name', default): TypeError"
+                        yield item, "expected a pair ('name', default): TypeError"
                         break
 
 
@@ -102,11 +102,11 @@ def _made(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
         return
     constant = facts.evaluator.evaluate(type_)
     if constant is not UNKNOWN and constant is not None:
-        yield type_, "the second argument is the type: write value=... for a value"
+        yield type_, "the second argument is the type: TypeError; write value=..."
         return
     kind = _KINDS.get((facts.module.qualified_name(type_) or "").rpartition(".Type.")[2])
     if kind is not None and value is None and not any(word.arg is None for word in call.keywords):
-        yield type_, "a type needs a value of it: ValueError"
+        yield type_, "type without a value: ValueError"
     known = facts.evaluator.evaluate(value)
     if kind is None or value is None or known is UNKNOWN or known is None:
         return
@@ -114,5 +114,5 @@ def _made(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
         word = type(known).__name__
         yield (
             value,
-            f"the type is {facts.module.text(type_)}, but the value is a {word}: ValueError",
+            f"type is {facts.module.text(type_)}, but the value is a {word}: ValueError",
         )

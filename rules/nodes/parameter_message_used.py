@@ -1,4 +1,4 @@
-"""ND095: of the message of a parameter, a field is read."""
+"""ND095: fields of ParameterValue are read, not the message itself."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NODE = (
 
 
 class ParameterMessageUsed(RclpyRule):
-    """The message of a parameter is used as if it were its value.
+    """A ParameterValue message is used as if it were the value of the parameter.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'ParameterValue'``.
 
@@ -36,12 +36,12 @@ class ParameterMessageUsed(RclpyRule):
     examples = (
         Example("a field", {"talker.py": _NODE.format(".double_value")}),
         Example(
-            "computed with",
+            "used in arithmetic",
             {"talker.py": _NODE.format("")},
             reports=(
                 Report(
                     "talker.py:8:24",
-                    "get_parameter_value() is a message: read a field such as double_value",
+                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
                 ),
             ),
         ),
@@ -51,17 +51,17 @@ class ParameterMessageUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:18",
-                    "get_parameter_value() is a message: read a field such as double_value",
+                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
                 ),
             ),
         ),
         Example(
-            "as a period",
+            "used as a period",
             {"talker.py": _NODE.format("").replace("1.0 / ", "")},
             reports=(
                 Report(
                     "talker.py:9:27",
-                    "get_parameter_value() is a message: read a field such as double_value",
+                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
                 ),
             ),
         ),
@@ -71,12 +71,14 @@ class ParameterMessageUsed(RclpyRule):
         for read in facts.parameter_reads:
             used = _used_as_number(facts, read)
             if used is not None:
-                message = "get_parameter_value() is a message: read a field such as double_value"
+                message = (
+                    "get_parameter_value() returns a message, not a number: TypeError; use .value"
+                )
                 yield self.report(facts.module.location(used), message)
 
 
 def _used_as_number(facts: RclpyFile, read: ParameterRead) -> ast.AST | None:
-    """Return where the message of a parameter's value is used as a value or is a period."""
+    """Return where the message is used as a number, or as the period of a timer."""
     attribute = facts.module.parent(read.call)
     call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
     if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":

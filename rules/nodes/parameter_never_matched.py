@@ -1,4 +1,4 @@
-"""ND085: callbacks for parameters ask for names and types that there are."""
+"""ND085: parameter callbacks compare with declared names and types."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ _NODE = (
 
 
 class ParameterNeverMatched(Rule):
-    """A callback for parameters asks for a name or a type that the node does not declare.
+    """A parameter callback compares with a name or type that the node does not declare.
 
-    **Why.** No error: the condition is never true, so that setting the parameter changes nothing.
+    **Why.** No error: the condition is never true, and setting the parameter changes nothing.
 
-    **Fix.** Write the name and the type that are declared.
+    **Fix.** Use the declared name and type.
 
-    **Source.** ``rclpy/node.py``, ``_set_parameters_atomically_common``: a callback is told of
-    declared parameters alone, of the types that they have.
+    **Source.** ``rclpy/node.py``, ``_set_parameters_atomically_common``: a callback gets only
+    declared parameters, with their declared types.
     """
 
     code = "ND085"
@@ -53,7 +53,7 @@ class ParameterNeverMatched(Rule):
             reports=(
                 Report(
                     "talker.py:14:28",
-                    "the node declares no parameter 'rates'; 'rate' is meant: this is never true",
+                    "never true: the node declares no parameter 'rates'; did you mean 'rate'?",
                 ),
             ),
         ),
@@ -61,13 +61,13 @@ class ParameterNeverMatched(Rule):
             "another type",
             {"talker.py": _NODE.format("rate", "INTEGER")},
             reports=(
-                Report("talker.py:14:52", "rate is declared as double, so it is never INTEGER"),
+                Report("talker.py:14:52", "never true: 'rate' is declared as double, not INTEGER"),
             ),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        alone = {node: {str(one.name) for one in found} for node, found in declared_alone(package)}
+        alone = {node: {str(p.name) for p in own} for node, own in declared_alone(package)}
         for facts in rclpy_files(package):
             for attribute in facts.module.index.attributes("name"):
                 node = _owner(facts, attribute)
@@ -87,8 +87,8 @@ class ParameterNeverMatched(Rule):
             name = item.value if isinstance(item, ast.Constant) else None
             if isinstance(name, str) and name not in known and not has_always(name):
                 near = nearest(package, name, known, 0.7)
-                hint = f"; {near!r} is meant" if near else ""
-                message = f"the node declares no parameter {name!r}{hint}: this is never true"
+                hint = f"; did you mean {near!r}?" if near else ""
+                message = f"never true: the node declares no parameter {name!r}{hint}"
                 yield self.report(facts.module.location(item), message)
 
     def _typed(
@@ -107,9 +107,9 @@ class ParameterNeverMatched(Rule):
                 declared = declared_by(node, package).types.get(name)
                 asked = full.rpartition(".")[2]
                 if declared in types_compared(facts, attribute, name):
-                    return  # the code is ready for several types
+                    return  # the code handles several types
                 if declared and declared != asked.lower():
-                    message = f"{name} is declared as {declared}, so it is never {asked}"
+                    message = f"never true: {name!r} is declared as {declared}, not {asked}"
                     yield self.report(facts.module.location(other), message)
 
 

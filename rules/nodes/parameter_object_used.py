@@ -1,4 +1,4 @@
-"""ND017: the value of a parameter is asked for."""
+"""ND017: the value of a parameter is used, not the Parameter."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ _OTHERS = (
 
 
 class ParameterObjectUsed(RclpyRule):
-    """A Parameter is calculated, compared or passed with, instead of its value.
+    """A Parameter object is used in arithmetic, comparisons or calls instead of its value.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'``. A condition
-    is always true, a comparison with a value never is, and a text shows where the object is stored.
+    is always true, a comparison with a value never is, and a str shows the address of the object.
 
     **Fix.** Append ``.value``.
 
@@ -48,8 +48,8 @@ class ParameterObjectUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:16",
-                    "this is the Parameter, used in line 9, and not its value; append .value",
-                    fix="take the value",
+                    "this is the Parameter (used in line 9), not its value; append .value",
+                    fix="append .value",
                 ),
             ),
             fixed={"talker.py": _NODE.format(".value")},
@@ -60,18 +60,18 @@ class ParameterObjectUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:7:17",
-                    "this is the Parameter, used in line 10, and not its value; append .value",
-                    fix="take the value",
+                    "this is the Parameter (used in line 10), not its value; append .value",
+                    fix="append .value",
                 ),
                 Report(
                     "talker.py:8:12",
-                    "this is the Parameter and not its value; append .value",
-                    fix="take the value",
+                    "this is the Parameter, not its value; append .value",
+                    fix="append .value",
                 ),
                 Report(
                     "talker.py:9:27",
-                    "this is the Parameter and not its value; append .value",
-                    fix="take the value",
+                    "this is the Parameter, not its value; append .value",
+                    fix="append .value",
                 ),
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
@@ -81,8 +81,8 @@ class ParameterObjectUsed(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for read, use in objects_used(facts):
             _, end = facts.module.span(read.call)
-            fix = Fix("take the value", (Edit(facts.module.path, end, end, ".value"),))
+            fix = Fix("append .value", (Edit(facts.module.path, end, end, ".value"),))
             line = facts.module.location(use).line
-            where = "" if line == read.location.line else f", used in line {line},"
-            message = f"this is the Parameter{where} and not its value; append .value"
+            where = "" if line == read.location.line else f" (used in line {line})"
+            message = f"this is the Parameter{where}, not its value; append .value"
             yield self.report(read, message, fix)

@@ -26,7 +26,7 @@ _OTHERS = (
 
 
 class ParameterReadUndeclared(Rule):
-    """A node reads or sets a parameter that it does not declare, or not yet.
+    """A node reads or sets a parameter that it has not declared, or not yet.
 
     **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is reached.
 
@@ -40,7 +40,7 @@ class ParameterReadUndeclared(Rule):
     examples = (
         Example("declared", {"talker.py": _NODE.format(_DECLARED, "")}),
         Example(
-            "declared by whoever takes the node",
+            "declared by the caller",
             {"talker.py": _NODE.format("        declare_all(self)\n", "")},
         ),
         Example(
@@ -52,26 +52,29 @@ class ParameterReadUndeclared(Rule):
             },
         ),
         Example(
-            "another one declared",
+            "another parameter declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
             reports=(
                 Report(
                     "talker.py:8:21",
-                    "parameter 'rate' is not declared; 'rates' is: ParameterNotDeclaredException",
+                    "parameter 'rate' is not declared: ParameterNotDeclaredException; "
+                    "did you mean 'rates'?",
                 ),
             ),
         ),
         Example(
-            "read in a list, set",
+            "read in a list, undeclared",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
             reports=(
                 Report(
                     "talker.py:9:46",
-                    "parameter 'rats' is not declared; 'rate' is: ParameterNotDeclaredException",
+                    "parameter 'rats' is not declared: ParameterNotDeclaredException; "
+                    "did you mean 'rate'?",
                 ),
                 Report(
                     "talker.py:10:34",
-                    "parameter 'rates' is not declared; 'rate' is: ParameterNotDeclaredException",
+                    "parameter 'rates' is not declared: ParameterNotDeclaredException; "
+                    "did you mean 'rate'?",
                 ),
             ),
         ),
@@ -81,7 +84,8 @@ class ParameterReadUndeclared(Rule):
             reports=(
                 Report(
                     "talker.py:7:21",
-                    "parameter 'rate' is declared in line 8 only: after it is read",
+                    "parameter 'rate' is read before it is declared in line 8: "
+                    "ParameterNotDeclaredException",
                 ),
             ),
         ),
@@ -90,8 +94,8 @@ class ParameterReadUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for node, declared in declared_alone(package):
             by_name: dict[str, list[Parameter]] = {}
-            for one in declared:
-                by_name.setdefault(str(one.name), []).append(one)
+            for parameter in declared:
+                by_name.setdefault(str(parameter.name), []).append(parameter)
             for read in node.parameter_reads:
                 message = _message(package, read, by_name)
                 if message and not is_harmless(
@@ -117,16 +121,19 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
     if not same:
         return _undeclared(package, read.name, declared)
     late = [
-        one.location.line
-        for one in same
-        if one.function is read.function and one.location.line > read.location.line
+        other.location.line
+        for other in same
+        if other.function is read.function and other.location.line > read.location.line
     ]
     if len(late) == len(same) and not read.is_conditional:
-        return f"parameter {read.name!r} is declared in line {late[0]} only: after it is read"
+        return (
+            f"parameter {read.name!r} is read before it is declared in line {late[0]}: "
+            "ParameterNotDeclaredException"
+        )
     return ""
 
 
 def _undeclared(package: Package, name: str, declared: dict[str, list[Parameter]]) -> str:
     near = nearest(package, name, declared, 0.7)
-    hint = f"; {near!r} is" if near else ""
-    return f"parameter {name!r} is not declared{hint}: ParameterNotDeclaredException"
+    hint = f"; did you mean {near!r}?" if near else ""
+    return f"parameter {name!r} is not declared: ParameterNotDeclaredException{hint}"

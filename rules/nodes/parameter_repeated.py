@@ -22,7 +22,7 @@ class ParameterRepeated(RclpyRule):
 
     **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
 
-    **Fix.** Keep one; of ``use_sim_time`` none.
+    **Fix.** Remove the second declaration, and that of ``use_sim_time``.
 
     **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rclpy/time_source.py``.
     """
@@ -34,25 +34,35 @@ class ParameterRepeated(RclpyRule):
         Example(
             "one parameter twice",
             {"talker.py": _NODE.format("rate")},
-            reports=(Report("talker.py:8:32", "parameter 'rate' is declared in line 7 already"),),
+            reports=(
+                Report(
+                    "talker.py:8:32",
+                    "parameter 'rate' is already declared in line 7: "
+                    "ParameterAlreadyDeclaredException",
+                ),
+            ),
         ),
         Example(
-            "one of every node",
+            "a parameter of every node",
             {"talker.py": _NODE.format("use_sim_time")},
             reports=(
                 Report(
                     "talker.py:8:32",
-                    "every node declares use_sim_time: ParameterAlreadyDeclaredException",
+                    "'use_sim_time' is already declared by rclpy: "
+                    "ParameterAlreadyDeclaredException",
                 ),
             ),
         ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for one in facts.parameters:
-            if one.name == "use_sim_time" and one.owner is not None and not one.is_conditional:
-                message = "every node declares use_sim_time: ParameterAlreadyDeclaredException"
-                yield self.report(one.name_location, message)
+        for parameter in facts.parameters:
+            if parameter.name != "use_sim_time" or parameter.owner is None:
+                continue
+            if not parameter.is_conditional:
+                message = "'use_sim_time' is already declared by rclpy: "
+                message += "ParameterAlreadyDeclaredException"
+                yield self.report(parameter.name_location, message)
         for node in facts.nodes:
             first: dict[str, int] = {}
             for parameter in node.parameters:
@@ -61,7 +71,10 @@ class ParameterRepeated(RclpyRule):
                     continue
                 at = parameter.name_location
                 if name in first:
-                    message = f"parameter {name!r} is declared in line {first[name]} already"
+                    message = (
+                        f"parameter {name!r} is already declared in line {first[name]}: "
+                        "ParameterAlreadyDeclaredException"
+                    )
                     yield self.report(at, message)
                 else:
                     first[name] = at.line

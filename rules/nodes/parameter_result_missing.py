@@ -1,4 +1,4 @@
-"""ND049: callbacks for parameters return what rclpy needs."""
+"""ND049: parameter callbacks return a usable result."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ _MIXED = (
 
 
 class ParameterResultMissing(RclpyRule):
-    """A callback for set parameters does not return a ``SetParametersResult`` that says yes or no.
+    """A parameter callback does not return a ``SetParametersResult`` with ``successful`` set.
 
-    **Why.** ``Callback returned an invalid type``: every change is refused, and a parameter that is
-    declared later ends the node; a plain ``SetParametersResult()`` refuses every change too. A
-    callback that is called before must return the list of parameters.
+    **Why.** ``Callback returned an invalid type``: every change is rejected, and a parameter that
+    is declared later ends the node; a plain ``SetParametersResult()`` rejects every change too. A
+    pre-set callback must return the list of parameters.
 
     **Fix.** ``return SetParametersResult(successful=True)``, on every path.
 
@@ -44,9 +44,12 @@ class ParameterResultMissing(RclpyRule):
     name = "parameter-result-missing"
     examples = (
         Example("a result", {"talker.py": _NODE.format("parameters", _RIGHT)}),
-        Example("looped", {"talker.py": _NODE.format("a", "        for b in a:\n    " + _RIGHT)}),
         Example(
-            "filled afterwards",
+            "returned in a loop",
+            {"talker.py": _NODE.format("a", "        for b in a:\n    " + _RIGHT)},
+        ),
+        Example(
+            "set afterwards",
             {
                 "talker.py": _NODE.format(
                     "parameters",
@@ -55,39 +58,42 @@ class ParameterResultMissing(RclpyRule):
             },
         ),
         Example(
-            "nothing, a bool, a refusal",
+            "nothing, a bool, a rejection",
             {"talker.py": _NODE.format("parameters", _MIXED)},
             reports=(
                 Report(
-                    "talker.py:10:9", "on_set does not return a SetParametersResult on every path"
+                    "talker.py:10:9", "on_set() does not return a SetParametersResult on every path"
                 ),
                 Report(
                     "talker.py:12:13",
-                    "returns True, not a SetParametersResult: every change is refused",
+                    "returns True, not a SetParametersResult: every change is rejected",
                 ),
                 Report(
                     "talker.py:14:13",
                     "returns a SetParametersResult without successful=True: every "
-                    "change is refused",
+                    "change is rejected",
                 ),
             ),
         ),
         Example(
-            "left as it is made",
+            "never set",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
             reports=(
                 Report(
                     "talker.py:12:9",
                     "returns a SetParametersResult without successful=True: every "
-                    "change is refused",
+                    "change is rejected",
                 ),
             ),
         ),
         Example(
-            "no parameters",
+            "no argument",
             {"talker.py": _NODE.format("", _RIGHT)},
             reports=(
-                Report("talker.py:10:9", "on_set takes 0 arguments; it is given the parameters"),
+                Report(
+                    "talker.py:10:9",
+                    "on_set() takes 0 arguments, but gets 1, the parameters: TypeError",
+                ),
             ),
         ),
     )
@@ -117,18 +123,20 @@ class ParameterResultMissing(RclpyRule):
         wanted = "the list of parameters" if method == _PRE else "a SetParametersResult"
         count = len([*arguments.posonlyargs, *arguments.args]) - int(is_bound)
         if arguments.vararg is None and not count - len(arguments.defaults) <= 1 <= count:
-            message = f"{function.name} takes {count} arguments; it is given the parameters"
+            message = (
+                f"{function.name}() takes {count} arguments, but gets 1, the parameters: TypeError"
+            )
             yield self.report(module.name_location(function), message)
         if method == _POST:
             return
         if is_generator(function) or isinstance(function, ast.AsyncFunctionDef):
             word = "a generator" if is_generator(function) else "a coroutine"
-            message = f"{function.name} is {word}, and does not return {wanted}"
+            message = f"{function.name}() is {word}: it does not return {wanted}"
             yield self.report(module.name_location(function), message)
             return
         if may_end_with_items(function):
             path = " on every path" if returned(function) else ""
-            message = f"{function.name} does not return {wanted}{path}"
+            message = f"{function.name}() does not return {wanted}{path}"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
             problem = wrong_value(method, facts, statement.value)

@@ -1,4 +1,4 @@
-"""ND086: nodes set their own parameters to what these can hold."""
+"""ND086: nodes set their parameters to values that rclpy accepts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.parameters import Declared, declared_by
+from scaffold.api.parameters import Declared, a_type, declared_by
 from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set, rclpy_files
 
 _NODE = (
@@ -21,13 +21,13 @@ _FIXED = ", ParameterDescriptor(read_only=True)"
 
 
 class ParameterSetRefused(Rule):
-    """A node sets one of its parameters to something that the parameter does not hold.
+    """A node sets one of its parameters to a value that rclpy rejects.
 
     **Why.** No error: ``set_parameters`` returns ``successful=False`` and the reason, ``Wrong
     parameter type``, ``Trying to set a read-only parameter`` or ``out of range``, and the parameter
-    stays as it is. To undeclare a read-only parameter is a ``ParameterImmutableException``.
+    keeps its value. Undeclaring a read-only parameter raises ``ParameterImmutableException``.
 
-    **Fix.** Give a value of the declared type and range; leave read_only out of the descriptor.
+    **Fix.** Use a value of the declared type and range; remove read_only from the descriptor.
 
     **Source.** ``rclpy/node.py``, ``_apply_descriptor``.
     """
@@ -35,15 +35,15 @@ class ParameterSetRefused(Rule):
     code = "ND086"
     name = "parameter-set-refused"
     examples = (
-        Example("held", {"talker.py": _NODE.format("", "Parameter.Type.DOUBLE, 2.0")}),
+        Example("accepted", {"talker.py": _NODE.format("", "Parameter.Type.DOUBLE, 2.0")}),
         Example(
             "another type",
             {"talker.py": _NODE.format("", "value=2")},
             reports=(
                 Report(
                     "talker.py:12:30",
-                    "rate (talker.py:9) is declared as double, and this is integer: it "
-                    "stays as it is",
+                    "'rate' (talker.py:9) is declared as double, but this is an "
+                    "integer: it keeps its value",
                 ),
             ),
         ),
@@ -51,17 +51,17 @@ class ParameterSetRefused(Rule):
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
             reports=(
-                Report("talker.py:12:30", "rate (talker.py:9) is read-only, so it stays as it is"),
+                Report("talker.py:12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
             ),
         ),
         Example(
-            "nothing",
+            "no value",
             {"talker.py": _NODE.format("", "")},
             reports=(
                 Report(
                     "talker.py:12:30",
-                    "rate (talker.py:9) is declared as double, and this is nothing: it "
-                    "stays as it is",
+                    "'rate' (talker.py:9) is declared as double, but this has no value: "
+                    "it keeps its value",
                 ),
             ),
         ),
@@ -84,23 +84,23 @@ def _problem(declared: Declared, made: ParameterMade) -> str:
     kind = declared.types.get(made.name)
     if place is None or kind is None:
         return ""
-    at = f"{made.name} ({place.location.path}:{place.location.line})"
+    at = f"{made.name!r} ({place.location.path}:{place.location.line})"
     descriptor = place.descriptor
     if descriptor is not None and descriptor.is_read_only:
-        return f"{at} is read-only, so it stays as it is"
+        return f"{at} is read-only: it keeps its value"
     if made.type is not None and made.type != kind:
-        given = "nothing" if made.type == "not_set" else made.type
-        return f"{at} is declared as {kind}, and this is {given}: it stays as it is"
+        given = "has no value" if made.type == "not_set" else f"is {a_type(made.type)}"
+        return f"{at} is declared as {kind}, but this {given}: it keeps its value"
     value = made.value
     if descriptor is not None and isinstance(value, int | float) and made.type == kind:
         for limits in descriptor.ranges:
             if limits.type == kind and not limits.allows(value):
-                return f"{at} is in the range {limits.text}, and {value} is not: it stays as it is"
+                return f"{value} is outside the range {limits.text} of {at}: it keeps its value"
     return ""
 
 
 def _undeclared(package: Package, facts: RclpyFile, attribute: ast.Attribute) -> str:
-    """Return what is wrong about undeclaring a parameter."""
+    """Return the message for undeclaring a read-only parameter."""
     call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
     if owner is None or not isinstance(call, ast.Call) or call.func is not attribute:
         return ""
@@ -108,4 +108,4 @@ def _undeclared(package: Package, facts: RclpyFile, attribute: ast.Attribute) ->
     place = declared_by(owner, package).places.get(name) if isinstance(name, str) else None
     if place is None or place.descriptor is None or not place.descriptor.is_read_only:
         return ""
-    return f"{name} is read-only: ParameterImmutableException"
+    return f"parameter {name!r} is read-only: ParameterImmutableException"

@@ -23,7 +23,7 @@ class ParameterValueCalled(RclpyRule):
 
     **Why.** ``TypeError: 'float' object is not callable``.
 
-    **Fix.** Leave the parentheses out: ``self.get_parameter('rate').value``.
+    **Fix.** Remove the parentheses: ``self.get_parameter('rate').value``.
 
     **Source.** ``rclpy/parameter.py``; ``rcl_interfaces/msg/ParameterValue.msg``.
     """
@@ -37,7 +37,8 @@ class ParameterValueCalled(RclpyRule):
             {"talker.py": _NODE.format("value()")},
             reports=(
                 Report(
-                    "talker.py:8:21", "value is no method of a parameter: leave the parentheses out"
+                    "talker.py:8:21",
+                    "'value' is a property of Parameter, not a method: TypeError; remove the ()",
                 ),
             ),
         ),
@@ -47,7 +48,7 @@ class ParameterValueCalled(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:21",
-                    "double_value is a value, no method: leave the parentheses out",
+                    "'double_value' is a field, not a method: TypeError; remove the ()",
                 ),
             ),
         ),
@@ -57,22 +58,22 @@ class ParameterValueCalled(RclpyRule):
         for call in facts.module.walk(ast.Call):
             problem = _problem(facts, call.func)
             if problem:
-                message = f"{problem}: leave the parentheses out"
+                message = f"{problem}: TypeError; remove the ()"
                 yield self.report(facts.module.location(call), message)
 
 
 def _problem(facts: RclpyFile, called: ast.expr) -> str:
-    """Return what is wrong about calling something."""
+    """Return the problem with calling an expression."""
     match called:
         case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
-            return "value is no method of a parameter"
+            return "'value' is a property of Parameter, not a method"
         case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(facts, owner):
-            return f"{name} is a value, no method"
+            return f"{name!r} is a field, not a method"
     return ""
 
 
 def _is_message(facts: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is what get_parameter_value of a parameter gives."""
+    """Return whether an expression is the result of ``get_parameter_value()``."""
     match facts.evaluator.single_value(node):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
             return class_of(facts, parameter) == PARAMETER

@@ -1,4 +1,4 @@
-"""ND088: values of parameters are used as what they are declared."""
+"""ND088: parameter values are used with their declared types."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _NODE = (
 
 
 class ParameterValueUnfit(Rule):
-    """The value of a parameter is computed with as if it were of another type than declared.
+    """The value of a parameter is used as if it had another type than declared.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
     cannot be interpreted as an integer``.
 
     **Fix.** Declare the parameter with a default of the type that the code needs.
 
-    **Source.** ``rclpy/parameter.py``; the types of declared parameters stay.
+    **Source.** ``rclpy/parameter.py``; declared parameters keep their type.
     """
 
     code = "ND088"
@@ -47,9 +47,14 @@ class ParameterValueUnfit(Rule):
             },
         ),
         Example(
-            "a text",
+            "a str",
             {"talker.py": _NODE.format("'2.0'")},
-            reports=(Report("talker.py:11:27", "rate is declared as string, and 1.0 is a number"),),
+            reports=(
+                Report(
+                    "talker.py:11:27",
+                    "'rate' is declared as string, but 1.0 is a number: TypeError",
+                ),
+            ),
         ),
     )
 
@@ -65,40 +70,44 @@ class ParameterValueUnfit(Rule):
 def _problems(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
     for operation in facts.module.walk(ast.BinOp):
         if isinstance(operation.op, _ARITHMETIC):
-            for one, other in (
+            for operand, other in (
                 (operation.left, operation.right),
                 (operation.right, operation.left),
             ):
-                problem = _operand(package, facts, operation.op, one, other)
+                problem = _operand(package, facts, operation.op, operand, other)
                 if problem:
                     yield operation, problem
     yield from _ranges(package, facts)
 
 
 def _ranges(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
-    """Yield what ``range`` is given and cannot use."""
+    """Yield the arguments of ``range`` that are not integers."""
     for call in facts.module.walk(ast.Call):
         if isinstance(call.func, ast.Name) and call.func.id == "range":
             for given in call.args:
                 name, kind = _declared(package, facts, given)
                 if kind in {"double", "string"}:
-                    yield given, f"{name} is declared as {kind}, and range() takes integers"
+                    yield (
+                        given,
+                        f"{name!r} is declared as {kind}, but range() takes integers: TypeError",
+                    )
 
 
 def _operand(
-    package: Package, facts: RclpyFile, operator: ast.operator, one: ast.expr, other: ast.expr
+    package: Package, facts: RclpyFile, operator: ast.operator, operand: ast.expr, other: ast.expr
 ) -> str:
-    """Return what is wrong about computing with the value of a parameter."""
+    """Return the message for arithmetic with the value of a parameter."""
     value = facts.evaluator.evaluate(other)
     is_number = type(value) in {int, float}
     if not is_number and not isinstance(value, str):
         return ""
-    name, kind = _declared(package, facts, one)
+    name, kind = _declared(package, facts, operand)
     if kind == "string" and is_number:
         is_repeated = isinstance(operator, ast.Mult) and type(value) is int
-        return "" if is_repeated else f"{name} is declared as string, and {value} is a number"
+        problem = f"{name!r} is declared as string, but {value} is a number: TypeError"
+        return "" if is_repeated else problem
     if kind in _NUMBERS and isinstance(value, str) and isinstance(operator, ast.Add):
-        return f"{name} is declared as {kind}, and {value!r} is a text"
+        return f"{name!r} is declared as {kind}, but {value!r} is a str: TypeError"
     return ""
 
 

@@ -18,7 +18,7 @@ _NODE = (
 
 
 class ParametersSetWrongly(RclpyRule):
-    """``set_parameters`` gets something else than a list of parameters.
+    """``set_parameters`` gets a value that is not a list of parameters.
 
     **Why.** ``TypeError: 'Parameter' object is not iterable``, or ``TypeError: parameter must be
     instance of type '<class 'rclpy.parameter.Parameter'>'``.
@@ -35,12 +35,22 @@ class ParametersSetWrongly(RclpyRule):
         Example(
             "a parameter",
             {"talker.py": _NODE.format("Parameter('rate', value=2.0)")},
-            reports=(Report("talker.py:7:29", "parameters are set as a list: [Parameter(...)]"),),
+            reports=(
+                Report(
+                    "talker.py:7:29",
+                    "set_parameters() takes a list: TypeError; write [Parameter(...)]",
+                ),
+            ),
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("{'rate': 2.0}")},
-            reports=(Report("talker.py:7:29", "parameters are set as a list: [Parameter(...)]"),),
+            reports=(
+                Report(
+                    "talker.py:7:29",
+                    "set_parameters() takes a list: TypeError; write [Parameter(...)]",
+                ),
+            ),
         ),
         Example(
             "pairs",
@@ -48,7 +58,7 @@ class ParametersSetWrongly(RclpyRule):
             reports=(
                 Report(
                     "talker.py:7:30",
-                    "this is no Parameter: write Parameter('name', value=...): TypeError",
+                    "not a Parameter: TypeError; write Parameter('name', value=...)",
                 ),
             ),
         ),
@@ -67,7 +77,7 @@ class ParametersSetWrongly(RclpyRule):
 
 def _problems(facts: RclpyFile, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
     if class_of(facts, given) == PARAMETER or isinstance(given, ast.Dict):
-        yield given, "parameters are set as a list: [Parameter(...)]"
+        yield given, "set_parameters() takes a list: TypeError; write [Parameter(...)]"
     for item in given.elts if isinstance(given, ast.List | ast.Tuple) else ():
         if isinstance(item, ast.Tuple | ast.Dict | ast.Constant):
-            yield item, "this is no Parameter: write Parameter('name', value=...): TypeError"
+            yield item, "not a Parameter: TypeError; write Parameter('name', value=...)"

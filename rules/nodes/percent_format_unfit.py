@@ -1,4 +1,4 @@
-"""ND073: a text with ``%`` gets as many values as it has places."""
+"""ND073: format strings with ``%`` get as many values as placeholders."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ _NODE = (
 
 
 class PercentFormatUnfit(MessageRule):
-    """A text has none or several places for values, and gets one with ``%``.
+    """A ``%`` format string has no placeholder, or several, but gets a single value.
 
     **Why.** ``TypeError: not enough arguments for format string``, or ``not all arguments
-    converted during string formatting``: in a callback it ends the node.
+    converted during string formatting``: in a callback, it ends the node.
 
-    **Fix.** Give a tuple with a value for each place, or write an f-string. Tuples are counted by
-    flake8 (F507).
+    **Fix.** Pass a tuple with a value for each placeholder, or use an f-string. flake8 counts
+    tuples (F507).
 
     **Source.** Python documentation, "printf-style String Formatting".
     """
@@ -38,22 +38,22 @@ class PercentFormatUnfit(MessageRule):
     code = "ND073"
     name = "percent-format-unfit"
     examples = (
-        Example("one", {"listener.py": _NODE.format("100 %% heard: %5.1s")}),
+        Example("one placeholder", {"listener.py": _NODE.format("100 %% heard: %5.1s")}),
         Example(
-            "two",
+            "two placeholders",
             {"listener.py": _NODE.format("%d: %s")},
             reports=(
                 Report(
-                    "listener.py:11:32", "the text has 2 places for values and gets 1: TypeError"
+                    "listener.py:11:32", "format string with 2 placeholders gets 1 value: TypeError"
                 ),
             ),
         ),
         Example(
-            "none",
+            "no placeholder",
             {"listener.py": _NODE.format("heard 5 %%")},
             reports=(
                 Report(
-                    "listener.py:11:32", "the text has no place for values and gets 1: TypeError"
+                    "listener.py:11:32", "format string with no placeholder gets 1 value: TypeError"
                 ),
             ),
         ),
@@ -70,11 +70,11 @@ class PercentFormatUnfit(MessageRule):
 
 
 def _problem(text: str, kind: str | None) -> str:
-    """Say what does not fit, if the value is surely no tuple and no dict."""
+    """Return the message, if the value is certainly not a tuple or dict."""
     if kind not in _SINGLE or "%(" in text or "*" in text:
         return ""
     places = [place for place in re.findall(_PLACE, text) if place != "%%"]
     if len(places) == 1 or len(re.sub(_PLACE, "", text).split("%")) > 1:
         return ""
-    count = f"{len(places)} places" if places else "no place"
-    return f"the text has {count} for values and gets 1: TypeError"
+    count = f"{len(places)} placeholders" if places else "no placeholder"
+    return f"format string with {count} gets 1 value: TypeError"

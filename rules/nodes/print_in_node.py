@@ -1,4 +1,4 @@
-"""ND036: nodes log."""
+"""ND036: nodes log instead of printing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.api.rclpy import RclpyFile
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
 _TERMINAL |= {"readline", "termios", "tty", "typer"}
-"""Who imports these talks to somebody at a terminal, and printing is the way to do that."""
+"""Programs that import these interact with a terminal, where printing is fine."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -20,12 +20,12 @@ _NODE = (
 
 
 class PrintInNode(RclpyRule):
-    """A node prints, and does not log.
+    """A node prints instead of logging.
 
-    Programs that read arguments or keys of a terminal may well print.
+    Programs that read arguments or keys from a terminal may print.
 
-    **Why.** Under ``ros2 launch`` the output is held back in a buffer, so nothing is seen while
-    the node runs; it has no time, no name and no severity, and never gets to ``/rosout``.
+    **Why.** Under ``ros2 launch`` the output is buffered: nothing appears while the node runs. It
+    has no time, no name and no severity, and never reaches ``/rosout``.
 
     **Fix.** Use ``self.get_logger().info(...)``.
 
@@ -40,10 +40,12 @@ class PrintInNode(RclpyRule):
         Example(
             "a print",
             {"talker.py": _NODE.format("print")},
-            reports=(Report("talker.py:6:9", "Talker prints instead of logging"),),
+            reports=(
+                Report("talker.py:6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
+            ),
         ),
         Example(
-            "a tool for the command line",
+            "a command line tool",
             {"talker.py": "import argparse\n" + _NODE.format("print")},
         ),
     )
@@ -52,7 +54,7 @@ class PrintInNode(RclpyRule):
         if _is_at_terminal(facts):
             return
         for node in facts.classes:
-            found = [
+            calls = [
                 call
                 for method in node.methods.values()
                 for call in facts.calls_in(method)
@@ -61,14 +63,14 @@ class PrintInNode(RclpyRule):
                 and not any(word.arg in {"file", "flush"} for word in call.keywords)
                 and facts.module.index.lookup("print", call.func) is None
             ]
-            if found:
-                more = f": {len(found)} times, first here" if len(found) > 1 else ""
-                at = facts.module.location(found[0])
-                yield self.report(at, f"{node.name} prints instead of logging{more}")
+            if calls:
+                more = f" ({len(calls)} times, first here)" if len(calls) > 1 else ""
+                message = f"{node.name} prints{more}: /rosout gets nothing; use get_logger()"
+                yield self.report(facts.module.location(calls[0]), message)
 
 
 def _is_at_terminal(facts: RclpyFile) -> bool:
-    """Tell whether a program has a user who types."""
+    """Return whether a program interacts with a user at a terminal."""
     index = facts.module.index
     reads = index.names("input") or index.attributes("stdin")
     return bool(reads) or not _TERMINAL.isdisjoint(facts.module.imports_by_root)

@@ -1,4 +1,4 @@
-"""ND071: publishers publish."""
+"""ND071: publishers are used."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _NODE = (
 
 
 class PublisherNeverUsed(Rule):
-    """A publisher is kept in an attribute that nothing in the package reads.
+    """A publisher is assigned to an attribute that nothing in the package reads.
 
-    **Why.** The topic is there, `ros2 topic list` shows it, and nothing is ever published on it.
+    **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it.
 
     **Fix.** Publish, or remove the publisher.
 
@@ -45,11 +45,12 @@ class PublisherNeverUsed(Rule):
             },
         ),
         Example(
-            "never",
+            "never used",
             {"talker.py": _NODE.format("pass")},
             reports=(
                 Report(
-                    "talker.py:9:28", "nothing publishes with chatter_pub: 'chatter' stays silent"
+                    "talker.py:9:28",
+                    "publisher 'chatter_pub' is never used: no messages on 'chatter'",
                 ),
             ),
         ),
@@ -58,18 +59,18 @@ class PublisherNeverUsed(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in rclpy_files(package):
             if not facts.init_calls or facts.module.in_tests:
-                continue  # a class that others inherit from, or use
+                continue  # a class that other packages may inherit from, or use
             for publisher in facts.publishers:
                 name = _kept_in(facts, publisher.call)
                 if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
                     continue
                 if _mentions(package, name) == 1:
-                    message = f"nothing publishes with {name}: {publisher.name!r} stays silent"
+                    message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
                     yield self.report(publisher, message)
 
 
 def _kept_in(facts: RclpyFile, call: ast.Call) -> str:
-    """Return the attribute that what a call makes is assigned to."""
+    """Return the attribute that the result of a call is assigned to."""
     match facts.module.parent(call):
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(), attr=name)]):
             return name
@@ -79,11 +80,11 @@ def _kept_in(facts: RclpyFile, call: ast.Call) -> str:
 
 
 def _mentions(package: Package, name: str) -> int:
-    """Count how often the Python files of a package have a word in them, in any way."""
-    found = 0
+    """Count the occurrences of a word in the Python files of a package."""
+    count = 0
     for path in package.python_files:
         try:
-            found += package.source(path).text.count(name)
+            count += package.source(path).text.count(name)
         except ViewError:
             continue
-    return found
+    return count

@@ -1,4 +1,4 @@
-"""ND051: publishers and subscriptions of a package fit each other."""
+"""ND051: publishers and subscriptions have compatible QoS."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
 class QosIncompatible(Rule):
-    """A subscription asks for more than any publisher of its topic in the package offers.
+    """A subscription requests a stricter QoS than any publisher of its topic offers.
 
-    **Why.** They do not connect, and nothing arrives; the only sign is a warning ``New publisher
+    **Why.** They do not connect: nothing arrives, and the only sign is the warning ``New publisher
     discovered on topic ..., offering incompatible QoS``.
 
-    **Fix.** Give both the same profile.
+    **Fix.** Use the same profile for both.
 
     **Source.** ROS 2 documentation, "About quality of service settings", compatibilities.
     """
@@ -52,12 +52,12 @@ class QosIncompatible(Rule):
             reports=(
                 Report(
                     "a.py:9:50",
-                    "the publisher of 'chatter' is BEST_EFFORT, but the subscription in "
-                    "b.py:9 wants RELIABLE: nothing arrives",
+                    "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
+                    "requests RELIABLE: nothing arrives",
                 ),
                 Report(
                     "b.py:9:60",
-                    "the subscription of 'chatter' wants RELIABLE, but the publisher in "
+                    "subscription 'chatter' requests RELIABLE, but the publisher in "
                     "a.py:9 is BEST_EFFORT: nothing arrives",
                 ),
             ),
@@ -71,13 +71,13 @@ class QosIncompatible(Rule):
             reports=(
                 Report(
                     "a.py:9:50",
-                    "the publisher of 'chatter' is VOLATILE, but the subscription in "
-                    "b.py:9 wants TRANSIENT_LOCAL: nothing arrives",
+                    "publisher 'chatter' is VOLATILE, but the subscription in b.py:9 "
+                    "requests TRANSIENT_LOCAL: nothing arrives",
                 ),
                 Report(
                     "b.py:9:60",
-                    "the subscription of 'chatter' wants TRANSIENT_LOCAL, but the "
-                    "publisher in a.py:9 is VOLATILE: nothing arrives",
+                    "subscription 'chatter' requests TRANSIENT_LOCAL, but the publisher "
+                    "in a.py:9 is VOLATILE: nothing arrives",
                 ),
             ),
         ),
@@ -88,7 +88,7 @@ class QosIncompatible(Rule):
             if not topic.publishers or not topic.is_plain:
                 continue
             for subscription in topic.subscriptions:
-                pairs = [(one, conflict_of(one, subscription)) for one in topic.publishers]
+                pairs = [(x, conflict_of(x, subscription)) for x in topic.publishers]
                 publisher, conflict = pairs[0]
                 if conflict is None or not all(other for _, other in pairs):
                     continue
@@ -96,11 +96,11 @@ class QosIncompatible(Rule):
                 for here, there in both:
                     other, has = conflict if here is subscription else conflict[::-1]
                     message = (
-                        f"{_kind(here)} of {name!r} {has}, but {_kind(there)} in "
+                        f"{_kind(here)} {name!r} {has}, but the {_kind(there)} in "
                         f"{there.location.path}:{there.location.line} {other}: nothing arrives"
                     )
                     yield self.report(here.qos or here, message)
 
 
 def _kind(endpoint: Endpoint) -> str:
-    return "the publisher" if isinstance(endpoint, Publisher) else "the subscription"
+    return "publisher" if isinstance(endpoint, Publisher) else "subscription"

@@ -20,10 +20,10 @@ _QOS = "from rclpy.qos import QoSProfile\n"
 class QosMissing(RclpyRule):
     """A publisher or subscription has no QoS argument, or a profile without a depth.
 
-    **Why.** ROS 2 wants to know how many messages to keep: ``TypeError`` without the argument,
+    **Why.** ROS 2 needs to know how many messages to keep: ``TypeError`` without the argument,
     ``InvalidQoSProfileException`` without the depth.
 
-    **Fix.** Give a depth, such as 10, or a profile such as ``qos_profile_sensor_data``.
+    **Fix.** Pass a depth, such as 10, or a profile such as ``qos_profile_sensor_data``.
 
     **Source.** ``rclpy/node.py``; ``rclpy/qos.py``.
     """
@@ -33,11 +33,12 @@ class QosMissing(RclpyRule):
     examples = (
         Example("a depth", {"talker.py": _NODE.format("", ", 10")}),
         Example(
-            "nothing",
+            "no argument",
             {"talker.py": _NODE.format("", "")},
             reports=(
                 Report(
-                    "talker.py:8:9", "create_publisher() wants a depth or a QoS profile as well"
+                    "talker.py:8:9",
+                    "create_publisher() is missing a depth or a QoS profile: TypeError",
                 ),
             ),
         ),
@@ -45,7 +46,7 @@ class QosMissing(RclpyRule):
             "a profile without a depth",
             {"talker.py": _NODE.format(_QOS, ", QoSProfile()")},
             reports=(
-                Report("talker.py:9:9", "a QoS profile that keeps the last messages needs a depth"),
+                Report("talker.py:9:9", "QoS profile without a depth: InvalidQoSProfileException"),
             ),
         ),
     )
@@ -64,8 +65,8 @@ class QosMissing(RclpyRule):
             return None  # a method of this name that is not rclpy's
         if entity.argument("qos_profile") is None:
             what = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
-            return f"{what}() wants a depth or a QoS profile as well"
+            return f"{what}() is missing a depth or a QoS profile: TypeError"
         qos = entity.qos
         if qos is not None and qos.depth is None:
-            return "a QoS profile that keeps the last messages needs a depth"
+            return "QoS profile without a depth: InvalidQoSProfileException"
         return None

@@ -1,4 +1,4 @@
-"""ND091: a quality of service is a depth, or a profile of the policies that it takes."""
+"""ND091: a QoS argument is a depth, or a profile with valid policies."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _NODE = (
 
 
 class QosUnusable(RclpyRule):
-    """A quality of service is given as something else than a depth or a profile.
+    """A QoS argument is not a depth or a profile, or a profile has an invalid value.
 
     **Why.** ``TypeError: Expected QoSProfile or int, but received <class 'str'>``, or
-    ``AssertionError`` for a value of a profile. A policy that stands for another one is taken by
-    its number: the profile is not the one that is meant.
+    ``AssertionError`` for a value of a profile. A policy of another kind is used by
+    its number: the profile differs from the intended one.
 
-    **Fix.** Give a depth such as ``10``, a profile such as ``qos_profile_sensor_data``, or
+    **Fix.** Pass a depth such as ``10``, a profile such as ``qos_profile_sensor_data``, or
     ``QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)``.
 
     **Source.** ``rclpy/node.py``; ``rclpy/qos.py``, ``QoSProfile``.
@@ -50,30 +50,27 @@ class QosUnusable(RclpyRule):
             },
         ),
         Example(
-            "a text",
+            "a str",
             {"talker.py": _NODE.format("'10'")},
             reports=(
-                Report(
-                    "talker.py:9:50",
-                    "a quality of service is a depth or a QoSProfile, not a str: TypeError",
-                ),
+                Report("talker.py:9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
             ),
         ),
         Example(
-            "a depth below nothing",
+            "a negative depth",
             {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
             reports=(
-                Report("talker.py:9:67", "a depth is at least 0, and this is -1: ValueError"),
+                Report("talker.py:9:67", "the depth is -1, but must not be negative: ValueError"),
             ),
         ),
         Example(
-            "a policy alone",
+            "only a policy",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
             reports=(
                 Report(
                     "talker.py:9:50",
-                    "a policy alone is no profile: write QoSProfile(depth=10, "
-                    "...=DurabilityPolicy.TRANSIENT_LOCAL)",
+                    "DurabilityPolicy.TRANSIENT_LOCAL is only a policy: TypeError; "
+                    "write QoSProfile(depth=10, ...)",
                 ),
             ),
         ),
@@ -87,8 +84,8 @@ class QosUnusable(RclpyRule):
             reports=(
                 Report(
                     "talker.py:9:82",
-                    "reliability is a ReliabilityPolicy, and this is a "
-                    "DurabilityPolicy: another policy than is meant",
+                    "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
+                    "another policy takes effect",
                 ),
             ),
         ),
@@ -109,33 +106,33 @@ class QosUnusable(RclpyRule):
 
 
 def _problem(facts: RclpyFile, node: ast.expr, value: object) -> str:
-    """Return what is wrong about a quality of service."""
+    """Return the message for a wrong QoS argument."""
     if isinstance(value, str | float) or value is None:
-        return f"a quality of service is a depth or a QoSProfile, not {kind_of(value)}: TypeError"
+        return f"expected a depth or a QoSProfile, not {kind_of(value)}: TypeError"
     if type(value) is int and value < 0:
-        return "a depth is at least 0: ValueError"
+        return f"the depth is {value}, but must not be negative: ValueError"
     name = facts.module.qualified_name(node) or ""
     if name == "rclpy.qos.QoSProfile":
-        return "this is the class: write QoSProfile(depth=10)"
+        return "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)"
     if name.startswith("rclpy.qos.") and "Policy." in name:
-        return f"a policy alone is no profile: write QoSProfile(depth=10, ...={name[10:]})"
+        return f"{name[10:]} is only a policy: TypeError; write QoSProfile(depth=10, ...)"
     if isinstance(node, ast.Attribute | ast.Name) and facts.callback(node).function is not None:
-        return "this is a function, but a depth or a QoSProfile belongs here: TypeError"
+        return "expected a depth or a QoSProfile, not a function: TypeError"
     return ""
 
 
 def _problem_of_word(facts: RclpyFile, word: ast.keyword) -> str:
-    """Return what is wrong about a value that QoSProfile is given."""
+    """Return the message for a wrong argument of QoSProfile."""
     value = facts.evaluator.evaluate(word.value)
     if word.arg == "depth" and isinstance(value, str | float):
-        return f"a depth is an int, and this is {kind_of(value)}: AssertionError"
+        return f"the depth must be an int, not {kind_of(value)}: AssertionError"
     if word.arg == "depth" and type(value) is int and value < 0:
-        return f"a depth is at least 0, and this is {value}: ValueError"
+        return f"the depth is {value}, but must not be negative: ValueError"
     wanted = _POLICIES.get(word.arg or "")
     if wanted and isinstance(value, str):
-        return f"{word.arg} is a {wanted}, and this is a str: AssertionError"
+        return f"{word.arg} must be a {wanted}, not a str: AssertionError"
     name = facts.module.qualified_name(word.value) or ""
     given = name.split(".")[2] if name.startswith("rclpy.qos.") else ""
     if wanted and given.endswith("Policy") and not given.endswith(wanted):
-        return f"{word.arg} is a {wanted}, and this is a {given}: another policy than is meant"
+        return f"{word.arg} must be a {wanted}, not a {given}: another policy takes effect"
     return ""

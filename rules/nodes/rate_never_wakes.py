@@ -1,4 +1,4 @@
-"""ND042: a rate sleeps while another thread spins the node."""
+"""ND042: a rate sleeps only while another thread spins the node."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _ALONE = _NODE.format("").replace("import threading\n\n", "")
 
 
 class RateNeverWakes(Rule):
-    """``rate.sleep()`` waits for a timer that the same thread would have to run.
+    """``rate.sleep()`` waits for a timer that only the same thread could run.
 
-    **Why.** A rate of rclpy is woken by a timer of the node, and timers run only while the node
-    is spun: without a second thread the program stands still at the first ``sleep``, for ever.
+    **Why.** A rate is woken by a timer of the node, and timers run only while the node is spun:
+    without a second thread, the program hangs at the first ``sleep`` forever.
 
-    **Fix.** Do the work of the loop in a timer, or spin the node in a thread of its own.
+    **Fix.** Do the work of the loop in a timer, or spin the node in a separate thread.
 
     **Source.** ``rclpy/timer.py``, ``Rate.sleep``; rclpy issue 443.
     """
@@ -45,12 +45,12 @@ class RateNeverWakes(Rule):
     examples = (
         Example("spun in a thread", {**_FILES, "demo/talker.py": _NODE.format(_THREAD)}),
         Example(
-            "nobody spins",
+            "never spun",
             {**_FILES, "demo/talker.py": _ALONE},
             reports=(
                 Report(
                     "demo/talker.py:9:9",
-                    "this sleep never ends: the thread that would wake it is the one that waits",
+                    "sleep() never returns: the thread that would wake it is blocked in this call",
                 ),
             ),
         ),
@@ -58,7 +58,7 @@ class RateNeverWakes(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts, call, where in waits_alone(package, "sleep", _is_sleep):
-            message = f"this sleep never ends: the thread that would wake it {where}"
+            message = f"sleep() never returns: the thread that would wake it {where}"
             yield self.report(facts.module.location(call), message)
 
 

@@ -1,4 +1,4 @@
-"""ND048: the callback of a service returns the response."""
+"""ND048: service callbacks return the response."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _NODE = (
 
 
 class ResponseNotReturned(Rule):
-    """The callback of a service returns something else than the response, or nothing.
+    """A service callback returns nothing, or another value than the response.
 
     **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request: the node dies,
-    and the client waits for ever.
+    and the client waits forever.
 
     **Fix.** End the callback with ``return response``, on every path.
 
@@ -43,13 +43,12 @@ class ResponseNotReturned(Rule):
             reports=(
                 Report(
                     "server.py:10:9",
-                    "report does not return the response; the service made in line 8 "
-                    "sends what is returned: TypeError",
+                    "report() does not return the response (service of line 8): TypeError",
                 ),
             ),
         ),
         Example(
-            "on one path only, and something else",
+            "on one path only, and a bool",
             {
                 "server.py": _NODE.format(
                     "        if request is None:\n            return True\n"
@@ -59,24 +58,23 @@ class ResponseNotReturned(Rule):
             reports=(
                 Report(
                     "server.py:10:9",
-                    "report does not return the response on every path; the service "
-                    "made in line 8 sends what is returned: TypeError",
+                    "report() does not return the response on every path (service of "
+                    "line 8): TypeError",
                 ),
                 Report(
                     "server.py:13:13",
-                    "returns a bool, not the response; the service made in line 8 sends "
-                    "what is returned: TypeError",
+                    "returns a bool, not the response (service of line 8): TypeError",
                 ),
             ),
         ),
         Example(
-            "a field of it",
+            "a field of the response",
             {"server.py": _NODE.format("        return response.success\n")},
             reports=(
                 Report(
                     "server.py:12:9",
-                    "returns a field, response.success, not the response; the service "
-                    "made in line 8 sends what is returned: TypeError",
+                    "returns the field response.success, not the response (service of "
+                    "line 8): TypeError",
                 ),
             ),
         ),
@@ -86,13 +84,13 @@ class ResponseNotReturned(Rule):
             reports=(
                 Report(
                     "server.py:12:9",
-                    "returns std_srvs/srv/Trigger.Request, not the response; the "
-                    "service made in line 8 sends what is returned: TypeError",
+                    "returns std_srvs/srv/Trigger.Request, not the response (service of "
+                    "line 8): TypeError",
                 ),
             ),
         ),
         Example(
-            "the class in place of the response",
+            "the class instead of the response",
             {
                 "server.py": _NODE.format(
                     "        response = Trigger.Response\n        return response\n"
@@ -101,8 +99,8 @@ class ResponseNotReturned(Rule):
             reports=(
                 Report(
                     "server.py:13:9",
-                    "returns the class std_srvs/srv/Trigger.Response, not the response; "
-                    "the service made in line 8 sends what is returned: TypeError",
+                    "returns the class std_srvs/srv/Trigger.Response, not the response "
+                    "(service of line 8): TypeError",
                 ),
             ),
         ),
@@ -127,21 +125,21 @@ class ResponseNotReturned(Rule):
         module = types.module
         if is_generator(function):
             return
-        said = f"the service made in line {service.location.line} sends what is returned"
+        service_line = f"(service of line {service.location.line}): TypeError"
         if may_end(function):
             never = " on every path" if returned(function) else ""
-            message = f"{function.name} does not return the response{never}; {said}: TypeError"
+            message = f"{function.name}() does not return the response{never} {service_line}"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
             value = value_set_before(function, statement) or statement.value
             wrong = _wrong(types, service, value)
             if wrong:
-                message = f"returns {wrong}, not the response; {said}: TypeError"
+                message = f"returns {wrong}, not the response {service_line}"
                 yield self.report(module.location(statement), message)
 
 
 def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str:
-    """Return what is returned if that surely is no response, else nothing."""
+    """Describe a returned value that is certainly not the response; empty for others."""
     if value is None:
         return "nothing"
     if isinstance(value, ast.Constant):
@@ -150,9 +148,9 @@ def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str
         return f"a {type(value).__name__.lower()}"
     field = types.field_type_of(value)
     if field is not None and (field.is_primitive or field.is_array):
-        return f"a field, {types.module.text(value)}"
-    found = types.type_of(value)
-    if found is not None and service.interface and found.name != f"{service.interface}.Response":
-        return found.name
+        return f"the field {types.module.text(value)}"
+    owner = types.type_of(value)
+    if owner is not None and service.interface and owner.name != f"{service.interface}.Response":
+        return owner.name
     class_ = types.class_of(value) if isinstance(value, ast.Name | ast.Attribute) else None
     return f"the class {class_.name}" if class_ else ""

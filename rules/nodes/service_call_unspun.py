@@ -1,4 +1,4 @@
-"""ND043: somebody takes the answer of a service that is waited for."""
+"""ND043: blocking service calls run while another thread spins the node."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ _FILES = {
 
 
 class ServiceCallUnspun(Rule):
-    """``client.call()`` waits in the only thread, while nothing spins the node.
+    """``client.call()`` blocks the only thread, while nothing spins the node.
 
-    **Why.** The answer is taken while the node is spun: without a second thread that does it, the
-    program stands still at the call, for ever. In callbacks and constructors, ND058 says so.
+    **Why.** Responses are received only while the node is spun: without a second thread, the
+    program hangs at the call forever. ND058 reports this in callbacks and constructors.
 
     **Fix.** Use ``call_async`` and ``rclpy.spin_until_future_complete``.
 
@@ -46,13 +46,13 @@ class ServiceCallUnspun(Rule):
     examples = (
         Example("asynchronous", {**_FILES, "demo/caller.py": _CODE.format(_FUTURE)}),
         Example(
-            "nobody spins",
+            "never spun",
             {**_FILES, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
             reports=(
                 Report(
                     "demo/caller.py:10:5",
-                    "this call never ends: the thread that would take the answer is the "
-                    "one that waits",
+                    "call() never returns: the thread that would receive the response "
+                    "is blocked in this call",
                 ),
             ),
         ),
@@ -62,7 +62,9 @@ class ServiceCallUnspun(Rule):
         for facts, call, where in waits_alone(package, "call", _is_call):
             inside = (*in_callbacks(facts), *in_constructors(facts))
             if facts.function_of(call) not in {executed.function for executed in inside}:
-                message = f"this call never ends: the thread that would take the answer {where}"
+                message = (
+                    f"call() never returns: the thread that would receive the response {where}"
+                )
                 yield self.report(facts.module.location(call), message)
 
 
@@ -70,4 +72,4 @@ def _is_call(facts: RclpyFile, call: ast.Call) -> bool:
     if len(call.args) != 1 or call.keywords or not isinstance(call.func, ast.Attribute):
         return False
     client = facts.evaluator.single_value(call.func.value)
-    return any(one.call is client and one.owner is not None for one in facts.clients)
+    return any(x.call is client and x.owner is not None for x in facts.clients)

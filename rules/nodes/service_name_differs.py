@@ -1,4 +1,4 @@
-"""ND038: a client asks for the service that its package offers."""
+"""ND038: clients use the names of the services that the package offers."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ _NODE = (
     "        self.client = self.create_client(Trigger, '{}')\n"
 )
 _ALIKE = 4
-"""Letters that a name needs before one letter more or less is a slip."""
+"""Length that a name needs before a different letter counts as a typo."""
 
 
 class ServiceNameDiffers(Rule):
-    """A client's service is offered nowhere, but one with almost the same name and type is.
+    """A client's service does not exist, but one of the same type has almost the same name.
 
-    **Why.** Nothing answers, and nothing says so: the client waits for ever.
+    **Why.** No response and no error: the client waits forever.
 
-    **Fix.** Use one name on both sides, best from one constant.
+    **Fix.** Use the same name on both sides, preferably from one constant.
 
     **Source.** ROS 2 documentation, "Understanding services".
     """
@@ -38,12 +38,14 @@ class ServiceNameDiffers(Rule):
     name = "service-name-differs"
     severity = Severity.WARNING
     examples = (
-        Example("one name", {"nodes.py": _NODE.format("report")}),
+        Example("the same name", {"nodes.py": _NODE.format("report")}),
         Example(
-            "a slip",
+            "a typo",
             {"nodes.py": _NODE.format("reports")},
             reports=(
-                Report("nodes.py:17:51", "nobody offers 'reports'; nodes.py:8 offers 'report'"),
+                Report(
+                    "nodes.py:17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"
+                ),
             ),
         ),
         Example(
@@ -52,8 +54,8 @@ class ServiceNameDiffers(Rule):
             reports=(
                 Report(
                     "nodes.py:17:51",
-                    "nobody offers '~/report'; nodes.py:8 offers 'report': ~ stands for "
-                    "the name of each node itself",
+                    "no service '~/report'; did you mean 'report' (nodes.py:8)? ~ "
+                    "expands to the node name",
                 ),
             ),
         ),
@@ -61,41 +63,41 @@ class ServiceNameDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         files = list(rclpy_files(package))
-        offered = [one for facts in files for one in (*facts.services, *facts.action_servers)]
-        wanted = [one for facts in files for one in (*facts.clients, *facts.action_clients)]
+        offered = [x for facts in files for x in (*facts.services, *facts.action_servers)]
+        wanted = [x for facts in files for x in (*facts.clients, *facts.action_clients)]
         served = {item.name for item in offered}
         clients = {item.name for item in wanted}
         for client in wanted:
             for service in offered if client.name not in served else ():
-                # A service that has its own client is no misspelling of another one.
+                # A service with a client of its own is not a misspelling of another.
                 if service.name not in clients and _is_slip(client, service):
-                    if any(
-                        is_private(one) and is_remapped(package, one) for one in (client, service)
-                    ):
+                    if any(is_private(x) and is_remapped(package, x) for x in (client, service)):
                         continue
                     at = client.name_argument.location if client.name_argument else client.location
                     place = f"{service.location.path}:{service.location.line}"
-                    message = f"nobody offers {client.name!r}; {place} offers {service.name!r}"
+                    message = (
+                        f"no service {client.name!r}; did you mean {service.name!r} ({place})?"
+                    )
                     if "~" in f"{client.name}{service.name}":
-                        message += ": ~ stands for the name of each node itself"
+                        message += " ~ expands to the node name"
                     yield self.report(at, message)
                     break
 
 
 def _is_slip(client: Endpoint, service: Endpoint) -> bool:
-    """Tell whether two names of one type differ by one letter, dropped, added or changed.
+    """Return whether two names of the same type differ by one letter.
 
-    Or by ``~/`` alone, which makes a name private.
+    Or only by ``~/``, which makes a name private.
     """
-    one, other = client.name, service.name
-    if not isinstance(one, str) or not isinstance(other, str):
+    name, other = client.name, service.name
+    if not isinstance(name, str) or not isinstance(other, str):
         return False
     if client.interface is None or client.interface != service.interface:
         return False
-    if one.startswith("~") is not other.startswith("~"):
-        return one.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
-    short, long = sorted((one, other), key=len)
-    if len(short) < _ALIKE or len(long) - len(short) > 1 or any(map(str.isdigit, one + other)):
+    if name.startswith("~") is not other.startswith("~"):
+        return name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
+    short, long = sorted((name, other), key=len)
+    if len(short) < _ALIKE or len(long) - len(short) > 1 or any(map(str.isdigit, name + other)):
         return False
     if short.strip("/") == long.strip("/"):
         return False

@@ -1,4 +1,4 @@
-"""ND072: nodes look for files of packages that exist."""
+"""ND072: nodes look up packages that exist."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _MANIFEST = "<package format='3'><name>talker_py</name></package>\n"
 
 
 class ShareOfMisspeltPackage(Rule):
-    """A node looks for the files of a package whose name is misspelt.
+    """A node looks up the files of a package whose name is misspelled.
 
     **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is reached.
 
-    **Fix.** Write the name as its package.xml has it.
+    **Fix.** Use the name in its package.xml.
 
     **Source.** ``ament_index_python/packages.py``, ``get_package_prefix``.
     """
@@ -39,19 +39,21 @@ class ShareOfMisspeltPackage(Rule):
     name = "share-of-misspelt-package"
     examples = (
         Example(
-            "its own", {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("talker_py")}
+            "this package",
+            {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("talker_py")},
         ),
         Example(
-            "nobody knows it",
+            "an unknown package",
             {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("robot_words")},
         ),
         Example(
-            "a letter is missing",
+            "a missing letter",
             {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("taker_py")},
             reports=(
                 Report(
                     "talker_py/node.py:8:53",
-                    "no package 'taker_py' is known; 'talker_py' is: this package",
+                    "no package 'taker_py': PackageNotFoundError; did you mean "
+                    "'talker_py' (this package)?",
                 ),
             ),
         ),
@@ -66,9 +68,12 @@ class ShareOfMisspeltPackage(Rule):
                 if not isinstance(name, str) or name == other_name(package):
                     continue
                 at = facts.module.location(call.args[0])
-                meant = meant_package(package, Use(name, at, None, at))
-                if meant is not None and not is_harmless(
+                closest = meant_package(package, Use(name, at, None, at))
+                if closest is not None and not is_harmless(
                     facts.module, call, "PackageNotFoundError"
                 ):
-                    message = f"no package {name!r} is known; {meant.name!r} is: {meant.reason}"
+                    message = (
+                        f"no package {name!r}: PackageNotFoundError; did you mean "
+                        f"{closest.name!r} ({closest.reason})?"
+                    )
                     yield self.report(at, message)

@@ -16,7 +16,7 @@ _MAIN = (
 
 
 class ShutdownRepeated(RclpyRule):
-    """``rclpy.shutdown()`` runs after a signal has shut rclpy down.
+    """``rclpy.shutdown()`` runs after a signal has already shut rclpy down.
 
     **Why.** The handler of SIGINT and SIGTERM does it first: ``RCLError: rcl_shutdown already
     called on the given context``, and the node ends with an error.
@@ -29,15 +29,15 @@ class ShutdownRepeated(RclpyRule):
     code = "ND009"
     name = "shutdown-repeated"
     examples = (
-        Example("tried", {"talker.py": _MAIN.format("try_shutdown")}),
+        Example("try_shutdown", {"talker.py": _MAIN.format("try_shutdown")}),
         Example(
-            "again",
+            "shutdown",
             {"talker.py": _MAIN.format("shutdown")},
             reports=(
                 Report(
                     "talker.py:12:9",
-                    "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()",
-                    fix="write try_shutdown()",
+                    "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
+                    fix="use try_shutdown()",
                 ),
             ),
             fixed={"talker.py": _MAIN.format("try_shutdown")},
@@ -50,16 +50,16 @@ class ShutdownRepeated(RclpyRule):
                 continue
             if not call.in_finally or self._is_caught(call.handlers):
                 continue
-            spins = [one for one in facts.spin_calls if one.function is call.function]
-            if not any(one.catches_keyboard_interrupt for one in spins):
+            spins = [spin for spin in facts.spin_calls if spin.function is call.function]
+            if not any(spin.catches_keyboard_interrupt for spin in spins):
                 continue
             _, end = facts.module.span(call.call.func)
             start = end - len("shutdown")
             edit = Edit(facts.module.path, start, end, "try_shutdown")
             fix = None
             if facts.module.source.text[start:end] == "shutdown":
-                fix = Fix("write try_shutdown()", (edit,))
-            message = "after Ctrl-C rclpy is shut down already: RCLError; write try_shutdown()"
+                fix = Fix("use try_shutdown()", (edit,))
+            message = "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()"
             yield self.report(call, message, fix)
 
     def _is_caught(self, handlers: frozenset[str]) -> bool:

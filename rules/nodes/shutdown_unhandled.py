@@ -1,4 +1,4 @@
-"""ND008: a node stops without a traceback."""
+"""ND008: nodes stop without a traceback."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _BARE = (
 
 
 class ShutdownUnhandled(RclpyRule):
-    """Nothing catches what ends a spinning node.
+    """A node does not catch the exceptions that end ``spin``.
 
     **Why.** Ctrl-C raises KeyboardInterrupt, SIGTERM (``docker stop``, systemd, a launch file)
-    ExternalShutdownException: a traceback, and an exit code that says it failed.
+    raises ExternalShutdownException: the node ends with a traceback and exit code 1.
 
-    **Fix.** Put ``rclpy.spin`` into ``try``, and write
+    **Fix.** Wrap ``rclpy.spin`` in ``try``, with
     ``except (KeyboardInterrupt, ExternalShutdownException): pass``.
 
     **Source.** ROS 2 documentation, "Migrating a Python package example"; ``demo_nodes_py``.
@@ -36,25 +36,25 @@ class ShutdownUnhandled(RclpyRule):
     name = "shutdown-unhandled"
     examples = (
         Example(
-            "both are caught",
+            "both caught",
             {
                 "talker.py": _IMPORTS
                 + _HANDLED.format("(KeyboardInterrupt, ExternalShutdownException)")
             },
         ),
         Example(
-            "none is caught",
+            "none caught",
             {"talker.py": _IMPORTS + _BARE},
             reports=(
                 Report(
                     "talker.py:8:5",
-                    "nothing catches KeyboardInterrupt (Ctrl-C) and "
-                    "ExternalShutdownException (SIGTERM)",
+                    "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
+                    "catch KeyboardInterrupt and ExternalShutdownException",
                 ),
             ),
         ),
         Example(
-            "Ctrl-C has a handler of its own, and SIGTERM is caught",
+            "a handler for Ctrl-C, and SIGTERM caught",
             {
                 "talker.py": f"import signal\n{_IMPORTS}"
                 + _HANDLED.format("ExternalShutdownException").replace(
@@ -63,10 +63,14 @@ class ShutdownUnhandled(RclpyRule):
             },
         ),
         Example(
-            "SIGTERM is forgotten",
+            "SIGTERM not caught",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
             reports=(
-                Report("talker.py:9:9", "nothing catches ExternalShutdownException (SIGTERM)"),
+                Report(
+                    "talker.py:9:9",
+                    "SIGTERM ends this with a traceback and exit code 1; catch "
+                    "ExternalShutdownException",
+                ),
             ),
         ),
     )
@@ -79,25 +83,31 @@ class ShutdownUnhandled(RclpyRule):
                 continue
             missing = self._missing(facts, call)
             if missing:
-                yield self.report(call, f"nothing catches {missing}")
+                yield self.report(call, missing)
 
     def _runs_in_thread(self, facts: RclpyFile, call: RclpyCall) -> bool:
-        """Tell whether another function than that of ``rclpy.init`` spins: it may be a thread."""
+        """Return whether ``rclpy.init`` is called in another function: this may be a thread."""
         return all(init.function is not call.function for init in facts.init_calls)
 
     def _missing(self, facts: RclpyFile, call: RclpyCall) -> str:
         caught = call.handlers | call.outer_handlers
-        problems: list[str] = []
+        signals: dict[str, str] = {}
         if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(facts):
-            problems.append("KeyboardInterrupt (Ctrl-C)")
+            signals["Ctrl-C"] = "KeyboardInterrupt"
         names = {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
         if caught.isdisjoint(names) and not call.asks_ok:
-            problems.append("ExternalShutdownException (SIGTERM)")
-        return " and ".join(problems)
+            signals["SIGTERM"] = "ExternalShutdownException"
+        if not signals:
+            return ""
+        end = "end" if len(signals) > 1 else "ends"
+        return (
+            f"{' and '.join(signals)} {end} this with a traceback and exit code 1; "
+            f"catch {' and '.join(signals.values())}"
+        )
 
 
 def _handles_int(facts: RclpyFile) -> bool:
-    """Tell whether Ctrl-C calls a function of the file instead of raising an exception."""
+    """Return whether a handler in this file replaces the exception of Ctrl-C."""
     name = facts.module.qualified_name
     return any(
         call.args and name(call.func) == "signal.signal" and name(call.args[0]) == "signal.SIGINT"

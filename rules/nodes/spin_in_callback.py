@@ -1,4 +1,4 @@
-"""ND033: callbacks do not spin the node that runs them."""
+"""ND033: callbacks do not spin their own node."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scaffold.api.programs import in_callbacks
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
-"""Arguments that name no executor: the node, and a future."""
+"""Number of arguments without an executor: the node, and a future."""
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Caller(Node):\n"
@@ -25,10 +25,10 @@ _NODE = (
 
 
 class SpinInCallback(RclpyRule):
-    """A callback spins the node whose callback it is.
+    """A callback spins its own node.
 
-    **Why.** ``rclpy.spin_...`` moves the node to another executor and takes it off that when done:
-    the first call works, then none of its callbacks is run any more.
+    **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it from there when
+    done: the first call works, and after that no callback of the node runs.
 
     **Fix.** Use ``future.add_done_callback``, or an ``async`` callback that awaits the future.
 
@@ -46,8 +46,8 @@ class SpinInCallback(RclpyRule):
             reports=(
                 Report(
                     "caller.py:12:9",
-                    "rclpy.spin_until_future_complete(self) runs in the callback ask of "
-                    "this very node, which gets no callback after that",
+                    "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
+                    "the same node: no callback runs after that",
                 ),
             ),
         ),
@@ -63,5 +63,5 @@ class SpinInCallback(RclpyRule):
                     continue
                 if not isinstance(node, ast.Name) or not facts.evaluator.self_class(node):
                     continue
-                message = f"rclpy.{call.name}({node.id}) runs in {origin} of this very node"
-                yield self.report(call, f"{message}, which gets no callback after that")
+                message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
+                yield self.report(call, f"{message}: no callback runs after that")

@@ -1,4 +1,4 @@
-"""ND057: what is spun is a node that lives."""
+"""ND057: only live nodes are spun."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _NODE = (
 
 
 class SpunWrongly(RclpyRule):
-    """Something else than a node is spun, or a node too late.
+    """A class or executor is spun instead of a node, or a node after the shutdown.
 
     **Why.** ``rclpy.spin(Talker)`` fails with ``TypeError: 'property' object is not iterable``;
-    after ``rclpy.shutdown()`` nothing is spun any more.
+    after ``rclpy.shutdown()``, spinning has no effect.
 
     **Fix.** ``rclpy.spin(node)``, or ``executor.spin()``.
 
@@ -38,7 +38,7 @@ class SpunWrongly(RclpyRule):
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
             reports=(
                 Report(
-                    "talker.py:14:5", "this spins the class Talker: make a node of it, Talker()"
+                    "talker.py:14:5", "'Talker' is a class, not a node: TypeError; write Talker()"
                 ),
             ),
         ),
@@ -46,7 +46,7 @@ class SpunWrongly(RclpyRule):
             "after shutdown",
             {"talker.py": _NODE.format("    rclpy.shutdown()\n    rclpy.spin(node)\n")},
             reports=(
-                Report("talker.py:15:5", "rclpy is shut down in line 14 already: nothing is spun"),
+                Report("talker.py:15:5", "rclpy is already shut down in line 14: nothing is spun"),
             ),
         ),
     )
@@ -60,17 +60,17 @@ class SpunWrongly(RclpyRule):
 
 
 def _problem(facts: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
-    """Return what is wrong about a call of a function of rclpy that spins."""
+    """Return the message for a wrong call that spins."""
     if call.name.startswith("executor.") or not call.call.args:
         return ""
     node = call.call.args[0]
     value = facts.evaluator.single_value(node)
     class_ = facts.evaluator.named_class(value)
     if class_ is not None and facts.node_class(class_) is not None:
-        return f"this spins the class {class_.name}: make a node of it, {class_.name}()"
+        return f"{class_.name!r} is a class, not a node: TypeError; write {class_.name}()"
     if (class_of(facts, node) or "").endswith("Executor"):
-        return "this spins an executor, not a node: call its own spin()"
+        return "this is an executor, not a node: AttributeError; call its spin()"
     other = shutdowns.before(call.call)
     if other is not None:
-        return f"rclpy is shut down in line {other.location.line} already: nothing is spun"
+        return f"rclpy is already shut down in line {other.location.line}: nothing is spun"
     return ""

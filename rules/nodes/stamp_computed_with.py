@@ -1,4 +1,4 @@
-"""ND069: times of messages are converted before they are computed with."""
+"""ND069: message stamps are converted to rclpy times for arithmetic."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _NODE = (
 
 
 class StampComputedWith(RclpyRule):
-    """The stamp of a message is added to, taken from or compared with a time.
+    """The stamp of a message is used in arithmetic or compared with a time.
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message holds
-    a ``builtin_interfaces/Time``, which knows seconds and nanoseconds and cannot be computed with.
+    a ``builtin_interfaces/Time``, which has fields, but no arithmetic.
 
     **Fix.** ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``.
 
@@ -38,21 +38,21 @@ class StampComputedWith(RclpyRule):
     examples = (
         Example("converted", {"viewer.py": _NODE.format("Time.from_msg(msg.header.stamp)")}),
         Example(
-            "seconds of it",
+            "its seconds",
             {"viewer.py": _NODE.format("msg.header.stamp").replace("stamp\n", "stamp.sec\n")},
         ),
         Example(
-            "as it is",
+            "not converted",
             {"viewer.py": _NODE.format("msg.header.stamp")},
             reports=(
                 Report(
                     "viewer.py:12:15",
-                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
                 ),
             ),
         ),
         Example(
-            "two of them, and a number",
+            "two stamps, and a number",
             {
                 "viewer.py": _NODE.format("Time()") + "\n    def is_old(self, msg, other):\n"
                 "        stamp = msg.header.stamp\n"
@@ -61,16 +61,16 @@ class StampComputedWith(RclpyRule):
             reports=(
                 Report(
                     "viewer.py:17:16",
-                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
                 ),
                 Report(
                     "viewer.py:17:46",
-                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)",
+                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
                 ),
             ),
         ),
         Example(
-            "a header of an own class",
+            "a header of another class",
             {
                 "viewer.py": _NODE.format("Time()") + "\n    def is_old(self, msg, other):\n"
                 "        msg.header.stamp = other\n"
@@ -84,9 +84,7 @@ class StampComputedWith(RclpyRule):
             return
         for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:
             if _is_flawed(facts, node):
-                message = (
-                    "a stamp of a message is no Time of rclpy: TypeError; write Time.from_msg(...)"
-                )
+                message = "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
                 yield self.report(facts.module.location(node), message)
 
 
@@ -102,7 +100,7 @@ def _is_flawed(facts: RclpyFile, node: ast.AST) -> bool:
 
 
 def _are_stamps(facts: RclpyFile, *sides: ast.expr) -> bool:
-    """Tell whether one side is the stamp of a message, and the other one, a time or a number."""
+    """Return whether one side is a message stamp, and the other a stamp, time or number."""
     stamps = [_is_stamp(facts, side) for side in sides]
     return any(stamps) and all(
         is_stamp or _is_time_or_number(facts, side)
@@ -111,12 +109,12 @@ def _are_stamps(facts: RclpyFile, *sides: ast.expr) -> bool:
 
 
 def _is_stamp(facts: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is the stamp of a header that nobody here fills."""
+    """Return whether an expression is the stamp of a header that this file does not set."""
     match facts.evaluator.single_value(node):
         case ast.Attribute(attr="stamp", value=ast.Attribute(attr="header")) as stamp:
             stores = [*facts.evaluator.stores("stamp"), *facts.evaluator.stores("header")]
             text = f"{facts.module.text(stamp)}."
-            return not any(text.startswith(f"{facts.module.text(one.node)}.") for one in stores)
+            return not any(text.startswith(f"{facts.module.text(x.node)}.") for x in stores)
     return False
 
 

@@ -1,4 +1,4 @@
-"""ND011: what is used of rclpy is imported."""
+"""ND011: submodules of rclpy are imported before use."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _NODE = "import rclpy\n{}\n\nclass Talker(rclpy.node.Node):\n    pass\n"
 
 
 class SubmoduleNotImported(PythonRule):
-    """A module of rclpy is used as ``rclpy.node`` without being imported.
+    """A submodule of rclpy, such as ``rclpy.node``, is used without being imported.
 
     **Why.** ``import rclpy`` does not load it: ``AttributeError: module 'rclpy' has no attribute
-    'node'``. It works by chance where something else has loaded it; reported is what surely fails.
+    'node'``. It works only where other code has loaded it; certain failures are reported.
 
     **Fix.** Write ``from rclpy.node import Node``, or ``import rclpy.node``.
 
@@ -47,10 +47,7 @@ class SubmoduleNotImported(PythonRule):
             "not imported",
             {"talker.py": _NODE.format("")},
             reports=(
-                Report(
-                    "talker.py:4:14",
-                    "`import rclpy` does not load rclpy.node: AttributeError at this line",
-                ),
+                Report("talker.py:4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
             ),
         ),
     )
@@ -63,28 +60,28 @@ class SubmoduleNotImported(PythonRule):
         if not all(self._loads_nothing(root) for root in module.imports_by_root):
             return
         imports = module.imports_by_root["rclpy"]
-        loaded = {one.module.split(".")[1] for one in imports if "." in one.module} | _LOADED
+        loaded = {x.module.split(".")[1] for x in imports if "." in x.module} | _LOADED
         if loaded & {"node", "executors", "action", "lifecycle"}:
             # Each of these loads most of the others.
             loaded |= SUBMODULES - {"action", "lifecycle"}
-        told: set[str] = set()
+        reported: set[str] = set()
         for node in module.walk(ast.Attribute):
-            if node.attr not in SUBMODULES - loaded or node.attr in told:
+            if node.attr not in SUBMODULES - loaded or node.attr in reported:
                 continue
             if not isinstance(node.value, ast.Name) or module.qualified_name(node.value) != "rclpy":
                 continue
             if not self._runs_at_import(module, node):
                 continue
-            told.add(node.attr)
-            message = f"`import rclpy` does not load rclpy.{node.attr}: AttributeError at this line"
+            reported.add(node.attr)
+            message = f"'import rclpy' does not load rclpy.{node.attr}: AttributeError"
             yield self.report(module.location(node), message)
 
     def _loads_nothing(self, root: str) -> bool:
-        """Tell whether importing a package loads no module of rclpy."""
+        """Return whether importing a package loads no module of rclpy."""
         return root in sys.stdlib_module_names or root == "rclpy" or root.endswith("_msgs")
 
     def _runs_at_import(self, module: PythonModule, node: ast.Attribute) -> bool:
-        """Tell whether the line runs before a call of rclpy may have loaded the module."""
+        """Return whether the line runs before a call of rclpy may have loaded the module."""
         for parent in module.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
                 return False

@@ -1,4 +1,4 @@
-"""ND001: a node class calls the constructor of Node."""
+"""ND001: node classes call the constructor of Node."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _NODE = (
 
 
 class SuperInitMissing(RclpyRule):
-    """A subclass of Node has a constructor that does not call the one of Node.
+    """A subclass of Node has a constructor that does not call Node's constructor.
 
-    **Why.** The first use of the node ends in ``AttributeError: 'Talker' object has no attribute
+    **Why.** The first use of the node raises ``AttributeError: 'Talker' object has no attribute
     '_Node__...'``.
 
-    **Fix.** Begin with ``super().__init__('name_of_the_node')``.
+    **Fix.** Start with ``super().__init__('name_of_the_node')``.
 
     **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)".
     """
@@ -33,38 +33,36 @@ class SuperInitMissing(RclpyRule):
     examples = (
         Example("called", {"talker.py": _NODE.format("super().__init__('talker')")}),
         Example(
-            "called when it starts",
+            "called later",
             {
                 "talker.py": _NODE.format("self.count = 0")
                 + "\n    def main(self):\n        super().__init__('talker')\n"
             },
         ),
         Example(
-            "forgotten",
+            "missing",
             {"talker.py": _NODE.format("self.count = 0")},
             reports=(
                 Report(
                     "talker.py:5:9",
-                    "Talker.__init__() does not call super().__init__(): no node is made",
+                    "Talker.__init__() does not call super().__init__(): AttributeError",
                 ),
             ),
         ),
         Example(
-            "the one above Node",
+            "the class above Node",
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
             reports=(
                 Report(
-                    "talker.py:6:9", "begins above Node, whose __init__ is left out; write super()"
+                    "talker.py:6:9", "this super() skips the constructor of Node; write super()"
                 ),
             ),
         ),
         Example(
-            "of no object",
+            "an unbound super",
             {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
             reports=(
-                Report(
-                    "talker.py:6:9", "super() with a class alone is of no object; write super()"
-                ),
+                Report("talker.py:6:9", "super() with only a class is unbound; write super()"),
             ),
         ),
         Example(
@@ -72,7 +70,8 @@ class SuperInitMissing(RclpyRule):
             {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
             reports=(
                 Report(
-                    "talker.py:6:9", "super() passes self already: the name of the node comes first"
+                    "talker.py:6:9",
+                    "super() already passes self; the first argument is the node name",
                 ),
             ),
         ),
@@ -87,7 +86,7 @@ class SuperInitMissing(RclpyRule):
             if node.calls_super_init or node.constructor is None or node.is_made_later:
                 continue
             at = facts.module.name_location(node.constructor)
-            message = f"{node.name}.__init__() does not call super().__init__(): no node is made"
+            message = f"{node.name}.__init__() does not call super().__init__(): AttributeError"
             yield self.report(at, message)
 
 
@@ -97,12 +96,12 @@ def _skipping(facts: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
         match call:
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
                 if facts.module.qualified_name(first) == "rclpy.node.Node":
-                    return call, "begins above Node, whose __init__ is left out; write super()"
+                    return call, "this super() skips the constructor of Node; write super()"
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name()]):
-                return call, "super() with a class alone is of no object; write super()"
+                return call, "super() with only a class is unbound; write super()"
             case ast.Call(
                 func=ast.Attribute(attr="__init__", value=ast.Call(func=ast.Name(id="super"))),
                 args=[ast.Name(id="self"), *_],
             ):
-                return call, "super() passes self already: the name of the node comes first"
+                return call, "super() already passes self; the first argument is the node name"
     return None

@@ -1,4 +1,4 @@
-"""ND064: threads get functions, timers a period, coroutines somebody who awaits them."""
+"""ND064: threads get functions, timers a period, and coroutines are awaited."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _NODE = (
 
 
 class ThreadTargetCalled(RclpyRule):
-    """A function is called where a thread should call it, or a coroutine is made and dropped.
+    """A thread target is called instead of passed, or a coroutine is never awaited.
 
-    **Why.** ``Thread(target=self.work())`` does the work at once, in the constructor, and the
-    thread has nothing to do; a coroutine that nobody awaits never runs; a timer with the period 0
-    takes all the time there is.
+    **Why.** ``Thread(target=self.work())`` does the work immediately, in the constructor, and the
+    thread has nothing to do; a coroutine that is not awaited never runs; a timer with period 0
+    uses all CPU time.
 
     **Fix.** ``target=self.work``; ``await self.ask()``; a period above 0.
 
@@ -38,9 +38,9 @@ class ThreadTargetCalled(RclpyRule):
     code = "ND064"
     name = "thread-target-called"
     examples = (
-        Example("right", {"talker.py": _NODE.format("", "0.1", "await ")}),
+        Example("passed, awaited", {"talker.py": _NODE.format("", "0.1", "await ")}),
         Example(
-            "a parameter that somebody sets",
+            "a parameter that may be set",
             {
                 "talker.py": _NODE.format(
                     "", "self.declare_parameter('period', 0.0).value", "await "
@@ -48,7 +48,7 @@ class ThreadTargetCalled(RclpyRule):
             },
         ),
         Example(
-            "made only where there is a period",
+            "created only with a period",
             {
                 "talker.py": _NODE.format("", "self.lag", "await ")
                 .replace("        self.create", "        self.lag = 0.0\n        self.create")
@@ -56,23 +56,28 @@ class ThreadTargetCalled(RclpyRule):
             },
         ),
         Example(
-            "called, zero, dropped",
+            "called, zero, not awaited",
             {"talker.py": _NODE.format("()", "0.0", "")},
             reports=(
-                Report("talker.py:9:33", "work() is called here: pass the function itself"),
-                Report("talker.py:10:27", "a period of 0 takes all of the processor"),
-                Report("talker.py:19:9", "ask() is a coroutine that nobody awaits: it never runs"),
+                Report(
+                    "talker.py:9:33", "work() is called here, not in the thread; pass it without ()"
+                ),
+                Report("talker.py:10:27", "timer with period 0 uses all CPU time"),
+                Report("talker.py:19:9", "coroutine ask() is not awaited: it never runs"),
             ),
         ),
         Example(
-            "one argument in parentheses",
+            "an argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
             reports=(
-                Report("talker.py:9:50", "(self) is no tuple: TypeError in the thread; (self,) is"),
+                Report(
+                    "talker.py:9:50",
+                    "(self) is not a tuple: TypeError in the thread; write (self,)",
+                ),
             ),
         ),
         Example(
-            "spun at once",
+            "spun immediately",
             {
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
@@ -80,7 +85,7 @@ class ThreadTargetCalled(RclpyRule):
             reports=(
                 Report(
                     "talker.py:10:33",
-                    "spins here, not in the thread: target=rclpy.spin, args=(node,)",
+                    "spins here, not in the thread; write target=rclpy.spin, args=(node,)",
                 ),
             ),
         ),
@@ -93,15 +98,15 @@ class ThreadTargetCalled(RclpyRule):
         for timer in facts.timers:
             argument = timer.argument("timer_period_sec")
             value, notes = facts.evaluator.trace(argument.node if argument else None)
-            # Zero as the default of a parameter is there to be replaced.
+            # Zero as the default of a parameter is usually overridden.
             if argument is None or value not in (0, 0.0) or notes:
                 continue
             if not is_asked_about(facts.module, timer.call, argument.node):
-                yield self.report(argument, "a period of 0 takes all of the processor")
+                yield self.report(argument, "timer with period 0 uses all CPU time")
 
 
 def _is_single(facts: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether the arguments of a thread are surely one object, not a tuple of them."""
+    """Return whether the arguments of a thread are certainly a single object, not a tuple."""
     if isinstance(node, ast.Constant):
         return not isinstance(node.value, str) or len(node.value) != 1
     return isinstance(node, ast.Name | ast.Attribute) and facts.owner_of(node) is not None
@@ -113,14 +118,20 @@ def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
             if word.arg == "target" and isinstance(word.value, ast.Call):
                 callback = facts.callback(word.value)
                 if callback.is_called and not callback.is_partial:
-                    yield word.value, f"{callback.name}() is called here: pass the function itself"
+                    yield (
+                        word.value,
+                        f"{callback.name}() is called here, not in the thread; pass it without ()",
+                    )
                 elif facts.module.qualified_name(word.value.func) in _SPINS:
-                    message = "spins here, not in the thread: target=rclpy.spin, args=(node,)"
+                    message = "spins here, not in the thread; write target=rclpy.spin, args=(node,)"
                     yield word.value, message
             elif word.arg == "args" and _is_single(facts, word.value):
                 text = facts.module.text(word.value)
-                yield word.value, f"({text}) is no tuple: TypeError in the thread; ({text},) is"
+                yield (
+                    word.value,
+                    f"({text}) is not a tuple: TypeError in the thread; write ({text},)",
+                )
     if isinstance(facts.module.parent(call), ast.Expr):
         function = facts.callback(call.func).function
         if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
-            yield call, f"{function.name}() is a coroutine that nobody awaits: it never runs"
+            yield call, f"coroutine {function.name}() is not awaited: it never runs"

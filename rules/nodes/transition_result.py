@@ -1,4 +1,4 @@
-"""ND066: methods of a lifecycle node say how a change of state went."""
+"""ND066: lifecycle callbacks return the result of the transition."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _RIGHT = "return super().on_activate(state)"
 
 
 class TransitionResult(RclpyRule):
-    """A method of a lifecycle node for a change of state does not do what such a method must.
+    """A transition callback has a wrong name, signature or result.
 
     **Why.** The node dies with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
-    at the change of state; a method with another name is never called; publishers made with
-    ``create_lifecycle_publisher`` drop all messages until ``super().on_activate`` has been called.
+    at the transition; a method with another name is never called; publishers of
+    ``create_lifecycle_publisher`` drop all messages until ``super().on_activate`` is called.
 
     **Fix.** Take the state and ``return super().on_activate(state)``, or
     ``TransitionCallbackReturn.SUCCESS`` where there is no lifecycle publisher.
@@ -42,15 +42,15 @@ class TransitionResult(RclpyRule):
     code = "ND066"
     name = "transition-result"
     examples = (
-        Example("passed on", {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)}),
+        Example("passed to super", {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)}),
         Example(
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
             reports=(
                 Report(
                     "talker.py:10:9",
-                    "on_configure returns nothing, not a TransitionCallbackReturn: "
-                    "AttributeError when the state changes",
+                    "on_configure() returns nothing, not a TransitionCallbackReturn: "
+                    "AttributeError at the transition",
                 ),
             ),
         ),
@@ -58,16 +58,19 @@ class TransitionResult(RclpyRule):
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
             reports=(
-                Report("talker.py:10:9", "on_configure takes 0 arguments; it is given the state"),
+                Report(
+                    "talker.py:10:9",
+                    "on_configure() takes 0 arguments, but gets 1, the state: TypeError",
+                ),
                 Report(
                     "talker.py:11:9",
-                    "returns True, not a TransitionCallbackReturn: AttributeError when "
-                    "the state changes",
+                    "returns True, not a TransitionCallbackReturn: AttributeError at "
+                    "the transition",
                 ),
             ),
         ),
         Example(
-            "the publisher is never told",
+            "a publisher that stays inactive",
             {
                 "talker.py": _NODE.format(
                     "on_activate(self, state)", "return TransitionCallbackReturn.SUCCESS"
@@ -76,7 +79,8 @@ class TransitionResult(RclpyRule):
             reports=(
                 Report(
                     "talker.py:10:9",
-                    "super().on_activate(state) is not called: the publisher of line 8 is silent",
+                    "super().on_activate(state) is not called: the publisher of line 8 "
+                    "stays inactive",
                 ),
             ),
         ),
@@ -84,7 +88,10 @@ class TransitionResult(RclpyRule):
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
             reports=(
-                Report("talker.py:10:9", "nothing calls on_activated; 'on_activate' is meant"),
+                Report(
+                    "talker.py:10:9",
+                    "rclpy never calls 'on_activated'; did you mean 'on_activate'?",
+                ),
             ),
         ),
     )
@@ -106,11 +113,13 @@ class TransitionResult(RclpyRule):
         count = len([*given.posonlyargs, *given.args]) - 1
         at = module.name_location(function)
         if given.vararg is None and not count - len(given.defaults) <= 1 <= count:
-            yield self.report(at, f"{function.name} takes {count} arguments; it is given the state")
-        happens = "not a TransitionCallbackReturn: AttributeError when the state changes"
+            yield self.report(
+                at, f"{function.name}() takes {count} arguments, but gets 1, the state: TypeError"
+            )
+        happens = "not a TransitionCallbackReturn: AttributeError at the transition"
         if may_end(function):
             path = " on one path" if returned(function) else ""
-            yield self.report(at, f"{function.name} returns nothing{path}, {happens}")
+            yield self.report(at, f"{function.name}() returns nothing{path}, {happens}")
         for statement in returned(function):
             if statement.value is None or isinstance(statement.value, ast.Constant):
                 value = "nothing" if statement.value is None else ast.unparse(statement.value)
@@ -121,16 +130,16 @@ class TransitionResult(RclpyRule):
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
         for near in get_close_matches(function.name, left, 1, 0.85):
-            message = f"nothing calls {function.name}; {near!r} is meant"
+            message = f"rclpy never calls {function.name!r}; did you mean {near!r}?"
             yield self.report(facts.module.name_location(function), message)
 
     def _check_publishers(self, facts: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
         function = class_.methods.get("on_activate")
-        made = [one for one in class_.publishers if one.is_lifecycle]
-        if function is None or not made or facts.module.index.attributes("on_activate"):
+        publishers = [x for x in class_.publishers if x.is_lifecycle]
+        if function is None or not publishers or facts.module.index.attributes("on_activate"):
             return
-        line = made[0].location.line
+        line = publishers[0].location.line
         message = (
-            f"super().on_activate(state) is not called: the publisher of line {line} is silent"
+            f"super().on_activate(state) is not called: the publisher of line {line} stays inactive"
         )
         yield self.report(facts.module.name_location(function), message)

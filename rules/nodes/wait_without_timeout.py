@@ -1,4 +1,4 @@
-"""ND034: who waits for a server gives up some time."""
+"""ND034: waits for servers have a timeout."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _NODE = (
 
 
 class WaitWithoutTimeout(RclpyRule):
-    """A constructor or a callback waits for a server, without a time limit.
+    """A constructor or callback waits for a server without a timeout.
 
-    **Why.** Without the server the node hangs and says nothing: no message, no other callback.
+    **Why.** Without the server, the node hangs silently: no log message, no other callback.
 
-    **Fix.** Give ``timeout_sec``, and log what is missing.
+    **Fix.** Pass ``timeout_sec``, and log what is missing.
 
     **Source.** rclpy, ``Client.wait_for_service``; ROS 2 documentation, "Writing a simple service
     and client (Python)".
@@ -35,15 +35,15 @@ class WaitWithoutTimeout(RclpyRule):
     name = "wait-without-timeout"
     severity = Severity.WARNING
     examples = (
-        Example("with one", {"caller.py": _NODE.format("timeout_sec=1.0")}),
+        Example("with a timeout", {"caller.py": _NODE.format("timeout_sec=1.0")}),
         Example(
-            "without",
+            "without a timeout",
             {"caller.py": _NODE.format("")},
             reports=(
                 Report(
                     "caller.py:9:9",
-                    "without timeout_sec, wait_for_service() lets the constructor of "
-                    "Caller hang until the server is there",
+                    "wait_for_service() without timeout_sec blocks the constructor of "
+                    "Caller until the server is available",
                 ),
             ),
         ),
@@ -57,6 +57,6 @@ class WaitWithoutTimeout(RclpyRule):
                     case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
                         if name in WAITS and call not in seen:
                             seen.add(call)
-                            message = f"without timeout_sec, {name}() lets {origin} hang"
+                            message = f"{name}() without timeout_sec blocks {origin} until the"
                             at = facts.module.location(call)
-                            yield self.report(at, f"{message} until the server is there")
+                            yield self.report(at, f"{message} server is available")

@@ -1,4 +1,4 @@
-"""PF034: defaults have the type of the values that parameter files give."""
+"""PF034: defaults have the type that parameter files set."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def _files(default: str, value: str) -> dict[str, str]:
 
 
 class DefaultTooNarrow(Rule):
-    """A node declares an integer, or a number in quotes, where its parameter file has a double.
+    """A default is an integer or a quoted number, but a parameter file sets a double.
 
     **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter
-    'rate' to '2.5' of type 'DOUBLE', expecting type 'INTEGER'``. The default alone says the type.
+    'rate' to '2.5' of type 'DOUBLE', expecting type 'INTEGER'``. The default alone sets the type.
 
-    **Fix.** ``self.declare_parameter('rate', 1.0)``; a number without quotes.
+    **Fix.** ``self.declare_parameter('rate', 1.0)``; write numbers without quotes.
 
     **Source.** ``rclpy/node.py``, ``declare_parameters``.
     """
@@ -49,19 +49,19 @@ class DefaultTooNarrow(Rule):
             reports=(
                 Report(
                     "talker.py:7:9",
-                    "the default is an integer, but a.yaml:3 sets a double: the node "
-                    "dies; declare a double",
+                    "default is an integer, but a.yaml:3 sets a double: "
+                    "InvalidParameterTypeException; declare a double",
                 ),
             ),
         ),
         Example(
-            "a number in quotes",
+            "a quoted number",
             _files("'1'", "2"),
             reports=(
                 Report(
                     "talker.py:7:9",
-                    "the default is a string, but a.yaml:3 sets an integer: the node "
-                    "dies; declare an integer",
+                    "default is a string, but a.yaml:3 sets an integer: "
+                    "InvalidParameterTypeException; declare an integer",
                 ),
             ),
         ),
@@ -81,7 +81,8 @@ class DefaultTooNarrow(Rule):
                     if default is not None:
                         at = entry.value.location
                         message = (
-                            f"the default is {a_type(kind)}, but {at.path}:{at.line} sets "
-                            f"{a_type(given)}: the node dies; declare {a_type(given)}"
+                            f"default is {a_type(kind)}, but {at.path}:{at.line} sets "
+                            f"{a_type(given)}: InvalidParameterTypeException; "
+                            f"declare {a_type(given)}"
                         )
                         yield self.report(default, message)

@@ -1,4 +1,4 @@
-"""PF030: parameter files name everything once."""
+"""PF030: parameter files set each parameter once."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
 
 
 class KeyRepeated(Rule):
-    """A parameter file sets a parameter twice in one place.
+    """A parameter file sets a parameter twice in one section.
 
-    **Why.** The later one wins, without a word: what stands above is not what the node gets.
-    (Sections that are repeated are merged.)
+    **Why.** The later value silently wins: the node does not get the first. (Repeated sections
+    are merged.)
 
-    **Fix.** Keep one.
+    **Fix.** Remove one of them.
 
     **Source.** YAML 1.2, section 3.2.1.1: keys are unique.
     """
@@ -31,7 +31,11 @@ class KeyRepeated(Rule):
             "twice",
             {"a.yaml": _FILE.format("rate")},
             reports=(
-                Report("a.yaml:4:5", "'rate' stands in line 3 already: only this one counts"),
+                Report(
+                    "a.yaml:4:5",
+                    "'rate' is already set in line 3: the first value is ignored; "
+                    "remove one of them",
+                ),
             ),
         ),
     )
@@ -50,13 +54,14 @@ class KeyRepeated(Rule):
                     for key, first in _repeated(node):
                         line = first.location.line
                         message = (
-                            f"{key.text!r} stands in line {line} already: only this one counts"
+                            f"{key.text!r} is already set in line {line}: the first value is "
+                            "ignored; remove one of them"
                         )
                         yield self.report(key, message)
 
 
 def _repeated(mapping: Mapping) -> Iterator[tuple[Scalar, Scalar]]:
-    """Yield the keys that are there already, with the first of each."""
+    """Yield repeated keys, each with its first occurrence."""
     seen: dict[str, Scalar] = {}
     for key, value in mapping.pairs:
         if isinstance(value, Mapping):

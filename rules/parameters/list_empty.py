@@ -21,12 +21,12 @@ _FILE = "talker:\n  ros__parameters:\n    names: {}\n"
 
 
 class ListEmpty(Rule):
-    """A parameter that the node reads is an empty list in a parameter file.
+    """A parameter that the node reads is set to an empty list in a parameter file.
 
-    **Why.** rcl takes it for no value at all, and the default does not count either:
+    **Why.** rcl treats it as unset, and the default is not used either:
     ``ParameterUninitializedException: The parameter 'names' is not initialized``.
 
-    **Fix.** Leave the line out, or write ``['']`` and let the node pass over empty names.
+    **Fix.** Remove the line, or write ``['']`` and have the node skip empty names.
 
     **Source.** ``rcl_yaml_param_parser/src/parse.c``; ``rclpy/node.py``, ``get_parameter``.
     """
@@ -39,19 +39,19 @@ class ListEmpty(Rule):
             {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[b]")},
         ),
         Example(
-            "none, and a node that does not mind",
+            "empty, and a node that handles it",
             {
                 "talker.py": _NODE.format("get_parameter_or('names')"),
                 "a.yaml": _FILE.format("[]"),
             },
         ),
         Example(
-            "none",
+            "empty",
             {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[]")},
             reports=(
                 Report(
                     "a.yaml:3:12",
-                    "an empty list is no value: talker.py:8 reads names, "
+                    "empty list leaves 'names' unset, and talker.py:8 reads it: "
                     "ParameterUninitializedException",
                 ),
             ),
@@ -70,8 +70,8 @@ class ListEmpty(Rule):
                         if read is None or not declared_by(owner, package).types.get(entry.name):
                             continue
                         message = (
-                            f"an empty list is no value: {place_of(read, package)} reads "
-                            f"{entry.name}, ParameterUninitializedException"
+                            f"empty list leaves {entry.name!r} unset, and "
+                            f"{place_of(read, package)} reads it: ParameterUninitializedException"
                         )
                         yield self.report(entry.value, message)
                         break
@@ -81,10 +81,10 @@ def _read(owner: NodeOwner, name: str) -> ParameterRead | None:
     """Return a place where the node fails when a parameter has no value."""
     current: NodeOwner | None = owner
     while current is not None:
-        for one in current.parameter_reads:
-            if one.name == name and one.method == "get_parameter":
+        for read in current.parameter_reads:
+            if read.name == name and read.method == "get_parameter":
                 module = current.facts.module
-                if not is_harmless(module, one.call, "ParameterUninitializedException"):
-                    return one
+                if not is_harmless(module, read.call, "ParameterUninitializedException"):
+                    return read
         current = current.base if isinstance(current, NodeClass) else None
     return None

@@ -1,4 +1,4 @@
-"""PF005: the items of a list are of one type."""
+"""PF005: all items of a list have the same type."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ class ListMixesTypes(Rule):
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... Sequence should be of same type``.
 
-    **Fix.** Write ``1.0`` among numbers with a point, and quotes around words that look like
-    something else.
+    **Fix.** Write ``1.0`` among doubles, and quote words that YAML reads as another type.
 
     **Source.** ``rcl_yaml_param_parser/src/parse.c``.
     """
@@ -26,26 +25,26 @@ class ListMixesTypes(Rule):
     code = "PF005"
     name = "list-mixes-types"
     examples = (
-        Example("one type", {"config/a.yaml": _FILE.format("[1.0, 2.5]")}),
+        Example("the same type", {"config/a.yaml": _FILE.format("[1.0, 2.5]")}),
         Example(
             "integers among doubles",
             {"config/a.yaml": _FILE.format("[1, 2.5, -3]")},
             reports=(
                 Report(
                     "config/a.yaml:3:16",
-                    "gains mixes integer (1) and double (2.5); rcl refuses the file",
-                    fix="write all with a point",
+                    "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
+                    fix="write all as doubles",
                 ),
             ),
             fixed={"config/a.yaml": _FILE.format("[1.0, 2.5, -3.0]")},
         ),
         Example(
-            "a word that is a boolean",
+            "a word that YAML reads as a boolean",
             {"config/a.yaml": _FILE.format("[left, right, off]")},
             reports=(
                 Report(
                     "config/a.yaml:3:26",
-                    "gains mixes string (left) and bool (off); rcl refuses the file",
+                    "list 'gains' mixes string (left) and bool (off): rcl rejects the file",
                 ),
             ),
         ),
@@ -56,13 +55,13 @@ class ListMixesTypes(Rule):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
                 for entry in section.entries:
-                    found = mixed(entry.value)
-                    if found is None or not isinstance(entry.value, Sequence):
+                    mixture = mixed(entry.value)
+                    if mixture is None or not isinstance(entry.value, Sequence):
                         continue
-                    first, kind, other, other_kind = found
+                    first, kind, other, other_kind = mixture
                     message = (
-                        f"{entry.name} mixes {kind} ({first.text}) and {other_kind} "
-                        f"({other.text}); rcl refuses the file"
+                        f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
+                        f"({other.text}): rcl rejects the file"
                     )
                     yield self.report(other, message, self._fix(path, entry.value))
 
@@ -75,4 +74,4 @@ class ListMixesTypes(Rule):
         if not all(item.text.lstrip("+-").isdecimal() for item in whole):
             return None
         edits = tuple(Edit(path, item.end, item.end, ".0") for item in whole)
-        return Fix("write all with a point", edits)
+        return Fix("write all as doubles", edits)

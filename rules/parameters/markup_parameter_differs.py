@@ -1,4 +1,4 @@
-"""PF033: launch files in XML and YAML give parameters that the node has, of their types."""
+"""PF033: XML and YAML launch files set declared parameters, with the declared types."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _WORDS = {
     r"true|True|TRUE|false|False|FALSE": "bool",
     r"[A-Za-z_/][\w/-]*": "string",
 }
-"""Words that launch and rcl take for the same; others are not judged."""
+"""Words that launch and rcl read as the same type; others are not checked."""
 _UNSURE = frozenset({"y", "n", "yes", "no", "on", "off", "null", "inf", "nan", "infinity"})
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -39,12 +39,13 @@ _YAML = (
 
 
 class MarkupParameterDiffers(Rule):
-    """A launch file in XML or YAML sets a parameter to another type than the node declares.
+    """An XML or YAML launch file sets an undeclared parameter, or a value of another type.
 
     **Why.** ``InvalidParameterTypeException: Trying to set parameter 'rate' to '2' of type
-    'INTEGER', expecting type 'DOUBLE'``; a name that is not declared is dropped without a word.
+    'INTEGER', expecting type 'DOUBLE'``; an undeclared parameter is silently dropped.
 
-    **Fix.** Write ``2.0``, or ``type='str'`` for text that looks like a number; the declared name.
+    **Fix.** Write ``2.0``, or ``type='str'`` for text that looks like a number; use the declared
+    name.
 
     **Source.** ``launch_ros/actions/node.py``, ``parse_nested_parameters``;
     ``launch/utilities/type_utils.py``.
@@ -53,13 +54,15 @@ class MarkupParameterDiffers(Rule):
     code = "PF033"
     name = "markup-parameter-differs"
     examples = (
-        Example("its type", {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rate", "2.0")}),
         Example(
-            "a text that stands for something",
+            "the declared type", {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rate", "2.0")}
+        ),
+        Example(
+            "a substitution",
             {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rate", "$(var rate)")},
         ),
         Example(
-            "an integer, in XML and YAML",
+            "an integer for a double, in XML and YAML",
             {
                 **_FILES,
                 "launch/a.launch.xml": _LAUNCH.format("rate", "2"),
@@ -68,13 +71,13 @@ class MarkupParameterDiffers(Rule):
             reports=(
                 Report(
                     "launch/a.launch.xml:3:31",
-                    "rate (demo/talk.py:7) is declared as double, but this is an "
-                    "integer: the node dies",
+                    "'rate' is declared as double (demo/talk.py:7), but this is an "
+                    "integer: InvalidParameterTypeException",
                 ),
                 Report(
                     "launch/b.launch.yaml:7:14",
-                    "rate (demo/talk.py:7) is declared as double, but this is an "
-                    "integer: the node dies",
+                    "'rate' is declared as double (demo/talk.py:7), but this is an "
+                    "integer: InvalidParameterTypeException",
                 ),
             ),
         ),
@@ -84,7 +87,8 @@ class MarkupParameterDiffers(Rule):
             reports=(
                 Report(
                     "launch/a.launch.xml:3:18",
-                    "the node declares no parameter 'rates'; 'rate' is meant",
+                    "node declares no parameter 'rates': the value is ignored; did you "
+                    "mean 'rate'?",
                 ),
             ),
         ),
@@ -97,36 +101,39 @@ class MarkupParameterDiffers(Rule):
                 if owner is None:
                     continue
                 declared = declared_by(owner, package)
-                # A program that makes a node on the side may well make another one.
+                # A program that constructs a node in passing may construct another.
                 is_all = declared.complete and isinstance(owner, NodeClass)
                 for name, value in node.parameters:
                     if not is_known(name):
                         continue
                     if is_all and not declared.has(name.value):
                         near = nearest(package, name.value, sorted(declared.types), 0.6)
-                        hint = f"; {near!r} is meant" if near else ""
-                        message = f"the node declares no parameter {name.value!r}{hint}"
+                        hint = f"; did you mean {near!r}?" if near else ""
+                        message = (
+                            f"node declares no parameter {name.value!r}: the value is ignored{hint}"
+                        )
                         yield self.report(name, message)
                     kind, given = declared.types.get(name.value), _type(value.value)
                     if kind and given and kind != given:
                         where = place_of(declared.places[name.value], package)
                         article = "an" if given == "integer" else "a"
-                        message = f"{name.value} ({where}) is declared as {kind}, but this is "
-                        yield self.report(value, f"{message}{article} {given}: the node dies")
+                        message = f"{name.value!r} is declared as {kind} ({where}), but this is "
+                        message += f"{article} {given}: InvalidParameterTypeException"
+                        yield self.report(value, message)
 
 
 def _owner(package: Package, node: MarkupNode) -> NodeOwner | None:
-    """Return the code of a node, when it is Python of this package or one of the workspace."""
+    """Return the code of a node if it is Python in this package or the workspace."""
     if node.package is None or node.executable is None:
         return None
     name = node.package.value
     home = package if name == package.name else package.workspace.get(name)
-    found = nodes_of(home, node.executable.value) if home is not None else []
-    return found[0] if len(found) == 1 else None
+    nodes = nodes_of(home, node.executable.value) if home is not None else []
+    return nodes[0] if len(nodes) == 1 else None
 
 
 def _type(text: str) -> str | None:
-    """Return the type that launch gives a word; ``None`` when that is not sure."""
+    """Return the type that launch infers for a word; ``None`` if not certain."""
     if text.lower() in _UNSURE:
         return None
     return next((kind for word, kind in _WORDS.items() if re.fullmatch(word, text)), None)

@@ -1,4 +1,4 @@
-"""PF003: the nodes that a parameter file names are started with it."""
+"""PF003: parameter files name nodes that exist."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _MANIFEST = '<package format="3"><name>demo</name></package>\n'
 
 
 class NodeUnknown(Rule):
-    """A parameter file names a node that no node is called.
+    """A section of a parameter file matches no node.
 
     **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
 
-    **Fix.** Write the name of the node; ``/**`` is for all nodes.
+    **Fix.** Write the name of the node, or ``/**`` for all nodes.
 
     **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
     """
@@ -40,7 +40,7 @@ class NodeUnknown(Rule):
     name = "node-unknown"
     examples = (
         Example(
-            "the name of the node, all nodes, a node from elsewhere",
+            "the name of the node, all nodes, a node of another package",
             {
                 "talker.py": _NODE,
                 "config/a.yaml": _FILE.format("talker"),
@@ -54,7 +54,7 @@ class NodeUnknown(Rule):
             reports=(
                 Report(
                     "config/a.yaml:1:1",
-                    "no node of this package is called 'talker_node'; 'talker' is meant",
+                    "no node of this package is named 'talker_node'; did you mean 'talker'?",
                 ),
             ),
         ),
@@ -67,7 +67,7 @@ class NodeUnknown(Rule):
             },
         ),
         Example(
-            "not the name that the launch file gives",
+            "not the name in the launch file",
             {
                 "package.xml": _MANIFEST,
                 "launch/a.launch.py": _LAUNCH,
@@ -76,7 +76,8 @@ class NodeUnknown(Rule):
             reports=(
                 Report(
                     "config/demo.yaml:1:1",
-                    "no node is called 'eye': launch/a.launch.py:10 gives this file to camera",
+                    "no node is named 'eye': the section is ignored; "
+                    "launch/a.launch.py:10 starts camera",
                 ),
             ),
         ),
@@ -94,7 +95,7 @@ class NodeUnknown(Rule):
                 yield from self._for_own(package, file)
 
     def _for_started(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
-        """Judge a file by the nodes that launch files give it to."""
+        """Check a file against the nodes that launch files pass it to."""
         use = use_of(package, file.path)
         names = {node.name for node in use.nodes if isinstance(node.name, str)}
         if any(not isinstance(node.name, str) for node in use.nodes):
@@ -104,20 +105,20 @@ class NodeUnknown(Rule):
         in_one_process = any(node.package == _CONTROL for node in use.nodes)
         for section in file.sections:
             name = section.name
-            # The controller manager makes more nodes, and names them after its controllers.
+            # The controller manager creates more nodes, named after its controllers.
             if section.is_pattern or name in names or (in_one_process and name != _CONTROL):
                 continue
             alike = names_alike(file, names, name)
             if alike or (useless and use.complete and name not in everywhere):
                 first = use.nodes[0].call.location
                 message = (
-                    f"no node is called {name!r}: {first.path}:{first.line} gives this file to "
-                    f"{', '.join(alike or sorted(names))}"
+                    f"no node is named {name!r}: the section is ignored; "
+                    f"{first.path}:{first.line} starts {', '.join(alike or sorted(names))}"
                 )
                 yield self.report(section.key, message)
 
     def _for_own(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
-        """Judge a file that no launch file names by the nodes in the code of the package."""
+        """Check a file that no launch file names against the nodes in the package."""
         nodes, complete = own_nodes(package)
         names = {str(node.node_name) for node in nodes}
         everywhere = node_names(package)
@@ -125,5 +126,5 @@ class NodeUnknown(Rule):
             name = section.name
             alike = names_alike(file, names, name)
             if alike and name not in everywhere and not section.is_pattern:
-                message = f"no node of this package is called {name!r}; {alike[0]!r} is meant"
+                message = f"no node of this package is named {name!r}; did you mean {alike[0]!r}?"
                 yield self.report(section.key, message)

@@ -1,4 +1,4 @@
-"""PF031: values of parameters are in the range of their descriptor."""
+"""PF031: parameter values are in the range of their descriptor."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _FILE = "talker:\n  ros__parameters:\n    gain: {}\n"
 
 
 class ParameterOutOfRange(Rule):
-    """A parameter is set to a value outside of the range that the node declares.
+    """A parameter is set to a value outside the range that the node declares.
 
     **Why.** The node ends at start: ``InvalidParameterValueException: Invalid parameter value (2.0)
     for parameter. Reason: Parameter gain out of range Min: 0.0, Max: 1.0, value: 2.0``; likewise
@@ -42,9 +42,9 @@ class ParameterOutOfRange(Rule):
     name = "parameter-out-of-range"
     examples = (
         Example("on a step", {"talker.py": _NODE, "a.yaml": _FILE.format("0.3")}),
-        Example("at the end", {"talker.py": _NODE, "a.yaml": _FILE.format("1.0")}),
+        Example("at the upper bound", {"talker.py": _NODE, "a.yaml": _FILE.format("1.0")}),
         Example(
-            "too much; between two steps",
+            "too large; between two steps",
             {
                 "talker.py": _NODE,
                 "a.yaml": _FILE.format("1.5"),
@@ -53,13 +53,13 @@ class ParameterOutOfRange(Rule):
             reports=(
                 Report(
                     "a.yaml:3:11",
-                    "gain (talker.py:10) is in the range 0.0 to 1.0 in steps of 0.1, "
-                    "and 1.5 is not: the node dies",
+                    "1.5 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+                    "(talker.py:10): InvalidParameterValueException",
                 ),
                 Report(
                     "b.yaml:3:11",
-                    "gain (talker.py:10) is in the range 0.0 to 1.0 in steps of 0.1, "
-                    "and 0.25 is not: the node dies",
+                    "0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+                    "(talker.py:10): InvalidParameterValueException",
                 ),
             ),
         ),
@@ -77,23 +77,25 @@ class ParameterOutOfRange(Rule):
         for node in started_nodes(package):
             owner = node.owner
             for name, _, given in node.parameter_dicts if owner is not None else ():
-                found = value_given(node.launch, given)
-                if owner is not None and found is not None and found.number is not None:
-                    message = _message(package, [declared_by(owner, package)], name, found.number)
+                setting = value_given(node.launch, given)
+                if owner is not None and setting is not None and setting.number is not None:
+                    message = _message(package, [declared_by(owner, package)], name, setting.number)
                     if message:
                         yield self.report(node.launch.location(given), message)
 
 
 def _message(package: Package, known: list[Declared], name: str, value: float | None) -> str:
-    """Return what is wrong about a value, by the descriptor of the nodes that get it."""
+    """Return the message for a value outside the range that its nodes declare."""
     kind = "integer" if isinstance(value, int) else "double"
-    for one in known if value is not None else ():
-        place = one.places.get(name)
+    for declared in known if value is not None else ():
+        place = declared.places.get(name)
         descriptor = place.descriptor if place is not None else None
-        if place is None or descriptor is None or one.types.get(name) != kind:
+        if place is None or descriptor is None or declared.types.get(name) != kind:
             continue
         for limits in descriptor.ranges:
             if value is not None and limits.type == kind and not limits.allows(value):
-                where = f"{name} ({place_of(place, package)})"
-                return f"{where} is in the range {limits.text}, and {value} is not: the node dies"
+                return (
+                    f"{value} is outside the range {limits.text} of {name!r} "
+                    f"({place_of(place, package)}): InvalidParameterValueException"
+                )
     return ""

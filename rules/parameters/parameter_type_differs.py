@@ -1,4 +1,4 @@
-"""PF006: values have the type of the declared parameter."""
+"""PF006: values have the declared type."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ _NODE = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.declare_parameter('mode', 'slow')\n"
 )
+_ERROR = "InvalidParameterTypeException"
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n    mode: {}\n"
 _MANIFEST = (
     "<package><name>{}</name><export><build_type>ament_python</build_type></export></package>\n"
@@ -41,9 +42,9 @@ class ParameterTypeDiffers(Rule):
 
     **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter
     'rate' to '2' of type 'INTEGER', expecting type 'DOUBLE'``. ``on``, ``yes`` and ``n`` are
-    booleans, ``2`` is no double.
+    booleans, ``2`` is not a double.
 
-    **Fix.** Write ``2.0``; put quotes around words.
+    **Fix.** Write ``2.0``; quote words.
 
     **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rcl_yaml_param_parser/src/parse.c``.
     """
@@ -56,27 +57,33 @@ class ParameterTypeDiffers(Rule):
             {"talker.py": _NODE, "a.yaml": _FILE.format("2.0", "fast")},
         ),
         Example(
-            "an integer, a boolean",
+            "an integer for a double, a boolean for a string",
             {"talker.py": _NODE, "a.yaml": _FILE.format("2", "on")},
             reports=(
                 Report(
                     "a.yaml:3:11",
-                    "rate (talker.py:7) is a double, but this is an integer",
-                    fix="write it with a point",
+                    "'rate' (talker.py:7) is a double, but this is an integer: "
+                    "InvalidParameterTypeException",
+                    fix="write it as a double",
                 ),
                 Report(
                     "a.yaml:4:11",
-                    "mode (talker.py:8) is a string, but this is a bool",
-                    unsafe_fix="put it in quotes",
+                    "'mode' (talker.py:8) is a string, but this is a bool: "
+                    "InvalidParameterTypeException",
+                    unsafe_fix="quote it",
                 ),
             ),
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
         Example(
-            "a string",
+            "a string for a double",
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
             reports=(
-                Report("a.yaml:3:11", "rate (talker.py:7) is a double, but this is a string"),
+                Report(
+                    "a.yaml:3:11",
+                    "'rate' (talker.py:7) is a double, but this is a string: "
+                    "InvalidParameterTypeException",
+                ),
             ),
         ),
         Example(
@@ -93,17 +100,19 @@ class ParameterTypeDiffers(Rule):
             reports=(
                 Report(
                     "launch/demo.launch.py:8:22",
-                    "rate (demo/talker.py:7 of demo) is a double, but 2 is an integer",
+                    "'rate' (demo/talker.py:7 of demo) is a double, but 2 is an "
+                    "integer: InvalidParameterTypeException",
                 ),
             ),
         ),
         Example(
-            "a text for what every node has",
+            "a string for a parameter of every node",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
             reports=(
                 Report(
                     "a.yaml:3:19",
-                    "use_sim_time, which every node has, is a bool, but this is a string",
+                    "'use_sim_time' (declared by rclpy) is a bool, but this is a "
+                    "string: InvalidParameterTypeException",
                 ),
             ),
         ),
@@ -120,7 +129,9 @@ class ParameterTypeDiffers(Rule):
                     if not kind or not given or given == kind:
                         continue
                     if narrow_default(package, known, entry.name, given) is None:
-                        message = f"{where} is {a_type(kind)}, but this is {a_type(given)}"
+                        message = (
+                            f"{where} is {a_type(kind)}, but this is {a_type(given)}: {_ERROR}"
+                        )
                         yield self.report(entry.value, message, _fix(path, entry, kind, given))
         yield from self._in_launch_files(package)
 
@@ -131,8 +142,8 @@ class ParameterTypeDiffers(Rule):
                 kind, where = agreed_type(package, known, name)
                 given = value_given(node.launch, value)
                 if kind and given and given.type != kind:
-                    said = f"{given.text} is {a_type(given.type)}"
-                    message = f"{where} is {a_type(kind)}, but {said}"
+                    value_type_ = f"{given.text} is {a_type(given.type)}"
+                    message = f"{where} is {a_type(kind)}, but {value_type_}: {_ERROR}"
                     yield self.report(node.launch.location(value), message)
 
 
@@ -141,8 +152,8 @@ def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:
     if not isinstance(value, Scalar) or value.end - value.start != len(value.text):
         return None
     if kind == "double" and given == "integer" and value.text.lstrip("+-").isdecimal():
-        return Fix("write it with a point", (Edit(path, value.end, value.end, ".0"),))
+        return Fix("write it as a double", (Edit(path, value.end, value.end, ".0"),))
     if kind == "string":
         edit = Edit(path, value.start, value.end, f"'{value.text}'")
-        return Fix("put it in quotes", (edit,), Safety.UNSAFE)
+        return Fix("quote it", (edit,), Safety.UNSAFE)
     return None

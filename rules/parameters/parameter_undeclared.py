@@ -1,4 +1,4 @@
-"""PF004: what a parameter file sets is declared."""
+"""PF004: parameters that are set are declared."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ class ParameterUndeclared(Rule):
             {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")},
         ),
         Example(
-            "the node takes every parameter",
+            "a node that accepts undeclared parameters",
             {
                 "talker.py": _NODE.format(", allow_undeclared_parameters=True"),
                 "a.yaml": _FILE.format("high: 4"),
             },
         ),
         Example(
-            "declared where the node is made",
+            "declared where the node is constructed",
             {
                 "talker/__init__.py": "",
                 "talker/node.py": _NODE.format(""),
@@ -53,7 +53,7 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
-            "misspelt, and forgotten",
+            "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),
                 "a.yaml": _FILE.format("limits:\n      hihg: 4\n    text: hello"),
@@ -61,11 +61,13 @@ class ParameterUndeclared(Rule):
             reports=(
                 Report(
                     "a.yaml:6:7",
-                    "the node talker declares no parameter 'limits.hihg'; 'limits.high' is meant",
+                    "node 'talker' declares no parameter 'limits.hihg': the value is "
+                    "ignored; did you mean 'limits.high'?",
                 ),
                 Report(
                     "a.yaml:7:5",
-                    "the node talker declares no parameter 'text'; it has limits.high, rate",
+                    "node 'talker' declares no parameter 'text': the value is ignored; "
+                    "it has limits.high, rate",
                 ),
             ),
         ),
@@ -81,12 +83,12 @@ class ParameterUndeclared(Rule):
             for section in file.sections if file else ():
                 owners = nodes_for(package, path, section)
                 known = [declared_by(owner, package) for owner in owners]
-                if not known or not all(one.complete for one in known):
+                if not known or not all(node.complete for node in known):
                     continue
                 if not use_of(package, path).nodes and is_loaded(package, path):
                     continue
                 for entry in section.entries:
-                    if not any(one.has(entry.name) for one in known):
+                    if not any(node.has(entry.name) for node in known):
                         message = _message(package, entry.name, known, owners[0].node_name)
                         yield self.report(entry, message)
 
@@ -103,7 +105,7 @@ class ParameterUndeclared(Rule):
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
-    """Tell whether the other program that runs under a name takes the parameter."""
+    """Return whether another program that runs under the same name takes the parameter."""
     return any(
         other.launch is node.launch
         and other.name == node.name
@@ -114,11 +116,11 @@ def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
 
 
 def _message(package: Package, name: str, known: list[Declared], node: object) -> str:
-    names = sorted({one for declared in known for one in declared.types})
+    names = sorted({key for declared in known for key in declared.types})
     near = nearest(package, name, names, 0.6)
     more = ", ..." if len(names) > _MOST_NAMED else ""
     hint = f"it has {', '.join(names[:_MOST_NAMED]) or 'none'}{more}"
     if near:
-        hint = f"{near!r} is meant"
-    who = f"the node {node}" if isinstance(node, str) else "this node"
-    return f"{who} declares no parameter {name!r}; {hint}"
+        hint = f"did you mean {near!r}?"
+    who = f"node {node!r}" if isinstance(node, str) else "this node"
+    return f"{who} declares no parameter {name!r}: the value is ignored; {hint}"

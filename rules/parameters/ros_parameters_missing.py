@@ -1,4 +1,4 @@
-"""PF002: parameters stand under ros__parameters."""
+"""PF002: parameters are nested under ros__parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _FILE = "talker:\n  {}:\n    rate: 2.0\n"
 
 
 class RosParametersMissing(Rule):
-    """Parameters of a file do not stand under ``ros__parameters``, or that is misspelt.
+    """Parameters are not nested under ``ros__parameters``, or the key is misspelled.
 
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... Cannot have a value before ros__parameters at line 3``.
@@ -28,11 +28,11 @@ class RosParametersMissing(Rule):
     examples = (
         Example("two underscores", {"config/talker.yaml": _FILE.format("ros__parameters")}),
         Example(
-            "a node that is called so",
+            "a node of that name",
             {"config/a.yaml": _FILE.format("ros__parameters").replace("talker", "parameters")},
         ),
         Example(
-            "one underscore; too few letters",
+            "one underscore; a missing letter",
             {
                 "config/a.yaml": _FILE.format("ros_parameters"),
                 "config/b.yaml": _FILE.format("ros__parameter"),
@@ -40,13 +40,15 @@ class RosParametersMissing(Rule):
             reports=(
                 Report(
                     "config/a.yaml:2:3",
-                    "ros_parameters is no key of a parameter file; it is ros__parameters",
-                    fix="write ros__parameters",
+                    "unknown key 'ros_parameters': rcl rejects the file; did you mean "
+                    "'ros__parameters'?",
+                    fix="rename it to 'ros__parameters'",
                 ),
                 Report(
                     "config/b.yaml:2:3",
-                    "ros__parameter is no key of a parameter file; it is ros__parameters",
-                    fix="write ros__parameters",
+                    "unknown key 'ros__parameter': rcl rejects the file; did you mean "
+                    "'ros__parameters'?",
+                    fix="rename it to 'ros__parameters'",
                 ),
             ),
             fixed={
@@ -55,12 +57,12 @@ class RosParametersMissing(Rule):
             },
         ),
         Example(
-            "left out for one node of two",
+            "missing for one of two nodes",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
             reports=(
                 Report(
                     "config/a.yaml:5:3",
-                    "'rate' stands under no ros__parameters: node name, ros__parameters, value",
+                    "'rate' is not under 'ros__parameters': rcl rejects the file",
                 ),
             ),
         ),
@@ -75,21 +77,22 @@ class RosParametersMissing(Rule):
                 continue
             is_given = bool(use_of(package, path).nodes)
             is_read = is_given or bool(file.sections and not is_loaded(package, path))
-            for one in file.misplaced[:1]:
-                if one.near is not None and (is_read or self._is_meant(file.misplaced)):
-                    edit = Edit(path, one.near.start, one.near.end, KEY)
-                    message = f"{one.near.text} is no key of a parameter file; it is {KEY}"
-                    yield self.report(one.near, message, Fix(f"write {KEY}", (edit,)))
-                elif one.near is None and is_read:
-                    message = f"{one.key.text!r} stands under no {KEY}: node name, {KEY}, value"
-                    yield self.report(one.key, message)
+            for entry in file.misplaced[:1]:
+                if entry.near is not None and (is_read or self._is_meant(file.misplaced)):
+                    edit = Edit(path, entry.near.start, entry.near.end, KEY)
+                    message = f"unknown key {entry.near.text!r}: rcl rejects the file; "
+                    message += f"did you mean {KEY!r}?"
+                    yield self.report(entry.near, message, Fix(f"rename it to {KEY!r}", (edit,)))
+                elif entry.near is None and is_read:
+                    message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"
+                    yield self.report(entry.key, message)
 
     def _is_meant(self, misplaced: list[Misplaced]) -> bool:
-        """Tell a parameter file from one of another tool that has such a key somewhere."""
-        return all(one.near is not None and one.depth == 1 for one in misplaced)
+        """Return whether this is a parameter file, not a file of another tool with such a key."""
+        return all(entry.near is not None and entry.depth == 1 for entry in misplaced)
 
     def _given(self, package: Package) -> Iterator[str]:
-        """Yield the files that launch files give to nodes."""
+        """Yield the files that launch files pass to nodes."""
         for node in consumers(package):
             for path, _ in node.parameter_files:
                 if package.has(path) and path.endswith((".yaml", ".yml")):

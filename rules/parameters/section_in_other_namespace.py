@@ -1,4 +1,4 @@
-"""PF035: the sections of a parameter file name the namespaces of its nodes."""
+"""PF035: sections of a parameter file name the namespaces of the nodes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _files(section: str) -> dict[str, str]:
 
 
 class SectionInOtherNamespace(Rule):
-    """A parameter file is for a node in a namespace, and the node runs in none.
+    """A section of a parameter file names a namespace that the node does not run in.
 
     **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
 
@@ -50,7 +50,8 @@ class SectionInOtherNamespace(Rule):
             reports=(
                 Report(
                     "config/demo.yaml:1:1",
-                    "this section is for /front/camera, but launch/a.launch.py:10 starts /camera",
+                    "section for '/front/camera' is ignored: launch/a.launch.py:10 "
+                    "starts '/camera'",
                 ),
             ),
         ),
@@ -64,24 +65,24 @@ class SectionInOtherNamespace(Rule):
                 continue
             in_one_process = any(node.package == _CONTROL for node in nodes)
             for section in file.sections if file is not None else ():
-                # The controller manager names the nodes that it makes after its controllers.
+                # The controller manager names the nodes that it creates after its controllers.
                 if section.is_pattern or (in_one_process and section.name != _CONTROL):
                     continue
                 other = _other_node(section, nodes)
                 if other is not None:
                     at = other.call.location
                     message = (
-                        f"this section is for {section.node}, but {at.path}:{at.line} starts "
-                        f"{other.full_name}"
+                        f"section for {section.node!r} is ignored: {at.path}:{at.line} starts "
+                        f"{other.full_name!r}"
                     )
                     yield self.report(section.key, message)
 
 
 def _other_node(section: Section, nodes: list[StartedNode]) -> StartedNode | None:
-    """Return the node of the same name that surely runs in no namespace."""
+    """Return the node of the same name that certainly runs in no namespace."""
     named = [node for node in nodes if node.name == section.name]
     if any(node.is_scoped or node.full_name is None or node.namespace for node in named):
         return None
     return (
-        named[0] if named and not any(section.fits(str(one.full_name)) for one in named) else None
+        named[0] if named and not any(section.fits(str(node.full_name)) for node in named) else None
     )

@@ -1,4 +1,4 @@
-"""PF001: parameter files are YAML."""
+"""PF001: parameter files are valid YAML."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class YamlMalformed(Rule):
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... Error parsing a event near line 2``.
 
-    **Fix.** Mend the syntax; indent with spaces.
+    **Fix.** Correct the syntax; indent with spaces.
 
     **Source.** ``rcl_yaml_param_parser``; YAML 1.2, section 6.1.
     """
@@ -24,16 +24,16 @@ class YamlMalformed(Rule):
     code = "PF001"
     name = "yaml-malformed"
     examples = (
-        Example("YAML", {"config/talker.yaml": _FILE.format("    rate: 2.0\n")}),
+        Example("valid", {"config/talker.yaml": _FILE.format("    rate: 2.0\n")}),
         Example(
-            "a tab, a bracket, a colon",
+            "a tab, an unclosed bracket, a stray colon",
             {
                 "config/a.yaml": _FILE.format("\trate: 2.0\n"),
                 "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
                 "config/c.yaml": _FILE.format("    rate: 2.0: 3\n"),
             },
             reports=(
-                Report("config/a.yaml:3:1", "a tab indents this line; YAML takes spaces alone"),
+                Report("config/a.yaml:3:1", "line is indented with a tab; YAML allows only spaces"),
                 Report(
                     "config/b.yaml:4:1",
                     "not YAML: did not find expected ',' or ']' while parsing a flow sequence",

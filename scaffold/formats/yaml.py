@@ -104,7 +104,7 @@ def _explained(source: Source, error: yaml.MarkedYAMLError) -> ParseError:
         if "\t" in indent:
             place = source.offset(number, indent.index("\t") + 1)
             at = source.location(place, place + 1)
-            return ParseError(at, "a tab indents this line; YAML takes spaces alone")
+            return ParseError(at, "line is indented with a tab; YAML allows only spaces")
     context = f" {error.context}" if error.context else ""
     return ParseError(at, f"not YAML: {error.problem}{context}")
 

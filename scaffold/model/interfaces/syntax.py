@@ -138,7 +138,7 @@ def parse(source: Source, package: str, kind: str, name: str) -> Definition:
         at = Location.start_of(source.path)
         problems.append(Problem(ProblemKind.TYPE_NAME, at, _bad_type_name(name, kind)))
     if source.text.startswith(_BOM):
-        message = "the file starts with a byte order mark, which rosidl takes for a type"
+        message = "the file starts with a byte order mark, which rosidl reads as a type; remove it"
         problems.append(Problem(ProblemKind.SYNTAX, Location.start_of(source.path), message))
     parts = _split(source, kind, problems)
     sections = [
@@ -198,7 +198,9 @@ def _split(source: Source, kind: str, problems: list[Problem]) -> list[list[_Lin
             at = line.at(source.path, 0, len(SEPARATOR))
             places.append(at)
             if source.text[line.start : line.end].splitlines() != [SEPARATOR]:
-                message = f"blanks follow '{SEPARATOR}': rosidl does not take it for a separator"
+                message = (
+                    f"trailing whitespace after '{SEPARATOR}': rosidl does not see the separator"
+                )
                 problems.append(Problem(ProblemKind.SEPARATOR, at, message))
             parts.append([])
         else:
@@ -207,8 +209,8 @@ def _split(source: Source, kind: str, problems: list[Problem]) -> list[list[_Lin
         at = places[wanted] if len(places) > wanted else Location.start_of(source.path)
         sections = ", ".join(SECTIONS[kind])
         message = (
-            f"a .{kind} file has {wanted} line{'s' * (wanted > 1)} '{SEPARATOR}' between "
-            f"{sections}; this one has {len(places)}"
+            f"a .{kind} file needs {wanted} line{'s' * (wanted > 1)} '{SEPARATOR}' between "
+            f"{sections}, but this file has {len(places)}"
         )
         problems.append(Problem(ProblemKind.SEPARATOR, at, message))
     return parts
@@ -253,7 +255,7 @@ class _Parser:
         type_text, _, behind = text[indent:].partition(" ")
         type_at = line.at(self._path, indent, len(type_text))
         if indent:
-            message = "the line is indented: rosidl wants the type in the first column"
+            message = "indented line: rosidl needs the type in the first column"
             self._problem(ProblemKind.SYNTAX, type_at, message)
         rest = behind.lstrip()
         if not rest:
@@ -277,10 +279,10 @@ class _Parser:
 
     def _incomplete(self, text: str, at: Location) -> None:
         if text == SEPARATOR:
-            message = f"'{SEPARATOR}' separates the parts of .srv and .action files only"
+            message = f"'{SEPARATOR}' belongs in .srv and .action files only"
             self._problem(ProblemKind.SEPARATOR, at, message)
             return
-        message = f"{text!r} is followed by nothing: a line is a type and a name"
+        message = f"no field name after {text!r}; write a type and a name"
         self._problem(ProblemKind.SYNTAX, at, message)
 
     def _field(self, words: _Words) -> None:
@@ -306,7 +308,7 @@ class _Parser:
             return
         if words.type.text not in PRIMITIVES:
             message = (
-                f"a constant cannot be a {words.type.text!r}: only primitive types, without bounds"
+                f"a constant cannot be a {words.type.text!r}; use a primitive type without bounds"
             )
             self._problem(ProblemKind.TYPE, words.type.at, message)
             return

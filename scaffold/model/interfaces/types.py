@@ -121,8 +121,8 @@ def parse_type(text: str, package: str) -> FieldType:
     size = _size(size_text.removeprefix("<=")) if size_text else None
     if size_text and not size:
         raise TypeSpellingError(
-            f"the size of the array {text!r} is no whole number above 0, "
-            "as in '[3]', or '[<=3]' for at most three elements"
+            f"invalid array size in {text!r}; write a positive integer, as in '[3]', or "
+            "'[<=3]' for at most three elements"
         )
     element = _element_type(base, package)
     return element._replace(is_array=True, array_size=size, is_upper_bound=is_upper_bound)
@@ -132,17 +132,17 @@ def _element_type(text: str, package: str) -> FieldType:
     if text in PRIMITIVES:
         return FieldType(text)
     if text in _ROS1_PRIMITIVES:
-        raise TypeSpellingError(f"{text!r} is of ROS 1; write {_ROS1_PRIMITIVES[text]!r}")
+        raise TypeSpellingError(f"{text!r} is a ROS 1 type; write {_ROS1_PRIMITIVES[text]!r}")
     name, bound_sign, bound_text = text.partition("<=")
     if bound_sign and name in TEXTS:
         bound = _size(bound_text)
         if not bound:
             raise TypeSpellingError(
-                f"the largest length in {text!r} is no whole number above 0, as in '{name}<=10'"
+                f"invalid bound in {text!r}; write a positive integer, as in '{name}<=10'"
             )
         return FieldType(name, text_bound=bound)
     if bound_sign:
-        raise TypeSpellingError(f"only 'string' and 'wstring' have a largest length, not {name!r}")
+        raise TypeSpellingError(f"only 'string' and 'wstring' can have a bound, not {name!r}")
     return _interface_type(text, package)
 
 
@@ -152,15 +152,17 @@ def _interface_type(text: str, package: str) -> FieldType:
             own = package
         case [own, name]:
             if not is_field_name(own):
-                raise TypeSpellingError(f"{own!r} in {text!r} is no name of a package")
+                raise TypeSpellingError(f"{own!r} in {text!r} is not a package name")
         case [own, "msg", name]:
-            raise TypeSpellingError(f"in a definition the type {text!r} is written '{own}/{name}'")
+            raise TypeSpellingError(
+                f"definitions name this type without 'msg'; write '{own}/{name}'"
+            )
         case _:
-            raise TypeSpellingError(f"{text!r} is no type: at most 'package/Name'")
+            raise TypeSpellingError(f"{text!r} is not a type; write 'package/Name'")
     if not is_type_name(name):
         raise TypeSpellingError(
-            f"{text!r} is no type: neither a primitive one nor the name of an interface, "
-            "which starts with a capital and has only letters and digits"
+            f"{text!r} is neither a primitive type nor an interface name (a capital letter, "
+            "then letters and digits)"
         )
     return FieldType(name, own)
 
@@ -187,7 +189,7 @@ def parse_value(type_: FieldType, text: str) -> Value:
     if not type_.is_array:
         return _scalar(type_, text)
     if not (text.startswith("[") and text.endswith("]")):
-        raise ValueSpellingError(f"the default {_short(text)} of an array does not stand in '[ ]'")
+        raise ValueSpellingError(f"the array default {_short(text)} is not enclosed in '[ ]'")
     inside = text[1:-1]
     split = _split_texts if type_.name in TEXTS else _split_numbers
     parts = split(inside)
@@ -203,13 +205,16 @@ def parse_value(type_: FieldType, text: str) -> Value:
 def _scalar(type_: FieldType, text: str) -> Scalar:
     if type_.name == "bool":
         if text.lower() not in {"true", "false", "1", "0"}:
-            raise ValueSpellingError(f"{_short(text)} is no bool: 'true', 'false', '1' or '0'")
+            raise ValueSpellingError(
+                f"{_short(text)} is not a bool; write 'true', 'false', '1' or '0'"
+            )
         return text.lower() in {"true", "1"}
     if type_.name in FLOATS:
         try:
             return float(text)
         except ValueError:
-            raise ValueSpellingError(f"{_short(text)} is no number for {type_.name!r}") from None
+            message = f"{_short(text)} is not a number, as {type_.name!r} needs"
+            raise ValueSpellingError(message) from None
     if type_.name in INTEGER_RANGES:
         return _integer(type_.name, text)
     return _text(type_, text)
@@ -225,10 +230,10 @@ def _integer(type_name: str, text: str) -> int:
             continue
     lowest, highest = INTEGER_RANGES[type_name]
     if value is None:
-        raise ValueSpellingError(f"{_short(text)} is no whole number for {type_name!r}")
+        raise ValueSpellingError(f"{_short(text)} is not an integer, as {type_name!r} needs")
     if not lowest <= value <= highest:
         raise ValueSpellingError(
-            f"{_short(text)} is outside of {type_name!r}, which holds {lowest} to {highest}"
+            f"{_short(text)} is out of range for {type_name!r}: {lowest} to {highest}"
         )
     return value
 

@@ -265,7 +265,7 @@ class Misfits:
         return self._length(type_, node) or self._elements(type_.element, node)
 
     def _table(self, node: ast.expr) -> str | None:
-        """Say that an array of numpy has two dimensions: rosidl reads beyond the first row."""
+        """Report a numpy array with two dimensions: rosidl reads beyond the first row."""
         value = self._types.facts.evaluator.single_value(node)
         if not isinstance(value, ast.Call) or not value.args:
             return None
@@ -278,8 +278,7 @@ class Misfits:
             is_table = isinstance(first, tuple | list) and len(first) > 1
         elif name == "numpy.array" and isinstance(first, tuple | list):
             is_table = any(isinstance(one, tuple | list) for one in first)
-        shown = f"{self._shown(node)} has rows and columns"
-        return f"{shown}, which are not read as one row; append .flatten()" if is_table else None
+        return f"{self._shown(node)} is two-dimensional; append .flatten()" if is_table else None
 
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
         value = self._types.facts.evaluator.evaluate(node)
@@ -301,7 +300,7 @@ class Misfits:
                 continue
             wrong = None if isinstance(part, ast.Starred) else self._one(type_, part)
             if wrong:
-                return f"the element {wrong}"
+                return f"element {wrong}"
         return None
 
     def _one(self, type_: FieldType, node: ast.expr) -> str | None:
@@ -323,15 +322,15 @@ class Misfits:
         return self._out_of_range(type_, node, value)
 
     def _object_of_rclpy(self, node: ast.expr) -> str | None:
-        """Say that a value is an object of rclpy, or one of its methods that nobody calls."""
+        """Report an rclpy object, or a method of it that is not called."""
         facts = self._types.facts
         if isinstance(node, ast.Attribute):
             owner = class_of(facts, node.value)
             if owner is not None and is_method(owner, node.attr):
-                return f"{node.attr} is a method that is not called here: {node.attr}()"
+                return f"{node.attr!r} is a method that is not called; write {node.attr}()"
         class_ = class_of(facts, node) if isinstance(node, ast.Call) else None
         if class_ == PARAMETER:
-            return f"{self._shown(node)} is a Parameter: its value is meant"
+            return f"{self._shown(node)} is a Parameter; append .value"
         return None
 
     def _instead_of_message(self, node: ast.expr) -> str | None:
@@ -354,7 +353,7 @@ class Misfits:
         if counter is not None:
             at = self._types.module.location(counter)
             name = self._types.module.text(counter)
-            return f"{name} grows without end in line {at.line}: {held}"
+            return f"{name} grows without bound in line {at.line}: {held}"
         return None
 
     def _is_epoch(self, node: ast.expr) -> bool:

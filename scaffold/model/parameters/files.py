@@ -117,7 +117,9 @@ class ParameterFile:
 
     def _read_section(self, key: Scalar, value: YamlNode, above: tuple[Scalar, ...]) -> None:
         if not above:
-            self.refused.append(Refused(key.location, f"no node name stands above {KEY}"))
+            self.refused.append(
+                Refused(key.location, f"no node name above {KEY!r}: rcl rejects the file")
+            )
         elif isinstance(value, Mapping):
             node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
             section = Section(node, above[-1], list(_entries(value, "")))
@@ -125,7 +127,9 @@ class ParameterFile:
             for entry in section.entries:
                 self.refused.extend(_refused(entry.name, entry.key, entry.value))
         elif isinstance(value, Scalar):
-            self.refused.append(Refused(key.location, f"{KEY} holds no parameters"))
+            self.refused.append(
+                Refused(key.location, f"no parameters under {KEY!r}: rcl rejects the file")
+            )
 
 
 def _has_key(mapping: Mapping) -> bool:
@@ -196,15 +200,22 @@ def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
 
 
 def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
-    """Yield what rcl does not take in a value: nothing, aliases, lists in lists."""
+    """Yield values that rcl rejects: none, aliases, lists of lists."""
     for item in value.items if isinstance(value, Sequence) else (value,):
         if is_empty(item):
             at = key.location if item is value else item.location
-            yield Refused(at, f"{name} has no value; write ~ or '' for an empty string")
+            yield Refused(
+                at, f"{name!r} has no value: rcl rejects the file; write '' for an empty string"
+            )
         elif isinstance(item, Alias):
-            yield Refused(item.location, f"{name} is the alias *{item.name}; rcl has no aliases")
+            yield Refused(
+                item.location,
+                f"{name!r} is the alias *{item.name}: rcl rejects the file; write the value",
+            )
         elif isinstance(item, Sequence) and item is not value:
-            yield Refused(item.location, f"{name} is a list of lists; rcl has none")
+            yield Refused(
+                item.location, f"{name!r} is a list of lists: rcl rejects the file; flatten it"
+            )
             return
 
 

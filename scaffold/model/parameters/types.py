@@ -21,12 +21,12 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
         name: The name of the parameter.
     """
     if name in ALWAYS:
-        return "bool", f"{name}, which every node has,"
+        return "bool", f"{name!r} (declared by rclpy)"
     nodes = [one for one in known if name in one.types]
     types = {one.types[name] for one in nodes}
     if len(types) != 1:
         return None, name
-    return types.pop(), f"{name} ({place_of(nodes[0].places[name], package)})"
+    return types.pop(), f"{name!r} ({place_of(nodes[0].places[name], package)})"
 
 
 def narrow_default(

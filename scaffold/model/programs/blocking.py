@@ -43,7 +43,7 @@ def in_callbacks(facts: RclpyFile) -> Iterator[Executed]:
             seen.add(reached)
             if not isinstance(reached, ast.AsyncFunctionDef):
                 name = callback.name
-                yield Executed(reached, f"the callback {name}" if name else "a callback")
+                yield Executed(reached, f"callback {name!r}" if name else "a callback")
 
 
 def in_constructors(facts: RclpyFile) -> Iterator[Executed]:
@@ -64,7 +64,7 @@ class Wait(NamedTuple):
     facts: RclpyFile
     call: ast.Call
     where: str
-    """What the thread does: ``is the one that waits``, ``is in the callback tick``."""
+    """What the thread does: ``is blocked in this call``, ``is in callback 'tick'``."""
 
 
 def waits_alone(
@@ -102,7 +102,7 @@ def _waits(run: Run, method: str) -> Iterator[Wait]:
         if isinstance(call, ast.Call):
             where = places.get(facts.function_of(call) or facts.module)
             if where is not None or call in run.calls:
-                yield Wait(facts, call, where or "is the one that waits")
+                yield Wait(facts, call, where or "is blocked in this call")
 
 
 def _places(run: Run) -> dict[object, str]:
@@ -114,7 +114,7 @@ def _places(run: Run) -> dict[object, str]:
         if isinstance(owner, NodeClass) and owner.facts is facts:
             classes.update(facts.related_classes(owner.node))
             functions += facts.reached(owner.constructor) if owner.constructor else ()
-    places = dict.fromkeys(functions, "is the one that waits")
+    places = dict.fromkeys(functions, "is blocked in this call")
     for executed in in_callbacks(facts):
         class_ = facts.module.enclosing_class(executed.function)
         if class_ is None or class_ in classes:

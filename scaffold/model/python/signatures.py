@@ -1,4 +1,4 @@
-"""Whether a call gives a function of one's own the arguments that it takes."""
+"""Check calls against the signatures of functions in the package."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ import ast
 
 
 def misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
-    """Say what does not fit between a call and the parameters of what is called.
+    """Return how a call does not fit the signature of the called function.
 
     Args:
         call: The call, without ``*`` and ``**``.
         takes: The parameters.
-        bound: How many of the first ones are given anyway: 1 for ``self``.
+        bound: How many of the first ones are bound already: 1 for ``self``.
 
     Returns:
-        Words that follow the name of the function; empty when all fits.
+        Words that follow the name of the function; empty if the call fits.
     """
     positional = [*takes.posonlyargs, *takes.args][bound:]
     names = [one.arg for one in positional]
     if len(call.args) > len(names) and takes.vararg is None:
         count = len(names)
         noun = "argument" if count == 1 else "arguments"
-        return f"takes {count or 'no'} {noun}, not {len(call.args)}"
+        return f"takes {count or 'no'} {noun}, but gets {len(call.args)}"
     words = {word.arg for word in call.keywords if word.arg}
     by_name = {one.arg for one in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
     by_name |= {one.arg for one in takes.kwonlyargs}
@@ -35,7 +35,7 @@ def misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
         if default is None
     ]
     missing = [name for name in needed if name not in words]
-    return f"needs {', '.join(missing)} as well" if missing else ""
+    return f"is missing {', '.join(map(repr, missing))}" if missing else ""
 
 
 def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> str:
@@ -47,7 +47,7 @@ def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> 
         words: The names of what is given besides.
 
     Returns:
-        Words that follow the name of the function; empty when all fits.
+        Words that follow the name of the function; empty if the call fits.
     """
     given = [one.arg for one in [*arguments.posonlyargs, *arguments.args]]
     if not given and arguments.vararg is None:

@@ -130,8 +130,9 @@ def is_known(value: object) -> bool:
 
 
 def kind_of(value: object) -> str:
-    """Return what a value is, in words: ``a str``, ``None``."""
-    return "None" if value is None else f"a {type(value).__name__}"
+    """Describe the type of a value: ``a str``, ``an int``, ``None``."""
+    name = type(value).__name__
+    return "None" if value is None else f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
 def same(first: object, second: object) -> bool:

@@ -27,7 +27,7 @@ PROFILES: Mapping[str, tuple[int, str, str, str]] = {
 """Depth, history, reliability and durability of the predefined profiles of rclpy 7.1."""
 
 Conflict = tuple[str, str]
-"""What is offered, and what is asked for instead: ``is BEST_EFFORT``, ``wants RELIABLE``."""
+"""What is offered, and what is asked for instead: ``is BEST_EFFORT``, ``requests RELIABLE``."""
 
 _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 
@@ -161,9 +161,9 @@ def conflict_of(publisher: Publisher, subscription: Subscription) -> Conflict | 
     if offered is None or asked is None:
         return None
     if offered.reliability == "BEST_EFFORT" and asked.reliability == "RELIABLE":
-        return ("is BEST_EFFORT", "wants RELIABLE")
+        return ("is BEST_EFFORT", "requests RELIABLE")
     if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
-        return ("is VOLATILE", "wants TRANSIENT_LOCAL")
+        return ("is VOLATILE", "requests TRANSIENT_LOCAL")
     return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
 
 
@@ -173,9 +173,9 @@ def _conflict_of_time(
     if offered is None or asked is None:
         return None
     if "deadline" in asked and "deadline" not in offered:
-        return ("has no deadline", "wants a deadline")
+        return ("has no deadline", "requests a deadline")
     if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
-        return ("has AUTOMATIC liveliness", "wants it MANUAL_BY_TOPIC")
+        return ("has AUTOMATIC liveliness", "requests MANUAL_BY_TOPIC")
     return None
 
 

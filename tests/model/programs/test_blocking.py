@@ -61,10 +61,10 @@ SPIN = "executor = {}Executor(); executor.add_node(node); executor.spin()"
 @pytest.mark.parametrize(
     ("main", "constructor", "where"),
     [
-        ("rclpy.spin(node)", TIMER, "is in the callback tick"),
-        (SPIN.format("SingleThreaded"), TIMER, "is in the callback tick"),
-        ("node.tick()", "pass", "is the one that waits"),
-        ("rclpy.spin(node)", "self.tick()", "is the one that waits"),
+        ("rclpy.spin(node)", TIMER, "is in callback 'tick'"),
+        (SPIN.format("SingleThreaded"), TIMER, "is in callback 'tick'"),
+        ("node.tick()", "pass", "is blocked in this call"),
+        ("rclpy.spin(node)", "self.tick()", "is blocked in this call"),
     ],
 )
 def test_nobody_else_spins(main: str, constructor: str, where: str) -> None:

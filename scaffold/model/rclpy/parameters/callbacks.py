@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 _PRE = CALLBACKS[-1]
 RESULT = "rcl_interfaces.msg.SetParametersResult"
 _MESSAGE = r"\w+\.(?:msg|srv|action)\.\w+"
-_REFUSED = "every change is refused"
+_REFUSED = "every change is rejected"
 
 
 def wrong_value(method: str, facts: RclpyFile, value: ast.expr | None) -> str:
-    """Return what is wrong about what a callback returns that a method adds, else nothing."""
+    """Return the problem with the result of a callback that a method adds, else nothing."""
     return (_wrong_list if method == _PRE else _wrong_result)(facts, value)
 
 
@@ -40,11 +40,11 @@ def _wrong_result(facts: RclpyFile, value: ast.expr | None) -> str:
     elif isinstance(value, ast.List | ast.Tuple | ast.Dict):
         what = f"a {type(value).__name__.lower()}"
     elif full == RESULT and not isinstance(value, ast.Call):
-        return "the class SetParametersResult: make one with successful=True"
+        return "the class SetParametersResult; instantiate it with successful=True"
     elif full != RESULT and re.fullmatch(_MESSAGE, full) and full[0] != ".":
         what = f"a {full.rpartition('.')[2]}"
     elif isinstance(value, ast.Call) and _gives_nothing(facts, value):
-        what = f"what {facts.module.text(value.func)} gives, which is None"
+        what = f"the result of {facts.module.text(value.func)}(), which is None"
     return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
 
 
