@@ -89,8 +89,14 @@ class SyntaxIndex:
         return True
 
     def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
-        """Yield a node and those below it that are of some types, one type after the other."""
-        first = self._numbers[node]
+        """Yield a node and those below it that are of some types, one type after the other.
+
+        The node may be of another module, as the method of a base class is.
+        """
+        first = self._numbers.get(node)
+        if first is None:
+            yield from (inner for inner in ast.walk(node) if type(inner) in kinds)  # type: ignore[misc]
+            return
         last = self._last_number(node)
         for kind in kinds:
             if kind not in self._numbers_of:

@@ -679,3 +679,14 @@ def test_spans_are_what_ast_says(snippets: list[str], newline: str, bom: str) ->
         if hasattr(node, "lineno") and not inside:
             expected = ast.get_source_segment(plain, node)
             assert view.text(node).replace(newline, "\n") == expected
+
+
+def test_nodes_below_a_function_of_this_module_or_another() -> None:
+    text = "def f():\n    while a:\n        def g():\n            while b:\n                c()\n"
+    module, other = (PythonModule.parse(Source("a.py", text)) for _ in range(2))
+    for function in (*module.function_nodes, *other.function_nodes):
+        loops = [node.lineno for node in module.below(function, ast.While)]
+        assert loops == ([2, 4] if function.name == "f" else [4])
+        kinds = [type(node) for node in module.below(function, ast.Call, ast.While)]
+        assert set(kinds) == {ast.Call, ast.While}
+    assert [*module.below(module.function_nodes[1], ast.Return)] == []
