@@ -47,28 +47,20 @@ class InterfaceUnknown(MessageRule):
                 "message = std_msgs.msg.Sting()\n",
             },
             reports=(
-                Report(
-                    "talker.py:2:26",
-                    "std_msgs.msg has no 'Str': ImportError; did you mean 'String'?",
-                ),
+                Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
                 Report(
                     "talker.py:3:26",
-                    "std_msgs.msg has no 'Twist': ImportError; did you mean "
-                    "'geometry_msgs/msg/Twist'?",
+                    "std_msgs.msg has no 'Twist'; did you mean 'geometry_msgs/msg/Twist'?",
                 ),
                 Report(
                     "talker.py:4:26",
-                    "std_msgs.srv has no 'Empty': ImportError; did you mean "
-                    "'std_msgs/msg/Empty' or 'std_srvs/srv/Empty'?",
+                    "std_msgs.srv has no 'Empty'; did you mean 'std_msgs/msg/Empty' or "
+                    "'std_srvs/srv/Empty'?",
                 ),
                 Report(
-                    "talker.py:5:27",
-                    "std_msgs has no module 'msgs': ImportError; did you mean 'std_msgs.msg'?",
+                    "talker.py:5:27", "std_msgs has no module 'msgs'; did you mean 'std_msgs.msg'?"
                 ),
-                Report(
-                    "talker.py:7:11",
-                    "std_msgs.msg has no 'Sting': ImportError; did you mean 'String'?",
-                ),
+                Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
             ),
         ),
         Example(
@@ -93,11 +85,7 @@ class InterfaceUnknown(MessageRule):
         Example(
             "from a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            reports=(
-                Report(
-                    "talker.py:1:31", "my_msgs.msg has no 'Bet': ImportError; did you mean 'Beat'?"
-                ),
-            ),
+            reports=(Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),),
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
@@ -124,14 +112,14 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
     if known is None or name.startswith("_") or name == "*":
         return None
     if module != kind:
-        return f"{owner} has no module {kind!r}: ImportError; did you mean '{owner}.{module}'?"
+        return f"{owner} has no module {kind!r}; did you mean '{owner}.{module}'?"
     if kind not in KINDS or name in known or any(name.startswith(f"{x}_") for x in known):
         return None
     hint = nearest_word(name, known)
     elsewhere = [match for match in definitions.matches(name) if match.endswith(f"/{name}")]
     if elsewhere and (not hint or not known):
         hint = f"; did you mean {' or '.join(map(repr, elsewhere[:3]))}?"
-    return f"{owner}.{kind} has no {name!r}: ImportError{hint}"
+    return f"{owner}.{kind} has no {name!r}{hint}"
 
 
 def _without_kind(definitions: Definitions, owner: str, name: str) -> str | None:

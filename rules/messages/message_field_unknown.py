@@ -104,6 +104,19 @@ class MessageFieldUnknown(MessageRule):
                 ),
             ),
         ),
+        Example(
+            "an unknown part of a service",
+            {
+                "talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n",
+            },
+            reports=(
+                Report(
+                    "talker.py:3:19",
+                    "std_srvs/srv/SetBool has no 'Requests': AttributeError; did you "
+                    "mean 'Request'?",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -147,4 +160,5 @@ def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
         return None
     if hasattr(type, node.attr) or node.attr.startswith("_"):
         return None
-    return f"{full_name} has no {node.attr!r}{nearest_word(node.attr, [*PARTS[dotted[1]]])}"
+    hint = nearest_word(node.attr, [*PARTS[dotted[1]]])
+    return f"{full_name} has no {node.attr!r}: AttributeError{hint}"

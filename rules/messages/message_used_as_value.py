@@ -90,6 +90,21 @@ class MessageUsedAsValue(MessageRule):
                 ),
             ),
         ),
+        Example(
+            "a message in a for loop",
+            {
+                "listener.py": _NODE.format("''", "0").replace(
+                    "        return", "        for x in msg:\n            print(x)\n        return"
+                )
+            },
+            reports=(
+                Report(
+                    "listener.py:15:18",
+                    "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one "
+                    "of its fields",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:

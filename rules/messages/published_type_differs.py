@@ -88,6 +88,24 @@ class PublishedTypeDiffers(MessageRule):
                 ),
             ),
         ),
+        Example(
+            "a number, a field of a response",
+            {
+                "talker.py": _NODE.format("1.5", "Trigger.Response().message"),
+            },
+            reports=(
+                Report(
+                    "talker.py:13:26",
+                    "a number sent through the publisher of line 9, which takes "
+                    "std_msgs/msg/String: TypeError",
+                ),
+                Report(
+                    "talker.py:14:32",
+                    "field 'message' sent through the client of line 10, which takes "
+                    "std_srvs/srv/Trigger.Request: TypeError",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:

@@ -82,6 +82,21 @@ class ActionTypeWrong(MessageRule):
                 ),
             ),
         ),
+        Example(
+            "a message type",
+            {
+                "sender.py": "from std_msgs.msg import String\n"
+                + _NODE.format("self, String", _GOAL)
+            },
+            reports=(
+                Report("sender.py:10:42", "'String' is not an action type"),
+                Report(
+                    "sender.py:13:37",
+                    "example_interfaces/action/Fibonacci.Goal sent through the client "
+                    "of line 10, which takes std_msgs/msg/String.Goal: TypeError",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:

@@ -39,6 +39,16 @@ _HELPER = {
     "class Pull(Helper):\n    def client(self) -> rclpy.node.Client:\n"
     "        return self.create_client(Trigger, ('mission', 'pull'))\n",
 }
+_ASKER = (
+    "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup\n"
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n"
+    "from std_srvs.srv import Trigger\n\n\n"
+    "class Asker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('asker')\n"
+    "        self.create_client({}, {}, callback_group={})\n"
+)
+_CLIENT = "        self.create_client({}, {}, callback_group={})\n"
 
 
 class ArgumentUnusable(RclpyRule):
@@ -81,6 +91,25 @@ class ArgumentUnusable(RclpyRule):
                     "talker.py:10:41",
                     "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
                 ),
+            ),
+        ),
+        Example(
+            "a name, a callback group, a service type",
+            {
+                "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
+                + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
+            },
+            reports=(
+                Report(
+                    "asker.py:10:28", "this is only a part of a service: RuntimeError; pass Trigger"
+                ),
+                Report(
+                    "asker.py:10:70",
+                    "the callback group must be a CallbackGroup, but this is a str: AttributeError",
+                ),
+                Report("asker.py:11:28", "'String' is not a service type: RuntimeError"),
+                Report("asker.py:11:36", "the name must be a str, but this is an int: TypeError"),
+                Report("asker.py:11:54", "this is a class, not a callback group; instantiate it"),
             ),
         ),
     )

@@ -41,6 +41,19 @@ _ASKING = (
     "    def end(self{}):\n"
     "        pass\n"
 ).replace("def end(self{})", "def end(self, future{})")
+_SERVER = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_timer(1.0, self.tick)\n"
+    "        self.create_service(Trigger, 'report', self.report)\n"
+    "        self.server = ActionServer(self, Fibonacci, 'count', self.execute)\n\n"
+    "    def tick(self, event):\n        pass\n\n"
+    "    def report(self, request):\n        pass\n\n"
+    "    def execute(self):\n        pass\n"
+)
 
 
 class CallbackArity(RclpyRule):
@@ -84,7 +97,27 @@ class CallbackArity(RclpyRule):
                 Report(
                     "listener.py:8:53",
                     "callback 'hear' takes 0 arguments, but a subscription passes the "
-                    "message: TypeError",
+                    "message: RuntimeError",
+                ),
+            ),
+        ),
+        Example(
+            "a timer, a service, an action server",
+            {"server.py": _SERVER},
+            reports=(
+                Report(
+                    "server.py:10:32",
+                    "callback 'tick' takes 1 argument, but a timer passes none: TypeError",
+                ),
+                Report(
+                    "server.py:11:48",
+                    "callback 'report' takes 1 argument, but a service passes the "
+                    "request and the response: TypeError",
+                ),
+                Report(
+                    "server.py:12:62",
+                    "callback 'execute' takes 0 arguments, but an action server passes "
+                    "the goal handle: the goal is aborted",
                 ),
             ),
         ),
@@ -98,7 +131,7 @@ class CallbackArity(RclpyRule):
             least, most = takes.start, takes.stop - 1
             has = str(least) if least == most else f"{least} to {most}"
             noun = "argument" if has == "1" else "arguments"
-            message = f"{_shown(callback)} takes {has} {noun}, but {given[1]}: TypeError"
+            message = f"{_shown(callback)} takes {has} {noun}, but {given[1]}"
             yield self.report(callback, message)
 
 
@@ -116,17 +149,17 @@ def _given_callbacks(facts: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], 
         match facts.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
                 if class_of(facts, attribute.value) == "rclpy.task.Future":
-                    yield ((1,), "a future passes itself"), facts.callback(passed)
+                    yield ((1,), "a future passes itself: TypeError"), facts.callback(passed)
 
 
 def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
     """Return the possible numbers of arguments of a callback, and their description."""
     if isinstance(entity, Subscription):
-        return (1, 2), "a subscription passes the message"
+        return (1, 2), "a subscription passes the message: RuntimeError"
     if isinstance(entity, Timer):
-        return (0,), "a timer passes none"
+        return (0,), "a timer passes none: TypeError"
     if isinstance(entity, Service):
-        return (2,), "a service passes the request and the response"
+        return (2,), "a service passes the request and the response: TypeError"
     if isinstance(entity, ActionServer):
-        return (1,), "an action server passes the goal handle"
+        return (1,), "an action server passes the goal handle: the goal is aborted"
     return None

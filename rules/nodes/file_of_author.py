@@ -40,9 +40,7 @@ class FileOfAuthor(Rule):
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
             reports=(
                 Report(
-                    "talker.py:5:15",
-                    "'/home/dev/ws/words.txt' exists only on the author's machine: "
-                    "FileNotFoundError",
+                    "talker.py:5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"
                 ),
             ),
         ),
@@ -85,7 +83,7 @@ class FileOfAuthor(Rule):
                 if not isinstance(text, str):
                     continue
                 if re.fullmatch(_HOME, text):
-                    message = f"{text!r} exists only on the author's machine: FileNotFoundError"
+                    message = f"{text!r} exists only on the author's machine"
                     yield self.report(module.location(call.args[0]), message)
                 elif name == "open" and _reads(call) and _is_in(package, text):
                     message = (

@@ -37,6 +37,23 @@ class InitRepeated(RclpyRule):
                 Report("talker.py:6:5", "rclpy.init() is already called in line 5: RuntimeError"),
             ),
         ),
+        Example(
+            "in the constructor of a node",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                + _MAIN.format("    Talker()\n")
+                + "\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        rclpy.init()\n"
+                "        super().__init__('talker')\n"
+            },
+            reports=(
+                Report(
+                    "talker.py:13:9",
+                    "rclpy.init() is called before this node is constructed: RuntimeError",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

@@ -51,6 +51,15 @@ class LogMessageNotText(RclpyRule):
             ),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
+        Example(
+            "arguments to format",
+            {"talker.py": _NODE.format("'%d', 42")},
+            reports=(
+                Report(
+                    "talker.py:6:38", "loggers do not format arguments: TypeError; use an f-string"
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

@@ -71,6 +71,17 @@ class NodeNotConstructed(RclpyRule):
                 ),
             ),
         ),
+        Example(
+            "without self",
+            {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "Node"))},
+            reports=(
+                Report(
+                    "talker.py:6:9",
+                    "Node.__init__() is called without self: TypeError; write "
+                    "super().__init__(...)",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

@@ -81,6 +81,27 @@ class ParameterCallbackMisused(RclpyRule):
                 ),
             ),
         ),
+        Example(
+            "items of a dict, pairs",
+            {
+                "talker.py": _NODE.format("self.on_set", "[0]").replace(
+                    "        return",
+                    "        names = list(parameters.keys())\n"
+                    "        for name, value in parameters:\n            names.append(name)\n"
+                    "        return",
+                )
+            },
+            reports=(
+                Report(
+                    "talker.py:13:22",
+                    "'parameters' is a list of parameters, not a dict: AttributeError",
+                ),
+                Report(
+                    "talker.py:14:28",
+                    "'parameters' is a list of parameters, not of pairs: TypeError",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

@@ -70,6 +70,23 @@ class ParameterDefaultUnusable(RclpyRule):
                 ),
             ),
         ),
+        Example(
+            "a Parameter, a set, NOT_SET, a type with dynamic_typing",
+            {
+                "a.py": _NODE.format("Parameter('rate', value=1.0)", "", "{'slow'}"),
+                "b.py": _NODE.format(
+                    "Parameter.Type.DOUBLE", "dynamic_typing=True", "Parameter.Type.NOT_SET"
+                ),
+            },
+            reports=(
+                Report("a.py:9:40", "expected the default itself, not a Parameter: TypeError"),
+                Report("a.py:10:47", "a parameter cannot hold a set: TypeError"),
+                Report(
+                    "b.py:9:40", "a type and dynamic_typing=True exclude each other: ValueError"
+                ),
+                Report("b.py:10:47", "a parameter of type NOT_SET cannot be declared: ValueError"),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

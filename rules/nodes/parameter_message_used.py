@@ -41,7 +41,7 @@ class ParameterMessageUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:24",
-                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
+                    "get_parameter_value() returns a message, not the value; use .value",
                 ),
             ),
         ),
@@ -51,7 +51,7 @@ class ParameterMessageUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:8:18",
-                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
+                    "get_parameter_value() returns a message, not the value; use .value",
                 ),
             ),
         ),
@@ -61,7 +61,7 @@ class ParameterMessageUsed(RclpyRule):
             reports=(
                 Report(
                     "talker.py:9:27",
-                    "get_parameter_value() returns a message, not a number: TypeError; use .value",
+                    "get_parameter_value() returns a message, not the value; use .value",
                 ),
             ),
         ),
@@ -71,9 +71,7 @@ class ParameterMessageUsed(RclpyRule):
         for read in facts.parameter_reads:
             used = _used_as_number(facts, read)
             if used is not None:
-                message = (
-                    "get_parameter_value() returns a message, not a number: TypeError; use .value"
-                )
+                message = "get_parameter_value() returns a message, not the value; use .value"
                 yield self.report(facts.module.location(used), message)
 
 

@@ -96,6 +96,30 @@ class ParameterResultMissing(RclpyRule):
                 ),
             ),
         ),
+        Example(
+            "a lambda, a coroutine, a generator",
+            {
+                "quick.py": _NODE.replace("self.on_set)", "lambda parameters: True)").format(
+                    "parameters", _RIGHT
+                ),
+                "waiting.py": _NODE.replace("def on", "async def on").format("parameters", _RIGHT),
+                "yielding.py": _NODE.format("parameters", _RIGHT.replace("return", "yield")),
+            },
+            reports=(
+                Report(
+                    "quick.py:8:64",
+                    "returns True, not a SetParametersResult: every change is rejected",
+                ),
+                Report(
+                    "waiting.py:10:15",
+                    "on_set() is a coroutine: it does not return a SetParametersResult",
+                ),
+                Report(
+                    "yielding.py:10:9",
+                    "on_set() is a generator: it does not return a SetParametersResult",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

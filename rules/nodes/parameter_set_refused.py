@@ -10,7 +10,7 @@ from scaffold.api.parameters import Declared, a_type, declared_by
 from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set, rclpy_files
 
 _NODE = (
-    "from rcl_interfaces.msg import ParameterDescriptor\n"
+    "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"
     "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
     "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
     "        self.declare_parameter('rate', 1.0{})\n\n"
@@ -18,6 +18,9 @@ _NODE = (
     "        self.set_parameters([Parameter('rate', {})])\n"
 )
 _FIXED = ", ParameterDescriptor(read_only=True)"
+_RANGE = (
+    "ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=9.0)])"
+)
 
 
 class ParameterSetRefused(Rule):
@@ -62,6 +65,24 @@ class ParameterSetRefused(Rule):
                     "talker.py:12:30",
                     "'rate' (talker.py:9) is declared as double, but this has no value: "
                     "it keeps its value",
+                ),
+            ),
+        ),
+        Example(
+            "out of range, undeclared although read-only",
+            {
+                "far.py": _NODE.format(f", {_RANGE}", "value=20.0"),
+                "fixed.py": _NODE.format(_FIXED, "value=1.0")
+                + "        self.undeclare_parameter('rate')\n",
+            },
+            reports=(
+                Report(
+                    "far.py:12:30",
+                    "20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps its value",
+                ),
+                Report("fixed.py:12:30", "'rate' (fixed.py:9) is read-only: it keeps its value"),
+                Report(
+                    "fixed.py:13:9", "parameter 'rate' is read-only: ParameterImmutableException"
                 ),
             ),
         ),

@@ -56,6 +56,23 @@ class ParameterValueUnfit(Rule):
                 ),
             ),
         ),
+        Example(
+            "a double in range(), added to a str",
+            {
+                "talker.py": _NODE.format("2.0")
+                + "        for _ in range(self.rate):\n            print('Hz: ' + self.rate)\n"
+            },
+            reports=(
+                Report(
+                    "talker.py:15:24",
+                    "'rate' is declared as double, but range() takes integers: TypeError",
+                ),
+                Report(
+                    "talker.py:16:19",
+                    "'rate' is declared as double, but 'Hz: ' is a str: TypeError",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -69,8 +69,8 @@ class QosUnusable(RclpyRule):
             reports=(
                 Report(
                     "talker.py:9:50",
-                    "DurabilityPolicy.TRANSIENT_LOCAL is only a policy: TypeError; "
-                    "write QoSProfile(depth=10, ...)",
+                    "DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the "
+                    "depth; write QoSProfile(depth=10, ...)",
                 ),
             ),
         ),
@@ -86,6 +86,37 @@ class QosUnusable(RclpyRule):
                     "talker.py:9:82",
                     "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
                     "another policy takes effect",
+                ),
+            ),
+        ),
+        Example(
+            "a negative number, a class, a function",
+            {
+                "negative.py": _NODE.format("-1"),
+                "class.py": _NODE.format("QoSProfile"),
+                "function.py": _NODE.format("profile")
+                + "\n\ndef profile():\n    return QoSProfile(depth=10)\n",
+            },
+            reports=(
+                Report(
+                    "class.py:9:50",
+                    "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)",
+                ),
+                Report(
+                    "function.py:9:50",
+                    "expected a depth or a QoSProfile, not a function: TypeError",
+                ),
+                Report("negative.py:9:50", "the depth is -1, but must not be negative: ValueError"),
+            ),
+        ),
+        Example(
+            "str values in a profile",
+            {"talker.py": _NODE.format("QoSProfile(depth='10', reliability='reliable')")},
+            reports=(
+                Report("talker.py:9:67", "the depth must be an int, not a str: AssertionError"),
+                Report(
+                    "talker.py:9:85",
+                    "reliability must be a ReliabilityPolicy, not a str: AssertionError",
                 ),
             ),
         ),
@@ -115,7 +146,7 @@ def _problem(facts: RclpyFile, node: ast.expr, value: object) -> str:
     if name == "rclpy.qos.QoSProfile":
         return "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)"
     if name.startswith("rclpy.qos.") and "Policy." in name:
-        return f"{name[10:]} is only a policy: TypeError; write QoSProfile(depth=10, ...)"
+        return f"{name[10:]} is a policy, but taken as the depth; write QoSProfile(depth=10, ...)"
     if isinstance(node, ast.Attribute | ast.Name) and facts.callback(node).function is not None:
         return "expected a depth or a QoSProfile, not a function: TypeError"
     return ""

@@ -104,6 +104,16 @@ class ResponseNotReturned(Rule):
                 ),
             ),
         ),
+        Example(
+            "a dict",
+            {"server.py": _NODE.format("        return {'success': True}\n")},
+            reports=(
+                Report(
+                    "server.py:12:9",
+                    "returns a dict, not the response (service of line 8): TypeError",
+                ),
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

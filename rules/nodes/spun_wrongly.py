@@ -49,6 +49,21 @@ class SpunWrongly(RclpyRule):
                 Report("talker.py:15:5", "rclpy is already shut down in line 14: nothing is spun"),
             ),
         ),
+        Example(
+            "an executor",
+            {
+                "talker.py": _NODE.format(
+                    "    executor = SingleThreadedExecutor()\n    executor.add_node(node)\n"
+                    "    rclpy.spin(executor)\n"
+                ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
+            },
+            reports=(
+                Report(
+                    "talker.py:17:5",
+                    "this is an executor, not a node: AttributeError; call its spin()",
+                ),
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

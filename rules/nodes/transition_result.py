@@ -60,7 +60,7 @@ class TransitionResult(RclpyRule):
             reports=(
                 Report(
                     "talker.py:10:9",
-                    "on_configure() takes 0 arguments, but gets 1, the state: TypeError",
+                    "on_configure() takes 0 arguments, but gets the state: the transition fails",
                 ),
                 Report(
                     "talker.py:11:9",
@@ -113,9 +113,8 @@ class TransitionResult(RclpyRule):
         count = len([*given.posonlyargs, *given.args]) - 1
         at = module.name_location(function)
         if given.vararg is None and not count - len(given.defaults) <= 1 <= count:
-            yield self.report(
-                at, f"{function.name}() takes {count} arguments, but gets 1, the state: TypeError"
-            )
+            message = f"{function.name}() takes {count} arguments, but gets the state: "
+            yield self.report(at, message + "the transition fails")
         happens = "not a TransitionCallbackReturn: AttributeError at the transition"
         if may_end(function):
             path = " on one path" if returned(function) else ""
