@@ -36,7 +36,7 @@ from scaffold.model.package import Package
 from scaffold.smoke import environment
 
 NODE = "extra_talker"
-PASSED_OVER = ("has nothing to write", "exists already and differs; overwrite")
+PASSED_OVER = ("has nothing to write", "already exists and differs; overwrite")
 """What ``add`` says where an extra makes no sense, or is there."""
 SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log")
 BUILDERS = ("ament_cmake", "ament_python")

@@ -27,7 +27,7 @@ def test_demo_needs_little(tmp_path: Path) -> None:
     link_programs(programs)
     said = [run(command.split(), tmp_path, programs) for command in commands]
 
-    assert said[1].endswith("nothing to report\n")
+    assert said[1].endswith("no findings\n")
     assert re.search(r"/chatter +std_msgs/msg/String +1 publisher +\d+\.\d+ Hz", said[2])
     assert "warning" not in said[2]
     assert "exit code 0" in said[2]

@@ -1,4 +1,4 @@
-"""SC: what the tool says about itself and about files that it cannot read."""
+"""SC: findings about the tool itself and about files that it cannot read."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class _Internal(Rule):
-    """Raised by the engine itself, not by a look at the package."""
+    """Reported by the engine itself, not by a check of the package."""
 
     examples: ClassVar[tuple[Example, ...]] = ()
 
@@ -25,10 +25,10 @@ class _Internal(Rule):
 class UnparsableFile(_Internal):
     """A file cannot be parsed.
 
-    **Why.** The build or the start of the node stops at the same place; rules that need the file
-    are silent until it is mended.
+    **Why.** The build or the node stops at the same place; rules that need the file are skipped
+    until it is fixed.
 
-    **Fix.** Mend the syntax at the place shown.
+    **Fix.** Correct the syntax at the place shown.
     """
 
     code = "SC001"
@@ -36,11 +36,11 @@ class UnparsableFile(_Internal):
 
 
 class RuleCrashed(_Internal):
-    """A rule failed: a defect of ros2-scaffold, not of the package.
+    """A rule crashed: a bug in ros2-scaffold, not in the package.
 
-    **Why.** The other rules still ran, but what this one would have said is unknown.
+    **Why.** The other rules still ran, but the findings of this one are unknown.
 
-    **Fix.** Please report it with the message shown; ``--ignore`` switches the rule off.
+    **Fix.** Report it with the message shown; ``--ignore`` disables the rule.
     """
 
     code = "SC002"
@@ -48,9 +48,9 @@ class RuleCrashed(_Internal):
 
 
 class UnusedSuppression(_Internal):
-    """A ``noqa`` names a code that is not reported on its line.
+    """A ``noqa`` comment names a code that is not reported on its line.
 
-    **Why.** It hides the next real finding there.
+    **Why.** It would hide a real finding there later.
 
     **Fix.** Remove the code from the comment.
     """
@@ -63,10 +63,10 @@ class UnusedSuppression(_Internal):
 class FileTooLarge(_Internal):
     """A file is too large to be checked.
 
-    **Why.** What is wrong in it stays unknown. So that no file can hold the check up, code is
-    read up to 500 kB and 100 000 words and signs, CMakeLists.txt up to 250 kB and 30 000,
-    package.xml, setup.py and setup.cfg up to 100 kB and 20 000, data such as YAML up to 1 MB, and
-    a line of code up to 20 kB: one and a half to twenty times the largest files and lines of 800
+    **Why.** Mistakes in it stay undetected. To keep a single file from stalling the check, code is
+    read up to 500 kB and 100 000 tokens, CMakeLists.txt up to 250 kB and 30 000 tokens,
+    package.xml, setup.py and setup.cfg up to 100 kB and 20 000 tokens, data such as YAML up to
+    1 MB, and a line of code up to 20 kB: 1.5 to 20 times the largest files and lines of 800
     public packages.
 
     **Fix.** Split the file, or keep generated code out of the package's sources.
@@ -78,12 +78,12 @@ class FileTooLarge(_Internal):
 
 
 class TooManyFindings(_Internal):
-    """One code is found so often that the search for more ends.
+    """One code is reported so often that the rest is not shown.
 
-    **Why.** Nobody reads five thousand lines that say the same; what is wrong behind the last
-    one of them is not shown.
+    **Why.** Nobody reads five thousand copies of one message; findings after the last of them are
+    not shown.
 
-    **Fix.** Mend what is shown, by hand or with ``--fix``, and check again.
+    **Fix.** Fix the findings shown, by hand or with ``--fix``, and check again.
     """
 
     code = "SC005"

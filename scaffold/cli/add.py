@@ -45,14 +45,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--package-directory",
         metavar="DIR",
-        help="the package (default: the one around the current directory)",
+        help="the package (default: the one that contains the current directory)",
     )
     questions.add_flags(parser, _asked(templates))
     flags.add_answers(parser)
     flags.add_looking(parser)
-    parser.add_argument(
-        "--force", action="store_true", help="overwrite files to be added that exist and differ"
-    )
+    parser.add_argument("--force", action="store_true", help="overwrite existing files that differ")
     flags.add_content(parser, flags.ANSWERED_BY_FILE)
 
 
@@ -108,9 +106,9 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
     chosen = templates[choose(options.kind, parts.addable(templates), "KIND")]
     is_part = chosen.role in PARTS
     if is_part and options.name is None:
-        raise InputError(f"NAME is needed: what the {chosen.role.value} is called")
+        raise InputError(f"NAME is required: the name of the {chosen.role.value}")
     if not is_part and options.name is not None:
-        raise InputError(f"NAME: of no use with {chosen.name}, which is for the whole package")
+        raise InputError(f"NAME does not apply to {chosen.name}, which is for the whole package")
     directory = _directory(options.package_directory)
     target = Target(Package.at(directory), roots, templates, User(directory))
     return target, Wanted(chosen, options.name, _given(options, templates, settings))
@@ -156,13 +154,11 @@ def _directory(given: str | None) -> str:
 
     if given is not None:
         if not os.path.isfile(os.path.join(given, MANIFEST)):
-            raise InputError(f"{given}: no package: there is no {MANIFEST} in it")
+            raise InputError(f"{given} is not a package: it has no {MANIFEST}")
         return os.path.normpath(given)
     directory = colcon.package_around(Disk(), os.getcwd())
     if directory is None:
-        raise InputError(
-            f"no {MANIFEST} here or above: go to a package, or name one with --package-directory"
-        )
+        raise InputError(f"no {MANIFEST} here or above: go to a package or use --package-directory")
     return os.path.relpath(directory)
 
 
@@ -176,7 +172,7 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
             force
         ):
             raise InputError(
-                f"{_line(package, diagnostic)}; mend it first, or go on without it with --force; "
+                f"{_line(package, diagnostic)}; fix it first, or add without it with --force; "
                 "nothing was changed"
             )
 
@@ -214,7 +210,7 @@ def _refuse_differing(
     ]
     if differing and not force:
         raise ConflictError(
-            f"{', '.join(differing)} in {where or plan.root} exists already and differs; "
+            f"{', '.join(differing)} in {where or plan.root} already exists and differs; "
             f"{what_to_do}overwrite it with --force"
         )
 
@@ -244,9 +240,9 @@ def _report(package: Package, said: list[Diagnostic]) -> None:
     for diagnostic in said:
         terminal.say(_line(package, diagnostic))
     terminal.say(
-        "ros2-scaffold: defect: what was to be added has faults that the checker finds; "
+        "ros2-scaffold: internal error: the checker finds errors in what was to be added; "
         "nothing was changed; "
-        "please report it as an issue of the repository that this tool is from"
+        "please open an issue in the repository of this tool"
     )
 
 
@@ -310,7 +306,7 @@ def _summary(
     if not plan.changes and not (above is not None and above.changes):
         if added.by_hand:
             return "\n".join([*lines, "Nothing was changed."])
-        return "\n".join([*lines, "", "All of it was there already: nothing was changed."])
+        return "\n".join([*lines, "", "Everything is already there: nothing was changed."])
     ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), NAME}
     if all(path in ours for _, _, path in rows) and added.start is None:
         return "\n".join(lines)
@@ -343,7 +339,7 @@ def _by_hand(package: Package, added: Added) -> list[str]:
     """Return what the user has to add, where and why."""
     if not added.by_hand:
         return []
-    lines = ["To be added by hand:"]
+    lines = ["Add by hand:"]
     for one in added.by_hand:
         path = os.path.normpath(os.path.join(package.directory, one.path))
         lines += [f"    {path}: {one.line}", f"        because {one.reason}"]

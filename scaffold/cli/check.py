@@ -34,15 +34,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         help="a package, a workspace or a single file (default: the current directory)",
     )
-    parser.add_argument("--format", choices=FORMATS, default="text", help="form of the report")
+    parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--select",
         action="append",
         metavar="CODES",
-        help="report these codes only; prefixes, separated by commas",
+        help="report only these codes or prefixes, separated by commas",
     )
     parser.add_argument(
-        "--ignore", action="append", metavar="CODES", help="do not report these codes"
+        "--ignore", action="append", metavar="CODES", help="do not report these codes or prefixes"
     )
     parser.add_argument(
         "--fix", action="store_true", help="apply the fixes that do not change behavior"
@@ -50,13 +50,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--unsafe-fixes",
         action="store_true",
-        help="with --fix or --diff: also fixes to look at afterwards; else: count them, too",
+        help="with --fix or --diff: also unsafe fixes, to be reviewed; else: count them",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument(
         "--reference",
         action="store_true",
-        help="instead, run pydocstyle beside the docstring rules and show where they disagree",
+        help="instead, run pydocstyle, too, and show where the docstring rules disagree with it",
     )
     parser.add_argument(
         "--content",
@@ -108,7 +108,7 @@ class _Copy(StringIO):
     """What is written to standard output, and may be again."""
 
     def isatty(self) -> bool:
-        """Tell whether colours are seen."""
+        """Tell whether colors are seen."""
         return sys.stdout.isatty()
 
 
@@ -208,7 +208,7 @@ def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
     """Compare with what is there, and with what the fixes were made for.
 
     Raises:
-        ConflictError: a file has changed since it was read.
+        ConflictError: a file changed after it was read.
     """
     from scaffold.errors import ConflictError
     from scaffold.files.tree import DiskTree
@@ -225,7 +225,7 @@ def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
         is_content = file.path in fixed.changed or file.path in fixed.removed
         if is_content and file.before != fixed.before.get(file.path):
             raise ConflictError(
-                f"{file.path} in {plan.root} has changed since it was read; "
+                f"{file.path} in {plan.root} changed after it was read; "
                 "nothing was written: run this again"
             )
     return plan
@@ -272,7 +272,7 @@ def _reference(targets: Sequence[Target]) -> int:
         count += 1
         place = f"{shown(package, one.path)}:{one.line}"
         terminal.show(f"{place}: {one.message}")
-    terminal.show(f"{count or 'no'} differences to pydocstyle")
+    terminal.show(f"{count or 'no'} differences from pydocstyle")
     return INTERNAL_ERROR if count else CLEAN
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 CLEAN = 0
-"""Done, and nothing to report."""
+"""Done, and no findings."""
 
 FINDINGS = 1
 """Done, and there is something the user should look at."""

@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="packages whose own interfaces come first (default: the current directory)",
     )
-    parser.add_argument("--format", choices=FORMATS, default="text", help="form of the output")
+    parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
 
 
 def run(options: argparse.Namespace) -> int:

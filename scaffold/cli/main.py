@@ -29,16 +29,16 @@ COLLECT_FROM = 100_000
 """Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
 
 VERBS = {
-    "new": "write a package",
+    "new": "create a package",
     "add": "add a node, an interface, a program or a launch file to a package",
-    "update": "bring a package in step with the templates of today",
+    "update": "update a package to the current templates",
     "check": "lint packages and find what will break",
     "rules": "list and explain the rules",
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
-    "trust": "let the configuration of a directory name rules and templates",
-    "completion": "print what a shell needs for tab completion",
+    "trust": "let the configuration of a directory load rules and templates",
+    "completion": "print the tab completion script of a shell",
 }
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
 
@@ -111,7 +111,7 @@ def _refused(error: OSError | MemoryError) -> str:
     try:
         os.getcwd()
     except OSError:
-        return "the current directory is gone: change to another one"
+        return "the current directory no longer exists: change to another one"
     reason = error.strerror or str(error) or type(error).__name__
     return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
 
@@ -122,9 +122,9 @@ def _defect(error: Exception) -> int:
     _show_traceback(error)
     last = traceback.extract_tb(error.__traceback__)[-1]
     terminal.say(
-        f"ros2-scaffold: defect: {type(error).__name__}: {error} "
+        f"ros2-scaffold: internal error: {type(error).__name__}: {error} "
         f"({os.path.basename(last.filename)}:{last.lineno}); "
-        "please report it as an issue of the repository that this tool is from; "
+        "please open an issue in the repository of this tool; "
         "SCAFFOLD_DEBUG=1 shows more"
     )
     return INTERNAL_ERROR

@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--destination-directory",
         metavar="DIR",
         default=".",
-        help="where the directory of the package is made (default: the current directory)",
+        help="parent directory of the new package (default: the current directory)",
     )
     flags.add_answers(parser)
     flags.add_looking(parser)
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
         above = _plan_above(made, around, left, force=options.force)
     except ScaffoldError:
         if command is not None:
-            terminal.say_lines(f"Your answers as a command, to be corrected:\n    {command}")
+            terminal.say_lines(f"Your answers as a command, to correct:\n    {command}")
         raise
     check = draft.Check(made)
     found = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
@@ -114,7 +114,7 @@ def _ask(
     from scaffold.generate.questions.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise InputError("PACKAGE is needed: the name of the new package; see `new --help`")
+        raise InputError("PACKAGE is required: the name of the new package; see `new --help`")
     from scaffold.cli.interactive import wizard
 
     user = User(options.destination_directory)
@@ -245,7 +245,7 @@ def _plan_above(
     if plan is not None and plan.conflicts and not force:
         names = ", ".join(plan.conflicts)
         raise ConflictError(
-            f"{names} in {plan.root} exists already and differs; --force overwrites it; "
+            f"{names} in {plan.root} already exists and differs; --force overwrites it; "
             "nothing was written"
         )
     return plan
@@ -262,7 +262,7 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     if os.path.lexists(directory) and not options.force:
         transaction.sweep(options.destination_directory)  # a killed run may have got this far
         hint = "--force overwrites the files that differ"
-        raise ConflictError(f"{directory} exists already; {hint}")
+        raise ConflictError(f"{directory} already exists; {hint}")
     return directory
 
 
@@ -271,7 +271,7 @@ def _report_defects(defects: list[Diagnostic]) -> None:
         at = defect.location
         terminal.say(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}")
     terminal.say(
-        "ros2-scaffold: defect: the templates make a package that the checker rejects; "
+        "ros2-scaffold: internal error: the templates render a package that the checker rejects; "
         "nothing was written; please report it to their authors"
     )
 
@@ -286,7 +286,7 @@ def _tell_by_hand(
     """Say what the user has to add by hand; tell whether that is anything."""
     by_hand = [one for one in left.values() if one is not None]
     if by_hand:
-        terminal.say("To be added by hand:")
+        terminal.say("Add by hand:")
     directory = os.path.join(options.destination_directory, made.name)
     for one in by_hand:
         path = os.path.normpath(os.path.join(directory, one.path))

@@ -37,7 +37,7 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argpa
     """
     parser = _Parser(
         prog="ros2-scaffold",
-        description="Generate, lint, fix, build and prove ROS 2 Python packages.",
+        description="Generate, lint, fix, build and smoke-test ROS 2 Python packages.",
     )
     parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
     # Without the name argparse would lay out a usage text to find it.

@@ -16,9 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "codes", nargs="*", metavar="CODE", help="explain these: a code such as CM001, or a name"
     )
-    parser.add_argument(
-        "--format", choices=("text", "json"), default="text", help="form of the list"
-    )
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
     parser.add_argument(
         "--content",
         action="append",

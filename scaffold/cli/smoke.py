@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         help="a package or a workspace (default: the current directory)",
     )
-    parser.add_argument("--format", choices=FORMATS, default="text", help="form of the report")
+    parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--duration",
         type=_seconds,
@@ -52,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_seconds,
         default=900.0,
         metavar="S",
-        help="seconds after which the build is given up (default: 900)",
+        help="seconds after which the build is aborted (default: 900)",
     )
     parser.add_argument(
         "--signal",
@@ -66,15 +66,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_positive,
         default=4,
         metavar="N",
-        help="executables to run at the same time, each for itself (default: 4)",
+        help="executables to run in parallel, isolated from each other (default: 4)",
     )
     parser.add_argument(
         "--workspace",
         metavar="DIR",
-        help="put build, install and log here instead of into a directory that is removed",
+        help="keep build, install and log in this directory instead of a temporary one",
     )
     parser.add_argument(
-        "--keep", action="store_true", help="keep the scratch directory and say where it is"
+        "--keep", action="store_true", help="keep the scratch directory and print its path"
     )
 
 

@@ -71,7 +71,7 @@ def _own(directory: str | None) -> tuple[str, ...]:
     if directory is None:
         return ()
     if not os.path.isdir(os.path.join(directory, "templates")):
-        raise InputError(f"{directory}: there is no directory templates in it")
+        raise InputError(f"{directory}: it has no directory 'templates'")
     return (directory,)
 
 
@@ -114,7 +114,7 @@ def _test(
         wrong += _build(tried)
     without = sorted(set(names) - {one.example.template for one in tried})
     for name in without:
-        terminal.note(f"{name} has no examples: nothing of it was tested")
+        terminal.note(f"{name} has no examples: it was not tested")
     terminal.show(f"{len(tried)} examples, {wrong} wrong")
     return FINDINGS if wrong or not tried else CLEAN
 

@@ -34,9 +34,9 @@ def run(options: argparse.Namespace) -> int:
             raise InputError("--list takes no DIR")
         _list()
     elif options.directory is None:
-        raise InputError("DIR is needed: the directory that has the ros2-scaffold.toml")
+        raise InputError("DIR is required: the directory that has the ros2-scaffold.toml")
     elif options.remove:
-        terminal.show(f"not trusted any more: {trust.remove(options.directory)}")
+        terminal.show(f"no longer trusted: {trust.remove(options.directory)}")
     else:
         _add(options.directory)
     return CLEAN
@@ -69,5 +69,5 @@ def _list() -> None:
         if not disk.is_directory(directory):
             note = "  (gone)"
         elif disk.owner(directory) != owner:
-            note = "  (not any more: it belongs to another user than then)"
+            note = "  (no longer: its owner has changed)"
         terminal.show(f"{directory}{note}")

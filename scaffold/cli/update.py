@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Bring a package in step with the templates; 1 when there is something to decide."""
+    """Update a package to the current templates; 1 when there are conflicts to resolve."""
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
@@ -75,7 +75,7 @@ def _summary(
     from scaffold.writing.plan import State
 
     if not updated.changed:
-        return "The package is in step with the templates."
+        return "The package is up to date with the templates."
     words = {State.NEW: "new", State.DIFFERING: "merged", State.SAME: "unchanged"}
     lines: list[str] = []
     files = {file.path: file for file in plan.files}
@@ -84,10 +84,10 @@ def _summary(
         if path not in updated.changed:
             continue
         count = updated.conflicts.get(path, 0)
-        note = f", {count} conflict{'s' if count > 1 else ''} to decide" if count else ""
+        note = f", {count} conflict{'s' if count > 1 else ''} to resolve" if count else ""
         lines.append(f"{path}: {words[file.state]}{note}")
     if options.dry_run:
         lines.append("Nothing was written (--dry-run).")
     elif updated.conflicts:
-        lines.append("Decide between the marks <<<<<<< and >>>>>>>, then run the tests.")
+        lines.append("Resolve the conflicts between <<<<<<< and >>>>>>>, then run the tests.")
     return "\n".join(lines)

@@ -104,7 +104,7 @@ def note_unfinished(directory: str) -> bool:
     is_unfinished = transaction.is_unfinished(directory)
     if is_unfinished:
         terminal.note(
-            f"{directory}: a run was cut off while it changed this package; "
+            f"{directory}: a run was interrupted while it changed this package; "
             "the next add, update or check --fix completes or undoes it"
         )
     return is_unfinished

@@ -120,7 +120,7 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
                 directories += [] if refused else named
                 continue
             if not isinstance(entries, dict):
-                raise ConfigError(f"{path}: {table} stands outside of a table such as [check]")
+                raise ConfigError(f"{path}: {table} is outside of a table such as [check]")
             for key, value in entries.items():
                 if table == "check" and key not in _CHECK_KEYS:
                     known = ", ".join(sorted(_CHECK_KEYS))
@@ -214,18 +214,18 @@ def _read(disk: Disk, path: str) -> dict[str, Any]:
         entries = tomllib.loads(data)
         _refuse_large(entries, path)
     except tomllib.TOMLDecodeError as error:
-        raise ConfigError(f"{path}: not TOML: {error}") from error
+        raise ConfigError(f"{path}: invalid TOML: {error}") from error
     except RecursionError:
         raise ConfigError(f"{path}: nested too deeply") from None
     except ValueError as error:  # Python refuses numbers of thousands of digits
-        raise ConfigError(f"{path}: not TOML: a number is too large") from error
+        raise ConfigError(f"{path}: invalid TOML: a number is too large") from error
     return entries
 
 
 def _refuse_large(value: object, path: str) -> None:
     """Raise if there is an integer that TOML does not have: it ends at 64 bits."""
     if isinstance(value, int) and value.bit_length() > _INTEGER_BITS:
-        raise ConfigError(f"{path}: not TOML: a number is too large")
+        raise ConfigError(f"{path}: invalid TOML: a number is too large")
     if isinstance(value, dict | list):
         for inner in value.values() if isinstance(value, dict) else value:
             _refuse_large(inner, path)

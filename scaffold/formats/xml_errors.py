@@ -69,7 +69,7 @@ def _junk(text: str, at: int) -> Explanation:
 
 def _duplicate_attribute(text: str, at: int) -> Explanation:
     name = _word(text, at)
-    return at, at + len(name), f"the attribute {name!r} is there twice"
+    return at, at + len(name), f"the attribute {name!r} is a duplicate"
 
 
 def _undefined_entity(text: str, at: int) -> Explanation:

@@ -34,7 +34,7 @@ def package_context(
 ) -> dict[str, Any]:
     """Return the variables of all files.
 
-    Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the licence as
+    Besides the answers: ``version``, ``date``, ``year``, ``tutorial``, ``header`` (the license as
     comment lines), ``has_license`` (false where an existing package has decided for none that there
     are templates for), ``subdirectory`` (the way from the top of the git repository to the package;
     empty at the top), ``license_text`` and ``contributing_text`` (the templates of the full text
@@ -127,7 +127,7 @@ def _node(
     name, package = part.name, context["package"]
     if name == package:
         raise InputError(
-            f"--node-name: {name!r} is the name of the package, its script would hide it"
+            f"--node-name: {name!r} is the name of the package; its script would shadow it"
         )
     _refuse_two_classes(part)
     taken = [one for value in part.answers.values() for one in getattr(value, "class_names", ())]
@@ -200,7 +200,7 @@ def _refuse_own(question: Question, full_name: str, node: str) -> None:
     if own != full_name and own in _OWN_NAMES.get(question.type, ()):
         what = question.type.partition("_")[0]
         raise InputError(
-            f"{flag(question.name)}: {full_name!r} is a {what} that ROS gives the node itself"
+            f"{flag(question.name)}: {full_name!r} is a {what} that ROS itself gives each node"
         )
 
 

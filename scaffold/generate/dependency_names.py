@@ -35,7 +35,7 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
         directory: Where the package is to be; the packages around it are known.
 
     Raises:
-        InputError: a name is certainly wrong: that of another thing misspelt, of ROS 1, or one
+        InputError: a name is certainly wrong: that of another thing misspelled, of ROS 1, or one
             that rosdep's cache lacks.
     """
     here = _Here(directory)
@@ -44,7 +44,7 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
             continue
         heir = catalog.ROS1_PACKAGES.get(name)
         if heir:
-            raise InputError(f"{origin}: {name!r} is of ROS 1; ROS 2 has {heir} instead")
+            raise InputError(f"{origin}: {name!r} is from ROS 1; ROS 2 has {heir} instead")
         resolves = here.rosdep.resolves(name) if here.rosdep is not None else None
         if resolves:
             continue
@@ -55,7 +55,7 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
             raise InputError(f"{origin}: there is no package or rosdep key {name!r}{hint}")
         yield (
             f"{name!r} is in no package here, not installed and not widely known{hint or ';'} "
-            "`rosdep resolve` tells whether the robot can have it"
+            "`rosdep resolve` shows whether it can be installed"
         )
 
 

@@ -226,7 +226,9 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
         return [Request(node, {name: given[name]} if name in given else {}, "--node-kind")]
     for name in ("node_kind", "node_name"):
         if name in given and given[name].origin.startswith("--"):
-            raise InputError(f"{given[name].origin}: of no use with {questions.flag(parts.ADD)}")
+            raise InputError(
+                f"{given[name].origin}: does not apply with {questions.flag(parts.ADD)}"
+            )
     question = next(one for one in templates[BASE].questions if one.name == parts.ADD)
     wanted = questions.parse(question, given[parts.ADD])
     return parts.requests(wanted, given[parts.ADD].origin, templates)
@@ -294,7 +296,7 @@ def _refuse_useless(given: Mapping[str, Given], order: Order) -> None:
     for name, answer in given.items():
         if name not in known and answer.origin.startswith("--"):
             chosen = " and ".join(template.name for template in order.layers[1:])
-            raise InputError(f"{answer.origin}: of no use for {chosen}")
+            raise InputError(f"{answer.origin}: does not apply to {chosen}")
 
 
 def _remarks(renderer: Renderer, context: Mapping[str, object], user: User) -> tuple[str, ...]:

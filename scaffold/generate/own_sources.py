@@ -55,7 +55,7 @@ def _is_own(path: str) -> bool:
 
 
 def _foreign_directories(package: Package) -> set[str]:
-    """Return the directories with a licence file of their own: somebody else's work."""
+    """Return the directories with a license file of their own: somebody else's work."""
     found: set[str] = set()
     for path in package.files:
         directory, _, name = path.rpartition("/")

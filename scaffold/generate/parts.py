@@ -143,7 +143,7 @@ def _refuse_endless(messages: Sequence[Part]) -> None:
             pending += inner
         if name in reached:
             way = "" if name in types else ", inside another one"
-            raise InputError(f"the message {name!r} would hold itself{way}")
+            raise InputError(f"the message {name!r} would contain itself{way}")
 
 
 def _refuse_alike(interfaces: Sequence[Part]) -> None:
@@ -154,7 +154,7 @@ def _refuse_alike(interfaces: Sequence[Part]) -> None:
         other = headers.setdefault((part.template.definition, header), part.name)
         if other != part.name:
             raise InputError(
-                f"{other!r} and {part.name!r} are too alike: the code of both would be in "
+                f"{other!r} and {part.name!r} are too similar: the code of both would be in "
                 f"{header}.hpp"
             )
 
@@ -192,7 +192,7 @@ def _request(entry: Mapping[str, Any], origin: str, templates: Mapping[str, Temp
         name = template.name_question if key == "name" else key.replace("-", "_")
         if key != KIND and name not in known:
             raise InputError(
-                f"{origin}: {key!r} is no question of {kind}, which asks {', '.join(sorted(known))}"
+                f"{origin}: {kind} has no option {key!r}; it has {', '.join(sorted(known))}"
             )
         if key != KIND and value is not None:
             given[name] = Given(value, f"{origin}: {kind}" if key == "name" else f"{origin}: {key}")

@@ -208,7 +208,7 @@ def left_to_owner(path: str, there: bytes, text: str) -> ByHand | None:
     from scaffold.generate.edit.pre_commit import missing_entry
 
     entry = missing_entry(there, text)
-    reason = "the file has other hooks, and no edit of it is certain"
+    reason = "the file has other hooks and cannot be edited safely"
     return ByHand(path, f"add this to repos: {entry}", reason) if entry else None
 
 

@@ -59,9 +59,9 @@ def read(path: str, kind: type[ScaffoldError] = InputError) -> Any:  # noqa: ANN
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line = mark.line + 1 if mark is not None else 1
-        raise kind(f"{path}:{line}: not YAML: {error.problem or error.context}") from error
+        raise kind(f"{path}:{line}: invalid YAML: {error.problem or error.context}") from error
     except yaml.YAMLError as error:
-        raise kind(f"{path}: not YAML: {' '.join(str(error).split())}") from error
+        raise kind(f"{path}: invalid YAML: {' '.join(str(error).split())}") from error
 
 
 class _Reader:
@@ -81,7 +81,7 @@ class _Reader:
             if isinstance(event, yaml.DocumentStartEvent):
                 count += 1
                 if count > 1:
-                    self._refuse(event, "a second document; write one")
+                    self._refuse(event, "a second document; write only one")
             elif isinstance(event, yaml.NodeEvent):
                 found = self._value(event, events, 0)
         return found
@@ -92,7 +92,7 @@ class _Reader:
         if depth > MAX_DEPTH:
             self._refuse(event, f"nested more than {MAX_DEPTH} levels deep")
         if isinstance(event, yaml.AliasEvent):
-            self._refuse(event, f"the alias *{event.anchor}: write out what it stands for")
+            self._refuse(event, f"the alias *{event.anchor}: write out its value")
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)
         self._refuse_tag(event, {f"{_TAG}seq", f"{_TAG}map"})
@@ -118,11 +118,11 @@ class _Reader:
             if isinstance(event, yaml.MappingEndEvent):
                 break
             if not isinstance(event, yaml.ScalarEvent):
-                self._refuse(event, "a key that is no text")
+                self._refuse(event, "a key that is not a string")
             if event.value == "<<" and event.implicit[0]:
-                self._refuse(event, "the merge key <<: write out what it stands for")
+                self._refuse(event, "the merge key <<: write out its value")
             if event.value in found:
-                self._refuse(event, f"the key {event.value!r} is there twice")
+                self._refuse(event, f"the key {event.value!r} is a duplicate")
             found[event.value] = self._value(next(events), events, depth)
         return found
 
@@ -138,11 +138,11 @@ class _Reader:
         if tag not in _NUMBERS | _OTHERS:
             return event.value
         if len(event.value) > MAX_NUMBER:
-            self._refuse(event, f"a number of {len(event.value)} characters; a text needs quotes")
+            self._refuse(event, f"a number of {len(event.value)} characters; a string needs quotes")
         try:
             return loader.construct_object(ScalarNode(tag, event.value))
         except (ValueError, OverflowError):
-            self._refuse(event, f"{event.value!r} is not a number; a text needs quotes")
+            self._refuse(event, f"{event.value!r} is not a number; a string needs quotes")
 
     def _refuse_tag(self, event: yaml.Event, known: set[str]) -> None:
         tag = getattr(event, "tag", None)

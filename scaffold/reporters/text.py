@@ -12,7 +12,7 @@ from scaffold.edits import Safety
 from scaffold.printable import printable
 from scaffold.reporters.paths import shown
 
-_COLOURS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
+_COLORS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
 
 
 def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:
@@ -22,7 +22,7 @@ def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> N
         for diagnostic in result.diagnostics:
             at = diagnostic.location
             place = f"{printable(shown(result.package, at.path))}:{at.line}:{at.column}:"
-            severity = paint(diagnostic.severity.value, _COLOURS[diagnostic.severity])
+            severity = paint(diagnostic.severity.value, _COLORS[diagnostic.severity])
             code = paint(diagnostic.code, "1")
             message = printable(diagnostic.message)
             out.write(f"{place} {severity} {code} {message} [{diagnostic.name}]\n")
@@ -33,7 +33,7 @@ def _summary(results: Sequence[Result], *, unsafe: bool) -> str:
     summary = Summary.of(results)
     checked = f"{_count(summary.packages, 'package')}, {_count(summary.files, 'file')}"
     if not any(result.diagnostics for result in results):
-        return f"{checked}: nothing to report"
+        return f"{checked}: no findings"
     found = [
         _count(number, noun)
         for number, noun in (
@@ -63,7 +63,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def _painter(out: TextIO) -> Callable[[str, str], str]:
-    """Return a function that wraps text in a colour when a terminal shows it."""
+    """Return a function that wraps text in a color when a terminal shows it."""
     if out.isatty() and not os.environ.get("NO_COLOR"):
-        return lambda text, colour: f"\033[{colour}m{text}\033[0m"
-    return lambda text, colour: text  # noqa: ARG005  same shape as the other
+        return lambda text, color: f"\033[{color}m{text}\033[0m"
+    return lambda text, color: text  # noqa: ARG005  same shape as the other

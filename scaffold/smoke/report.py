@@ -253,7 +253,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def _painter(out: TextIO) -> Paint:
-    """Return a function that wraps text in a colour when a terminal shows it."""
+    """Return a function that wraps text in a color when a terminal shows it."""
     if out.isatty() and not os.environ.get("NO_COLOR"):
-        return lambda text, colour: f"\033[{colour}m{text}\033[0m"
+        return lambda text, color: f"\033[{color}m{text}\033[0m"
     return lambda text, _: text

@@ -498,8 +498,7 @@ def _sync_directory(path: str) -> None:
 
 def _refusal(root: str, changed: Sequence[str], left: Sequence[str]) -> str:
     """Return the message for files that somebody else has changed."""
-    verb = "has" if len(changed) == 1 else "have"
-    message = f"{', '.join(changed)} in {root} {verb} changed since it was read"
+    message = f"{', '.join(changed)} in {root} changed after it was read"
     if left:
         return f"{message}; all was undone but {', '.join(left)}, which changed as well"
     return f"{message}; nothing was written: run this again"

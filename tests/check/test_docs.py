@@ -61,9 +61,12 @@ def test_links_and_paths_lead_somewhere(page: str) -> None:
 
 def test_news_fragments_have_a_type() -> None:
     configured = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["towncrier"]
-    types = [one["directory"] for one in configured["type"]]
+    types = {kind["directory"]: kind["name"] for kind in configured["type"]}
+    assert list(types.values()) == ["Added", "Changed", "Fixed", "Removed"], "Keep a Changelog"
     directory = ROOT / configured["directory"]
-    assert re.findall(r"\n\| `(\w+)` \|", (directory / "README.md").read_text()) == types
+    assert re.findall(r"\n\| `(\w+)` \| (\w+) \|", (directory / "README.md").read_text()) == list(
+        types.items()
+    )
     names = sorted(path.name for path in directory.iterdir() if path.name != "README.md")
     known = rf"(\d+|\+[\w-]+)\.({'|'.join(types)})\.md"
     assert [name for name in names if not re.fullmatch(known, name)] == []

@@ -50,7 +50,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def flawed(package: Path) -> Path:
-    """Return the package with one flaw that can be mended and one that cannot."""
+    """Return the package with one flaw that is fixable and one that is not."""
     (package / "package.xml").write_text(MANIFEST.format(description="TODO: Package description"))
     (package / "CMakeLists.txt").write_text(CMAKE_LISTS.format(project="listener"))
     return package
@@ -59,7 +59,7 @@ def flawed(package: Path) -> Path:
 @pytest.mark.usefixtures("package")
 def test_clean(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker"]) == 0
-    assert capsys.readouterr().out == "1 package, 3 files: nothing to report\n"
+    assert capsys.readouterr().out == "1 package, 3 files: no findings\n"
 
 
 @pytest.mark.usefixtures("flawed")
@@ -179,7 +179,7 @@ def test_per_path_ignores(flawed: Path) -> None:
     [
         ("[check]\nselekt = []\n", "[check] has no key 'selekt'"),
         ("[check]\nselect = 'PX'\n", "check.select must be a list of strings"),
-        ("[check\n", "not TOML"),
+        ("[check\n", "invalid TOML"),
     ],
 )
 def test_broken_configuration(

@@ -165,7 +165,7 @@ def test_a_removed_directory(tmp_path: Path, verb: str) -> None:
     run = shell(script, tmp_path, verb, *more)
 
     assert run.stderr == (
-        "ros2-scaffold: error: the current directory is gone: change to another one\n"
+        "ros2-scaffold: error: the current directory no longer exists: change to another one\n"
     )
     assert run.returncode == exit_codes.USAGE_ERROR
 

@@ -83,7 +83,7 @@ def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) ->
     path.write_text(path.read_text().partition("examples:")[0])
     assert main(["templates", "test", str(team)]) == 1
     said = capsys.readouterr()
-    assert said.err == "note: citation has no examples: nothing of it was tested\n"
+    assert said.err == "note: citation has no examples: it was not tested\n"
     assert said.out == "0 examples, 0 wrong\n"
 
 

@@ -277,7 +277,7 @@ def test_a_trusted_directory_names_code(repository: Repository, run: Run) -> Non
         outcome = run(*words)
         assert ("lanted" in outcome.out, outcome.err) == (True, "")
     assert run("new", "listener", "--extras", "planted").code == 0
-    assert run("trust", "--remove", ".").out == f"not trusted any more: {repository.root}\n"
+    assert run("trust", "--remove", ".").out == f"no longer trusted: {repository.root}\n"
     assert "ZZ001" not in run("rules").out
 
 
@@ -388,7 +388,7 @@ def test_the_line_shows_no_escapes(repository: Repository, run: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["trust"], "DIR is needed"),
+        (["trust"], "DIR is required"),
         (["trust", "nowhere"], "no such directory"),
         (["trust", "ros2-scaffold.toml"], "no such directory"),
         (["trust", "--remove", "talker"], "not trusted"),

@@ -828,10 +828,13 @@ def test_the_real_linters_accept_what_is_written(
                     {"kind": "message", "name": "HttpServer"},
                 ]
             },
-            "'HTTPServer' and 'HttpServer' are too alike: .* http_server.hpp",
+            "'HTTPServer' and 'HttpServer' are too similar: .* http_server.hpp",
         ),
         ({"copyright_holder": "Ada coding: latin-1"}, "would tell Python the encoding"),
-        ({"maintainer_name": "\u202eAda"}, r"holds the character U\+202E, which turns text around"),
+        (
+            {"maintainer_name": "\u202eAda"},
+            r"contains the character U\+202E, which changes the direction of text",
+        ),
         ({"add": [{"kind": "message", "name": "True"}]}, "'True' is a keyword of Python"),
         ({"add": [{"kind": "message", "name": "NULL"}]}, "'NULL' is a macro of C"),
         (
@@ -840,7 +843,7 @@ def test_the_real_linters_accept_what_is_written(
         ),
         (
             {"add": [{"kind": "message", "fields": "string s 'a # b'"}]},
-            "the text is not closed; a '#' in it starts a comment",
+            "the string is not closed; a '#' in it starts a comment",
         ),
         (
             {"add": [{"kind": "message", "fields": "int32[<=4294967296] a"}]},
@@ -864,7 +867,7 @@ def test_the_real_linters_accept_what_is_written(
         ),
         (
             {"add": [{"kind": "service_server", "name": "a", "service": "/a/get_parameters"}]},
-            "--service: '/a/get_parameters' is a service that ROS gives the node itself",
+            "--service: '/a/get_parameters' is a service that ROS itself gives each node",
         ),
         (
             {

@@ -62,8 +62,8 @@ def test_fields_become_a_definition_and_dependencies() -> None:
         ("float distance", "'float distance': "),
         ("float64 Distance", "'float64 Distance': "),
         ("std_msgs/Heder header", "there is no interface 'std_msgs/msg/Heder'; did you mean std"),
-        ("int32 a, int32 b", "write each field as a text of its own"),
-        ("int32 a; int32 b", "write each field as a text of its own"),
+        ("int32 a, int32 b", "write each field as a string of its own"),
+        ("int32 a; int32 b", "write each field as a string of its own"),
         (7, "7 is not a field such as 'float64 distance'"),
     ],
 )
@@ -84,11 +84,11 @@ def test_a_type_that_the_package_lacks() -> None:
 
 def test_a_message_that_holds_itself() -> None:
     tree = {"kind": "message", "name": "Tree", "fields": "Tree[] branches"}
-    with pytest.raises(InputError, match=r"the message 'Tree' would hold itself$"):
+    with pytest.raises(InputError, match=r"the message 'Tree' would contain itself$"):
         make(package="plants", add=[tree])
     leaf = {"kind": "message", "name": "Leaf", "fields": "Tree tree"}
     tree["fields"] = "Leaf[] leaves"
-    with pytest.raises(InputError, match=r"would hold itself, inside another one$"):
+    with pytest.raises(InputError, match=r"would contain itself, inside another one$"):
         make(package="plants", add=[tree, leaf])
 
 

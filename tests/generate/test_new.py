@@ -365,9 +365,9 @@ def test_line_breaks_in_a_description_are_folded() -> None:
     ("description", "message"),
     [
         (" \n", "must not be empty"),
-        ("a\0b", r"holds the character U\+0000"),
-        ("a\x1b[1mb", r"holds the character U\+001B"),
-        ("a\udcffb", r"holds the character U\+DCFF"),
+        ("a\0b", r"contains the character U\+0000"),
+        ("a\x1b[1mb", r"contains the character U\+001B"),
+        ("a\udcffb", r"contains the character U\+DCFF"),
         ("TODO: say it", "is a placeholder"),
     ],
 )
@@ -574,7 +574,7 @@ def test_unknown_message_types(name: str, message: str) -> None:
         ("a@b", "is not a mail address"),
         ("a b@example.com", "is not a mail address"),
         ("ada@exämple.com", "is not a mail address"),
-        ("root@todo.todo", "is a placeholder that reaches nobody"),
+        ("root@todo.todo", "is a placeholder"),
         ("a" * 60 + "@example.com", "has more than 60 characters"),
     ],
 )
@@ -721,16 +721,16 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("rte: 2\n", "answers.yaml: 'rte' is no question of the templates; did you mean rate?"),
+        ("rte: 2\n", "answers.yaml: 'rte' is not a question of the templates; did you mean rate?"),
         (
             "zzz: 2\n",
-            "answers.yaml: 'zzz' is no question of the templates; known are ",
+            "answers.yaml: 'zzz' is not a question of the templates; known are ",
         ),
         ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
-        ("a: [\n", "answers.yaml:2: not YAML: "),
+        ("a: [\n", "answers.yaml:2: invalid YAML: "),
         ("rate: 0\n", "answers.yaml: rate: 0 Hz is not between"),
         ("comments: loud\n", "answers.yaml: comments: 'loud' is not one of brief, tutorial"),
-        ("topic: yes\n", "answers.yaml: topic: True is not a text"),
+        ("topic: yes\n", "answers.yaml: topic: True is not text"),
     ],
 )
 def test_answers_files_that_are_refused(
@@ -749,7 +749,7 @@ def test_an_unknown_key_in_the_configuration(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "work" / "ros2-scaffold.toml").write_text('[new]\nlicence = "MIT"\n')
-    message = "[new]: 'licence' is no question of the templates; did you mean license?"
+    message = "[new]: 'licence' is not a question of the templates; did you mean license?"
     assert_refused(capsys, ["new", "talker"], message)
 
 
@@ -801,9 +801,9 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
             .ros2-scaffold.json            what `ros2-scaffold update` needs
             CHANGELOG.rst                  what changed, for releases
             CMakeLists.txt                 what is installed and tested
-            LICENSE                        the full text of the licence
+            LICENSE                        the full text of the license
             README.md                      how to build it, run it and look at it
-            package.xml                    name, licence, dependencies
+            package.xml                    name, license, dependencies
             talker/
                 __init__.py                makes the directory a Python package
                 minimal_publisher.py       the node
@@ -847,7 +847,7 @@ def test_an_existing_package_is_left_alone(
     node = tmp_path / "work" / "talker" / "talker" / "minimal_publisher.py"
     node.write_text("mine\n")
     capsys.readouterr()
-    message = "talker exists already; --force overwrites the files that differ"
+    message = "talker already exists; --force overwrites the files that differ"
     assert_refused(capsys, ["new", "talker"], message, untouched=False)
     assert node.read_text() == "mine\n"
 
@@ -860,7 +860,7 @@ def test_an_existing_package_is_left_alone(
     assert main(["new", "talker", "--force"]) == 0
     assert node.read_text() == files_of()["talker/minimal_publisher.py"]
     assert os.access(node, os.X_OK)
-    assert "LICENSE                        the full text of the licence, unchanged" in (
+    assert "LICENSE                        the full text of the license, unchanged" in (
         capsys.readouterr().out
     )
 
@@ -967,7 +967,7 @@ def test_templates_of_a_team(team: Path) -> None:
     assert files["talker/blinker.py"] == "# for learners\nLAMP = 'blue'\n"
     assert files["extra/x"] == ""
     given["rate"] = Given("2", "--rate")
-    with pytest.raises(InputError, match="--rate: of no use for ament_cmake and blinker"):
+    with pytest.raises(InputError, match="--rate: does not apply to ament_cmake and blinker"):
         draft.draft(roots, templates, given, User("."))
 
 
@@ -1190,7 +1190,7 @@ def test_two_nodes_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
     command = ["new", "conversation", "--add", "publisher:talker", "--add", "publisher:talker"]
     assert_refused(capsys, command, "two parts of the package have the name 'talker'")
     command = ["new", "conversation", "--add", "publisher:talker", "--node-name", "announcer"]
-    assert_refused(capsys, command, "--node-name: of no use with --add")
+    assert_refused(capsys, command, "--node-name: does not apply with --add")
 
 
 def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
@@ -1202,4 +1202,4 @@ def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
     capsys.readouterr()
     Path("answers.yaml").write_text("add: [{kind: publisher, colour: red}]\n")
     command = ["new", "another", "--answers", "answers.yaml"]
-    assert_refused(capsys, command, "'colour' is no question of publisher, which asks message_type")
+    assert_refused(capsys, command, "publisher has no option 'colour'; it has message_type")

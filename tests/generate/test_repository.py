@@ -73,7 +73,7 @@ def test_new_writes_them_at_the_top(workspace: Path, capsys: pytest.CaptureFixtu
     assert said.err == ""
     assert main(["check", str(workspace)]) == 0
     assert main(["update", str(workspace / "src" / "talker"), "--diff"]) == 0
-    assert capsys.readouterr().out.endswith("nothing to report\n")
+    assert capsys.readouterr().out.endswith("no findings\n")
 
 
 @pytest.mark.parametrize("extra", EXTRAS)
@@ -264,7 +264,7 @@ def test_a_workflow_that_exists_is_not_overwritten(
 
     assert run() == 2
     assert files(workspace) == before
-    assert f".github/workflows/talker.yaml in {workspace} exists already" in capsys.readouterr().err
+    assert f".github/workflows/talker.yaml in {workspace} already exists" in capsys.readouterr().err
     assert run("--force") == 0
     assert "colcon" in path.read_text()
 

@@ -295,7 +295,7 @@ def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
     holder = f"process {os.getpid()}"
     assert str(caught.value) == (
         f"'{tmp_path}' is in use by another smoke ({holder}): "
-        "wait for its end, or choose another --workspace"
+        "wait for it to finish, or choose another --workspace"
     )
     assert told == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
     assert list(tmp_path.iterdir()) == []

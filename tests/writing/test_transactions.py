@@ -179,7 +179,7 @@ def test_a_file_that_changes_before_its_rename_stops_all(
         exchange(first, second, spare)
 
     monkeypatch.setattr(rename, "exchange", late)
-    with pytest.raises(ConflictError, match=r"b/c in .* has changed since it was read"):
+    with pytest.raises(ConflictError, match=r"b/c in .* changed after it was read"):
         WritePlan.of(tmp_path, AFTER, remove=["gone"]).write(force=True)
     assert len(seen) > 2
     assert tree(tmp_path) == {**BEFORE, "b/c": "mine\n"}
@@ -199,7 +199,7 @@ def test_what_is_written_to_an_open_file_is_kept(
             editor.flush()
 
         monkeypatch.setattr(rename, "exchange", late)
-        with pytest.raises(ConflictError, match=r"a in .* has changed since it was read"):
+        with pytest.raises(ConflictError, match=r"a in .* changed after it was read"):
             WritePlan.of(tmp_path, {"a": "new\n"}).write(force=True)
     assert (tmp_path / "a").read_text().startswith("old a\nand more\n")
 
@@ -260,7 +260,7 @@ def test_an_edit_during_a_fix_is_not_lost(package: Path, capfd: pytest.CaptureFi
     node.write_text(node.read_text() + "X = 1 \n")
     with edit_during_the_check(node, "MINE = 2\n"):
         assert main(["check", "--fix", str(package)]) == 2
-    assert "has changed since it was read; nothing was written" in capfd.readouterr().err
+    assert "changed after it was read; nothing was written" in capfd.readouterr().err
     assert node.read_text().endswith("X = 1 \nMINE = 2\n")
 
 
@@ -368,7 +368,7 @@ def test_check_notes_what_was_cut_off_and_changes_nothing(
     for _ in range(2):  # the second run would be a remembered one
         main(["check", str(package)])
         assert "note: " in (err := capfd.readouterr().err)
-        assert "a run was cut off while it changed this package" in err
+        assert "a run was interrupted while it changed this package" in err
     assert tree(package) == before
     main(["check", "--fix", str(package)])
     assert "an earlier run was cut off; its changes were " in capfd.readouterr().err

@@ -99,7 +99,7 @@ class ChoiceList:
     def _rows(self) -> FormattedText:
         found = self._found()
         if not found:
-            return FormattedText([("", f"  nothing has {self._typed.strip()!r} in it")])
+            return FormattedText([("", f"  no match for {self._typed.strip()!r}")])
         tokens: list[tuple[str, str]] = []
         for number, choice in enumerate(found):
             is_pointed = number == self._at

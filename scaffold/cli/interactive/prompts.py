@@ -132,7 +132,7 @@ def _by_name(question: str, choices: Sequence[Choice], default: str | None) -> s
 def _by_names(question: str, choices: Sequence[Choice]) -> list[str]:
     _list(choices)
     names = [choice.name for choice in choices]
-    hint = "names with blanks between them, or nothing"
+    hint = "names separated by spaces, or nothing"
     answer = line(question, "", lambda words: _not_among(words.split(), names), hint=hint)
     return [name for name in names if name in answer.split()]
 
@@ -144,4 +144,4 @@ def _list(choices: Sequence[Choice]) -> None:
 
 def _not_among(words: Sequence[str], names: Sequence[str]) -> str | None:
     wrong = [word for word in words if word not in names]
-    return f"{wrong[0]!r} is no name in the list above" if wrong else None
+    return f"{wrong[0]!r} is not in the list above" if wrong else None

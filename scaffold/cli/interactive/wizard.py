@@ -136,7 +136,7 @@ class _Interview:
             if fault is None:
                 entries.append(entry)
             else:
-                say(f"{fault}; asked again")
+                say(f"{fault}; answer again")
         self._answers[parts.ADD] = entries
 
     def _kind(self, taken: Sequence[str]) -> str:
@@ -227,16 +227,16 @@ class _Interview:
 
         def judge(answer: str) -> str | None:
             if not answer and known is not None:
-                return None if usual not in refused else f"the package has {usual} already"
+                return None if usual not in refused else f"the package already has {usual}"
             if answer in refused:
-                return f"the package has {answer} already"
+                return f"the package already has {answer}"
             return self._fault(question, answer_text.split(question, answer))
 
-        made = more.rstrip(")") or "default: made of the other answers"
+        made = more.rstrip(")") or "default: derived from the other answers"
         hint = made if known is not None and not usual else ""
         answer = prompts.line(text, usual, judge, hint=hint, completions=words)
         if not answer and usual:
-            say(f"taken: {usual}")
+            say(f"using {usual}")
         return answer_text.split(question, answer or usual)
 
     def _fault(self, question: Question, value: object) -> str | None:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
 HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
-"""What the checker finds in files without a header; where the licence is not known that is so."""
+"""What the checker finds in files without a header; where the license is not known that is so."""
 
 
 class Added(NamedTuple):
@@ -54,7 +54,7 @@ class Added(NamedTuple):
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
     has_header: bool
-    """Whether the new files have a licence header."""
+    """Whether the new files have a license header."""
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
         """Tell whether a finding follows from what the user is told, or is left to do."""
@@ -266,7 +266,7 @@ def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
 def _remarks(package: Package, made: Piece) -> Iterator[str]:
     context = made.composed.context
     if not context["header"] and any(path.endswith(_WITH_HEADER) for path in made.rendered.files):
-        yield f"the new files have no licence header: {_why_no_header(package, made)}"
+        yield f"the new files have no license header: {_why_no_header(package, made)}"
     if made.others:
         launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
         yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
@@ -277,7 +277,7 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
 def _why_no_header(package: Package, made: Piece) -> str:
     if not made.composed.context["has_license"]:
         declared = ", ".join(element.text for element in package.manifest.all("license"))
-        return f"the licence of {package.name} is {declared or 'none'!r}; --license gives them one"
+        return f"the license of {package.name} is {declared or 'none'!r}; --license gives them one"
     return (
         f"neither the maintainer nor the sources of {package.name} name a copyright holder; "
         "--copyright-holder gives them one"
@@ -285,7 +285,7 @@ def _why_no_header(package: Package, made: Piece) -> str:
 
 
 _WITH_HEADER = (".py", ".cpp")
-"""Files that have the header of a licence."""
+"""Files that have the header of a license."""
 
 
 def _refuse_taken(package: Package, made: Piece) -> None:

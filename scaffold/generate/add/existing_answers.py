@@ -26,11 +26,11 @@ _OF_OPEN_ROBOTICS = ("openrobotics.org", "osrfoundation.org")
 
 
 def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
-    """Return what a package has decided: its licence, copyright holder and maintainer.
+    """Return what a package has decided: its license, copyright holder and maintainer.
 
     Args:
         package: The package; its manifest can be parsed.
-        licenses: The licences that there are templates for.
+        licenses: The licenses that there are templates for.
     """
     maintainer, address = _maintainer(package.manifest)
     found = {
@@ -43,7 +43,7 @@ def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
 
 
 def license_of(package: Package, known: Sequence[str]) -> str | None:
-    """Return the licence of a package that there is a template for.
+    """Return the license of a package that there is a template for.
 
     The manifest decides; where it says too little (``BSD``) or nothing, the headers of the
     package's own sources do, then the file LICENSE. Where it says TODO nothing is decided.
@@ -68,14 +68,14 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
 
 
 def is_decided(package: Package) -> bool:
-    """Tell whether the manifest does not leave the licence to be filled in."""
+    """Tell whether the manifest does not leave the license to be filled in."""
     return not any(is_placeholder(element.text) for element in package.manifest.all("license"))
 
 
 def own_header(package: Package) -> str:
     """Return the comment with the copyright notice that most own Python files begin with.
 
-    It is empty where the licence is not decided, or where the files do not agree.
+    It is empty where the license is not decided, or where the files do not agree.
     """
     headers = [one for one in own_headers(package) if one.path.endswith(".py")]
     comments = (

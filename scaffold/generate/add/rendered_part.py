@@ -155,7 +155,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
     )
     composed.context["has_license"] = "license" in known
     if not composed.context["has_license"]:
-        # Better the header of the author's other files, or none, than one with another licence.
+        # Better the header of the author's other files, or none, than one with another license.
         composed.context["header"] = existing_answers.own_header(package)
     elif not {"copyright_holder", "maintainer_name"} & {*known}:
         composed.context["header"] = ""  # whoever runs this need not be the holder

@@ -104,7 +104,7 @@ class Editor:
         if not installs_program(self.lists, path, self.package):
             self.edit(cmake_edit.insert_install(self.lists, "PROGRAMS", path, "lib"))
         if not installs_program(self.lists, path, self.package):
-            self.refuse(line, "no place was safe")
+            self.refuse(line, "there is no safe place for it")
 
     def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
         """Install a directory, its name included, to ``share/<package>``.
@@ -116,7 +116,7 @@ class Editor:
             for file in files:
                 if not _installs_file(self.lists, file):
                     line = f"install(FILES {file} DESTINATION {share}/{path})"
-                    self.refuse(line, f"what installs {path}/ leaves it out")
+                    self.refuse(line, f"what installs {path}/ does not include it")
             return
         line = f"install(DIRECTORY {path} DESTINATION {share})"
         if self.refused(line):
@@ -129,7 +129,7 @@ class Editor:
             self.edit(make(self.lists, path))
             if _installs_directory(self.lists, path):
                 return
-        self.refuse(line, "no place was safe")
+        self.refuse(line, "there is no safe place for it")
 
     def add_test(self, path: str) -> None:
         """Run a pytest file when tests are built."""
@@ -163,11 +163,11 @@ class Editor:
         lists = self.lists
         ends = [call for call in lists.find(*LAST_CALLS) if call.depth == 0]
         if lists.project_name != self.package:
-            self.refuse(line, f"the project is not known to be named {self.package!r}")
+            self.refuse(line, f"the name of the project is not known to be {self.package!r}")
         elif not ends:
             self.refuse(line, f"there is no {LAST_CALLS[0]}() at the top level")
         elif not is_test and all(lists.guarded_by_testing(call) for call in ends):
-            self.refuse(line, "what stands at the end is not always reached")
+            self.refuse(line, "the end of the file is not always reached")
         else:
             return False
         return True
@@ -289,7 +289,7 @@ def _has_list(install: Install) -> bool:
 
 
 def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: str) -> str:
-    """Write a path the way its neighbour is: with the same variables in front, or quotes."""
+    """Write a path the way its neighbor is: with the same variables in front, or quotes."""
     text, project = argument.text, f"{lists.project_name}/"
     directory, _, name = new.rpartition("/")
     if path is not None and path.rpartition("/")[0] == directory and not argument.bracket:

@@ -36,7 +36,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         elif any(listed.path == path for listed in found.files):
             continue
         elif not found.files:
-            editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not written out")
+            editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not a literal list")
             continue
         line = f'{GENERATE}(${{PROJECT_NAME}} "{path}")'
         if editor.refused(line):
@@ -53,7 +53,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         found = _generation(editor.lists)
         if found is None or path not in [listed.path for listed in found.files]:
             editor.lists = before
-            editor.refuse(line, "what stands at the end is not always reached")
+            editor.refuse(line, "the end of the file is not always reached")
 
 
 def add_compiled(editor: Editor, program: Compiled) -> None:
@@ -94,7 +94,7 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
     _run_in_tests(editor, program.name)
     if not any(_makers(editor.lists, program.name)):
         editor.lists = before
-        editor.refuse(f"{lines[0]} and {install}", "no place was safe")
+        editor.refuse(f"{lines[0]} and {install}", "there is no safe place for it")
 
 
 def _makers(lists: CMakeLists, name: str | None) -> Iterator[Command]:

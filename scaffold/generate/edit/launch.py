@@ -44,7 +44,7 @@ def add_to_launch(source: Source, addition: Addition) -> Outcome:
         if _starts(changed, addition.package, program):
             return Outcome(changed)
     line = f"Node(package='{addition.package}', executable='{program.name}'),"
-    reason = "where the nodes are put into its LaunchDescription is not plain to see"
+    reason = "it is not clear where its LaunchDescription gets its nodes"
     return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 

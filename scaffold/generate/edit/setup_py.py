@@ -95,11 +95,11 @@ class _Editor:
             return
         line = f"packages=['{name}'],"
         if installed is None:
-            self._refuse(line, f"whether packages= has {name!r} cannot be seen")
+            self._refuse(line, f"cannot tell whether packages= includes {name!r}")
             return
         self._edit(lambda setup: _package_edit(setup, self._expression(name)))
         if not installs_package(self.setup, name):
-            self._refuse(line, f"packages= leaves {name!r} out")
+            self._refuse(line, f"packages= does not include {name!r}")
 
     def add_entry_point(self, program: Program) -> None:
         if self._has(program):
@@ -112,7 +112,7 @@ class _Editor:
             )
         )
         if not self._has(program):
-            self._refuse(line, "the list of console_scripts is not written out in setup()")
+            self._refuse(line, "console_scripts in setup() is not a literal list")
 
     def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
         """Install the files of a directory to ``share/<package>``, with its name."""
@@ -139,7 +139,7 @@ class _Editor:
         before = self.setup
         self._edit(lambda setup: setup_edit.add_data_files(setup, where, files))
         if self.setup is before:
-            self._refuse(f"({where}, {files}),", "the list of data_files is not written out")
+            self._refuse(f"({where}, {files}),", "data_files is not a literal list")
         elif not imports_module:
             self._edit(lambda s: setup_edit.add_import(s.module, "from glob import glob"))
 
@@ -161,7 +161,7 @@ class _Editor:
             where = module.text(written_out[0][0]) if written_out else where
             self._edit(lambda setup: setup_edit.add_data_files(setup, where, f"[{written}]"))
         if self.setup is before:
-            self._refuse(f"({where}, [{written}]),", "the list of data_files is not written out")
+            self._refuse(f"({where}, [{written}]),", "data_files is not a literal list")
 
     def _destination(self, path: str, share: str) -> str:
         """Return the expression for a directory below ``share``."""
@@ -182,7 +182,7 @@ class _Editor:
         before = self.setup
         self._edit(lambda setup: setup_keywords.insert(setup, _EXTRA))
         if self.setup is before:
-            self._refuse(f"{_EXTRA},", "the arguments of setup() are not written out")
+            self._refuse(f"{_EXTRA},", "the arguments of setup() are not literal")
 
     def _has(self, program: Program) -> bool:
         return any(

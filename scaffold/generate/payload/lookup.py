@@ -148,7 +148,7 @@ def _full_name(text: str, kind: str, definitions: Definitions) -> str:
 
 
 def _nearest(text: str, kind: str, definitions: Definitions) -> list[str]:
-    """Return the types of this kind that look most like a misspelt one, best first."""
+    """Return the types of this kind that look most like a misspelled one, best first."""
     if not text.strip():
         return []
     found = definitions.nearest(text, 100)

@@ -31,14 +31,14 @@ class Quantity(NamedTuple):
 
 RATIO = Quantity(0.5, 0.5, "0.0 to 1.0")
 NUMBER = Quantity(0.0, 1.0, "")
-_METRES = Quantity(1.0, 0.5, "metres")
+_METRES = Quantity(1.0, 0.5, "meters")
 _RADIANS = Quantity(0.0, 1.0, "radians")
-_SPEED = Quantity(0.5, 0.5, "metres per second")
+_SPEED = Quantity(0.5, 0.5, "meters per second")
 _TURN = Quantity(0.0, 0.5, "radians per second")
 _SECONDS = Quantity(1.0, 0.1, "seconds")
 _HERTZ = Quantity(10.0, 0.5, "hertz")
 _NEWTONS = Quantity(5.0, 1.0, "newtons")
-_TORQUE = Quantity(0.5, 0.1, "newton metres")
+_TORQUE = Quantity(0.5, 0.1, "newton meters")
 
 _QUANTITIES: Mapping[str, Quantity] = {
     "angular velocity": _TURN,
@@ -47,15 +47,15 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "turn rate": _TURN,
     "yaw rate": _TURN,
     **{f"{word} rate": _HERTZ for word in ("update", "frame", "publish", "sample", "refresh")},
-    "speed limit": Quantity(1.0, 0.5, "metres per second"),
+    "speed limit": Quantity(1.0, 0.5, "meters per second"),
     "magnetic field": Quantity(2e-05, 1e-06, "tesla"),
     "battery level": RATIO,
-    "wind speed": Quantity(5.0, 1.0, "metres per second"),
+    "wind speed": Quantity(5.0, 1.0, "meters per second"),
     "state of charge": RATIO,
     "soc": RATIO,
     **dict.fromkeys(
         ("acceleration", "deceleration", "accel", "acc"),
-        Quantity(0.0, 0.5, "metres per second squared"),
+        Quantity(0.0, 0.5, "meters per second squared"),
     ),
     **dict.fromkeys(("velocity", "speed", "vel"), _SPEED),
     **dict.fromkeys(("angle", "yaw", "pitch", "roll", "heading", "theta", "bearing"), _RADIANS),
@@ -65,7 +65,7 @@ _QUANTITIES: Mapping[str, Quantity] = {
     ),
     **dict.fromkeys(("range", "tolerance", "clearance", "thickness", "wheelbase"), _METRES),
     **dict.fromkeys(("position", "offset", "displacement", "resolution", "x", "y", "z"), _METRES),
-    "altitude": Quantity(500.0, 10.0, "metres"),
+    "altitude": Quantity(500.0, 10.0, "meters"),
     "latitude": Quantity(48.1, 0.001, "degrees"),
     "longitude": Quantity(11.6, 0.001, "degrees"),
     "temperature": Quantity(20.0, 2.0, "degrees Celsius"),
@@ -94,11 +94,11 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "variance": Quantity(0.01, 0.001, ""),
 }
 _SUFFIXES = {
-    "m": "metres", "mm": "millimetres", "cm": "centimetres", "km": "kilometres",
+    "m": "meters", "mm": "millimeters", "cm": "centimeters", "km": "kilometers",
     "s": "seconds", "sec": "seconds", "ms": "milliseconds", "us": "microseconds",
     "rad": "radians", "v": "volts", "mv": "millivolts", "ma": "milliamperes",
-    "w": "watts", "c": "degrees Celsius", "kg": "kilograms", "n": "newtons", "nm": "newton metres",
-    "mps": "metres per second", "kmh": "kilometres per hour",
+    "w": "watts", "c": "degrees Celsius", "kg": "kilograms", "n": "newtons", "nm": "newton meters",
+    "mps": "meters per second", "kmh": "kilometers per hour",
     "pa": "pascals", "hpa": "hectopascals",
 }  # fmt: skip
 """Units that stand behind a name, as in ``range_mm``."""
@@ -153,8 +153,8 @@ _TEXTS: Mapping[str, str] = {
     "place": "kitchen",
     "color": "red",
     "colour": "red",
-    "unit": "metres",
-    "units": "metres",
+    "unit": "meters",
+    "units": "meters",
     "version": "1.0.0",
     "model": "example",
     "serial": "0001",

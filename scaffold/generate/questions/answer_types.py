@@ -51,15 +51,15 @@ def text(given: object) -> str:
         raise InputError(f"has {len(folded)} characters; the limit is {MAX_TEXT}")
     for character in folded:
         if unicodedata.category(character) in {"Cc", "Cs"} or character in "\ufffe\uffff":
-            raise InputError(f"holds the character U+{ord(character):04X}, which XML forbids")
+            raise InputError(f"contains the character U+{ord(character):04X}, which XML forbids")
     refuse_turning(folded)
     if is_placeholder(folded):
-        raise InputError(f"{_short(folded)!r} is a placeholder; say it, or leave it out")
+        raise InputError(f"{_short(folded)!r} is a placeholder; give the real text, or omit it")
     return folded
 
 
 def person(given: object) -> str:
-    """Return the name of a person or an organisation.
+    """Return the name of a person or an organization.
 
     Raises:
         InputError: it cannot stand in a comment, in XML and in Python.
@@ -68,7 +68,7 @@ def person(given: object) -> str:
     if len(name) > MAX_PERSON:
         raise InputError(f"{_short(name)!r} has more than {MAX_PERSON} characters")
     if set(name) & set('"\\'):
-        raise InputError(f"{name!r} holds a double quote or a backslash")
+        raise InputError(f"{name!r} contains a double quote or a backslash")
     if re.search(_ENCODING, name):
         raise InputError(f"{name!r} would tell Python the encoding of the files")
     return name
@@ -86,7 +86,7 @@ def address(given: object) -> str:
     if not re.fullmatch(_ADDRESS, found, re.ASCII):
         raise InputError(f"{found!r} is not a mail address such as ada@example.com")
     if is_placeholder_address(found):
-        raise InputError(f"{found!r} is a placeholder that reaches nobody")
+        raise InputError(f"{found!r} is a placeholder")
     return found
 
 
@@ -234,7 +234,7 @@ TYPES: Mapping[str, Callable[[object, str], object]] = {
 
 def _string(given: object) -> str:
     if isinstance(given, bool) or not isinstance(given, str | int | float):
-        raise InputError(f"{_short(repr(given))} is not a text")
+        raise InputError(f"{_short(repr(given))} is not text")
     return str(given)
 
 

@@ -50,7 +50,7 @@ def fields(given: object, where: str = ".") -> Fields:
     for problem in definition.problems:
         line = lines[problem.location.line - 1]
         several = re.search(r"\w\s*[,;]\s*[\w/]+ +\w", line.partition("#")[0])
-        hint = "; write each field as a text of its own" if several else ""
+        hint = "; write each field as a string of its own" if several else ""
         raise InputError(f"{line!r}: {problem.message}{hint}")
     for section in definition.sections:
         for field in section.fields:
@@ -77,7 +77,9 @@ def refuse_turning(text: str) -> None:
     """
     found = next((one for one in text if one in _TURNING), None)
     if found is not None:
-        raise InputError(f"holds the character U+{ord(found):04X}, which turns text around")
+        raise InputError(
+            f"contains the character U+{ord(found):04X}, which changes the direction of text"
+        )
 
 
 def _refuse_garbled(lines: Iterable[str]) -> None:
@@ -88,7 +90,7 @@ def _refuse_garbled(lines: Iterable[str]) -> None:
         if "\\" in line:
             raise InputError(f"{line!r}: rosidl takes a backslash for the start of an escape")
         if value[:1] in {'"', "'"} and (len(value) == 1 or value[-1] != value[0]):
-            raise InputError(f"{line!r}: the text is not closed; a '#' in it starts a comment")
+            raise InputError(f"{line!r}: the string is not closed; a '#' in it starts a comment")
         if trigraph := re.search(r"\?\?[=/'()!<>-]", line):
             raise InputError(f"{line!r}: {trigraph[0]!r} is another character in C")
 

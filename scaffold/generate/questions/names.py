@@ -195,7 +195,7 @@ def topic(text: str, what: str = "topic") -> str:
     if "__" in text:
         raise InputError(f"the {what} {text!r} has two underscores in a row, which ROS reserves")
     if resolve(text, "node") in _RESERVED_TOPICS:
-        raise InputError(f"the {what} {text!r} is one that ROS itself uses")
+        raise InputError(f"the {what} {text!r} is used by ROS itself")
     return text
 
 

@@ -185,7 +185,7 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
         if name not in known:
             near = get_close_matches(name, known, n=1)
             hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(sorted(known))}"
-            raise InputError(f"{given.origin}: {key!r} is no question of the templates; {hint}")
+            raise InputError(f"{given.origin}: {key!r} is not a question of the templates; {hint}")
         if given.value is not None:
             found[name] = Given(given.value, f"{given.origin}: {key}")
     return found
@@ -249,7 +249,7 @@ def _default(question: Question, fallback: Callable[[str], Given | None]) -> Giv
         return Given(question.default, "default")
     found = fallback(question.name)
     if found is None:
-        raise InputError(f"{flag(question.name)} is needed: {question.help}")
+        raise InputError(f"{flag(question.name)} is required: {question.help}")
     return found
 
 

@@ -151,7 +151,7 @@ class _Loader(BaseLoader):
         for directory in self._directories(first):
             path = os.path.join(directory, *rest.split("/"))
             if os.path.exists(path) and not os.path.isfile(path):
-                raise ContentError(f"{path}: is no file")
+                raise ContentError(f"{path}: is not a file")
             try:
                 data = read_file(path, MOST_BYTES)
                 refuse_outside(path, [*self._roots, directory])

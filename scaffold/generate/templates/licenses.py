@@ -1,4 +1,4 @@
-"""Licences: directories ``_licenses/<SPDX id>/`` with a header for sources and the full text."""
+"""Licenses: directories ``_licenses/<SPDX id>/`` with a header for sources and the full text."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ HEADER = "header.jinja"
 TEXT = "LICENSE.jinja"
 CONTRIBUTING = "CONTRIBUTING.md.jinja"
 NOTE = "note.jinja"
-"""Something the user should know before choosing it; most licences have none."""
+"""Something the user should know before choosing it; most licenses have none."""
 
 
 def names(roots: Sequence[str]) -> tuple[str, ...]:
-    """Return the identifiers of the licences in content directories."""
+    """Return the identifiers of the licenses in content directories."""
     found: set[str] = set()
     for root in roots:
         directory = os.path.join(root, DIRECTORY)

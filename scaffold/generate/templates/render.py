@@ -77,13 +77,13 @@ class Renderer:
         return self._engine.file(name, context)
 
     def license_header(self, license_: str, context: Mapping[str, Any]) -> str:
-        """Return the header of a licence as comment lines."""
+        """Return the header of a license as comment lines."""
         return filters.comment(
             self.file(f"{licenses.DIRECTORY}/{license_}/{licenses.HEADER}", context)
         )
 
     def license_note(self, license_: str, context: Mapping[str, Any]) -> str | None:
-        """Return what the user should know about a licence, if anything."""
+        """Return what the user should know about a license, if anything."""
         name = f"{licenses.DIRECTORY}/{license_}/{licenses.NOTE}"
         return self.file(name, context).strip() if self.has(name) else None
 

@@ -315,7 +315,7 @@ def _question(path: str, name: str, entry: object) -> Question:
 def _with_choices(
     template: Template, templates: Mapping[str, Template], known_licenses: tuple[str, ...]
 ) -> Template:
-    """Replace ``choices: <role>`` by the templates of that role; a licence is one that is known."""
+    """Replace ``choices: <role>`` by the templates of that role; a license is one that is known."""
     questions = []
     for question in template.questions:
         choices = question.choices

@@ -1,1 +1,1 @@
-"""Keeps a package in step with its templates."""
+"""Updates a package to the current templates."""

@@ -21,7 +21,7 @@ from scaffold.generate.update.provenance import NAME, Provenance, parse
 
 
 class Updated(NamedTuple):
-    """A package in step with the templates, in memory."""
+    """A package updated to the current templates, in memory."""
 
     files: Mapping[str, bytes]
     """What is written: files that change, and the record."""
@@ -82,7 +82,7 @@ def read(tree: Tree, where: str) -> Provenance:
     path = f"{where}/{NAME}"
     if NAME not in tree.files:
         raise InputError(
-            f"{path} is missing: ros2-scaffold did not make this package, or before it kept records"
+            f"{path} is missing: created without ros2-scaffold, or before it kept records"
         )
     try:
         return parse(tree.read(NAME).decode(), path)
@@ -115,8 +115,8 @@ def _known_part(
     template = templates.get(str(part.get(KIND)))
     if template is None:
         raise InputError(
-            f"{origin}: made with the template {part.get(KIND)!r}, which is not known here; "
-            "--content names the directory with the templates of a team"
+            f"{origin}: made with the template {part.get(KIND)!r}, which does not exist here; "
+            "--content names the directory of a team's templates"
         )
     known = {KIND, *(question.name for question in template.questions)}
     remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in known]
@@ -145,8 +145,8 @@ def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> 
     for path in sorted(present.keys() & set(made.rendered.files)):
         if all(mark.encode() in present[path] for mark in MARKS):
             raise InputError(
-                f"{where}/{path}: has a conflict that an earlier update has marked; "
-                "decide it first; nothing was changed"
+                f"{where}/{path}: has conflict markers of an earlier update; "
+                "resolve them first; nothing was changed"
             )
 
 

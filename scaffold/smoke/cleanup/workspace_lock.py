@@ -57,7 +57,7 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
         if time.monotonic() >= deadline:
             raise InputError(
                 f"'{path.parent}' is in use by another smoke ({holder}): "
-                "wait for its end, or choose another --workspace"
+                "wait for it to finish, or choose another --workspace"
             )
         if not has_told:
             tell(f"waiting for another smoke ({holder}) in '{path.parent}'")

@@ -40,7 +40,7 @@ _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
 def read(path: Path, start: int = 0) -> str:
-    """Return what was written to a file, without terminal colours; empty if there is none.
+    """Return what was written to a file, without terminal colors; empty if there is none.
 
     Args:
         path: The file; of a large one, the end is read.

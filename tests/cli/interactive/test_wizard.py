@@ -102,7 +102,7 @@ def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
     """Answer what comes after the parts; return what is said at the end."""
     terminal.answer("What to add besides:", ENTER)
     terminal.answer("What the package is for", "Speaks" + ENTER)
-    terminal.answer("Licence of the package:", ENTER)
+    terminal.answer("License of the package:", ENTER)
     terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
     terminal.answer("Mail address:", "\x15" + mail + ENTER)
     said, code = terminal.end()
@@ -236,7 +236,7 @@ def test_a_name_that_is_typed_in_full_comes_first(terminal: Terminal) -> None:
 def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: Path) -> None:
     (tmp_path / "talker").mkdir()
     terminal.answer("new package:", "talker" + ENTER)
-    terminal.answer("talker exists already", "\x15speaker" + ENTER)
+    terminal.answer("talker already exists", "\x15speaker" + ENTER)
     terminal.says("Build system:")
 
 
@@ -277,14 +277,14 @@ def test_without_a_cursor_choices_are_answered_by_name(
     terminal = start(TERM="dumb")
     terminal.answer("new package:", "talker\n")
     terminal.answer("Build system: [ament_cmake]", "setuptools\n")
-    terminal.answer("'setuptools' is no name in the list above", "ament_python\n")
+    terminal.answer("'setuptools' is not in the list above", "ament_python\n")
     terminal.answer("What is in the package? [publisher]", "timer\n")
     terminal.answer("executable: [minimal_timer]", "\n")
     terminal.answer("per second: [2.0]", "\n")
     terminal.answer("What else is in the package? [nothing more]", "\n")
     terminal.answer("What to add besides", "launch gitignore\n")
     terminal.answer("What the package is for", "\n")
-    terminal.answer("Licence of the package: [Apache-2.0]", "MIT\n")
+    terminal.answer("License of the package: [Apache-2.0]", "MIT\n")
     terminal.answer("Who maintains the package:", "Ada\n")
     terminal.answer("Mail address:", "ada@example.com\n")
     said, code = terminal.end()
@@ -300,7 +300,7 @@ def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Termina
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What to add besides:", ENTER)
-    terminal.answer("Licence of the package:", ENTER)
+    terminal.answer("License of the package:", ENTER)
     said, code = terminal.end()
     assert code == 0, said
     assert "--maintainer-name 'Zo\\xeb'" in said
@@ -368,4 +368,4 @@ def test_shells_read_quoted_words_as_they_are(shell: str) -> None:
 
 def test_without_a_terminal_the_name_is_needed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new"]) == 2
-    assert "PACKAGE is needed: the name of the new package" in capsys.readouterr().err
+    assert "PACKAGE is required: the name of the new package" in capsys.readouterr().err

@@ -480,7 +480,7 @@ def test_without_a_holder_there_is_no_header(
     assert add(demo, "publisher", "talker") == 0
     assert notice(demo) == []
     assert (
-        "note: the new files have no licence header: neither the maintainer nor the sources of "
+        "note: the new files have no license header: neither the maintainer nor the sources of "
         "demo name a copyright holder; --copyright-holder gives them one\n"
     ) in capsys.readouterr().err
     assert add(demo, "publisher", "talker", "--copyright-holder", "Ada", "--force") == 0
@@ -497,7 +497,7 @@ def test_an_undecided_licence_gives_no_header(
     assert add(demo, "publisher", "talker") == 0
     assert notice(demo) == []
     assert "Licensed" not in (demo / "demo" / "talker.py").read_text()
-    assert f"the licence of demo is {licence!r}" in capsys.readouterr().err
+    assert f"the license of demo is {licence!r}" in capsys.readouterr().err
 
 
 def test_without_any_licence_there_is_no_header(
@@ -509,7 +509,7 @@ def test_without_any_licence_there_is_no_header(
     assert add(demo, "publisher", "talker") == 0
     assert (demo / "scripts" / "talker.py").read_text().startswith('#!/usr/bin/env python3\n"""\n')
     said = capsys.readouterr().err
-    assert "the licence of demo is 'TODO'; --license gives them one" in said
+    assert "the license of demo is 'TODO'; --license gives them one" in said
     assert add(demo, "publisher", "other", "--license", "MIT") == 0
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
 
@@ -623,7 +623,10 @@ def test_an_edit_that_makes_another_line_wrong_is_refused(
     there = read(demo)
     monkeypatch.setattr("scaffold.generate.add.add.edit", spoilt)
     assert add(demo, "publisher", "talker") == 3
-    assert "defect: what was to be added has faults" in capsys.readouterr().err
+    assert (
+        "internal error: the checker finds errors in what was to be added"
+        in capsys.readouterr().err
+    )
     assert read(demo) == there
 
 
@@ -869,7 +872,7 @@ def test_what_installs_other_launch_files_alone_is_said(
     assert add(demo, "launch") == 1
     assert (
         "CMakeLists.txt: install(FILES launch/demo.launch.py DESTINATION "
-        "share/${PROJECT_NAME}/launch)\n        because what installs launch/ leaves it out\n"
+        "share/${PROJECT_NAME}/launch)\n        because what installs launch/ does not include it\n"
     ) in capsys.readouterr().err
 
 
@@ -896,7 +899,7 @@ def test_an_extra_of_files_alone_writes_them(
 def test_an_extra_does_not_overwrite(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (demo / ".gitignore").write_text("mine\n")
     said = refused(demo, capsys, "gitignore")
-    assert said == (f".gitignore in {demo} exists already and differs; overwrite it with --force")
+    assert said == (f".gitignore in {demo} already exists and differs; overwrite it with --force")
     assert add(demo, "gitignore", "--force") == 0
     assert "__pycache__/" in (demo / ".gitignore").read_text()
 
@@ -926,7 +929,7 @@ def test_a_file_is_not_overwritten_unasked(demo: Path, capsys: pytest.CaptureFix
     path.write_text("mine = True\n")
     said = refused(demo, capsys, "publisher", "talker")
     assert said == (
-        f"{directory}/talker.py in {demo} exists already and differs; "
+        f"{directory}/talker.py in {demo} already exists and differs; "
         "choose another name, or overwrite it with --force"
     )
     assert add(demo, "publisher", "talker", "--force") == 0
@@ -978,8 +981,8 @@ def test_a_program_that_is_there_is_not_added_again(
     [
         (("publischer", "x_y"), "did you mean publisher?"),
         (("publisher", "Bad-Name"), "NAME"),
-        (("publisher",), "NAME is needed: what the node is called"),
-        (("launch", "all"), "NAME: of no use with launch, which is for the whole package"),
+        (("publisher",), "NAME is required: the name of the node"),
+        (("launch", "all"), "NAME does not apply to launch, which is for the whole package"),
         (("lunch",), "did you mean launch?"),
         (("publisher", "talker", "--rate", "fast"), "--rate: 'fast' is not a number"),
         (("message", "Status"), "message needs the build type ament_cmake, not ament_python"),
@@ -996,7 +999,7 @@ def test_a_directory_without_a_package_is_refused(
 ) -> None:
     (tmp_path / "demo").mkdir()
     said = refused(tmp_path / "demo", capsys, "publisher", "talker")
-    assert said == f"{tmp_path}/demo: no package: there is no package.xml in it"
+    assert said == f"{tmp_path}/demo is not a package: it has no package.xml"
 
 
 def test_a_package_of_ros_1_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -372,9 +372,12 @@ def test_a_directory_goes_to_share(before: str, after: str) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("project(other)\nament_package()\n", "the project is not known to be named 'demo'"),
+        ("project(other)\nament_package()\n", "the name of the project is not known to be 'demo'"),
         ("project(demo)\nif(X)\n  ament_package()\nendif()\n", "no ament_package() at the top"),
-        ("project(${NAME})\nament_package()\n", "the project is not known to be named 'demo'"),
+        (
+            "project(${NAME})\nament_package()\n",
+            "the name of the project is not known to be 'demo'",
+        ),
     ],
 )
 def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> None:
@@ -396,9 +399,7 @@ def test_what_only_tests_would_install_is_left_to_the_user() -> None:
     text = f"project(demo)\nfind_package(ament_cmake REQUIRED)\n{early}ament_package()\n"
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
     assert "(test_talker test/test_talker.py TIMEOUT 300)" in outcome.source.text
-    assert [one.reason for one in outcome.by_hand] == [
-        "what stands at the end is not always reached"
-    ]
+    assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
 
 
 def test_a_broken_file_is_refused() -> None:
@@ -456,9 +457,7 @@ def test_interfaces_that_only_tests_would_generate_are_left_to_the_user() -> Non
     text = "project(demo)\nif(NOT BUILD_TESTING)\n  return()\nendif()\nament_package()\n"
     outcome = cmake_edit(text, Addition("demo", interfaces=["msg/C.msg"]))
     assert outcome.source.text == text
-    assert [one.reason for one in outcome.by_hand] == [
-        "what stands at the end is not always reached"
-    ]
+    assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
 
 
 def test_the_first_interface_brings_all_that_it_needs() -> None:
@@ -635,7 +634,7 @@ def test_packages_that_cannot_be_seen_are_left_to_the_user() -> None:
     text = "from setuptools import setup\nfrom x import y\nsetup(packages=y())\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert outcome.by_hand == (
-        ByHand("setup.py", "packages=['demo'],", "whether packages= has 'demo' cannot be seen"),
+        ByHand("setup.py", "packages=['demo'],", "cannot tell whether packages= includes 'demo'"),
     )
 
 

@@ -333,12 +333,12 @@ def own(tmp_path: Path) -> Fill:
 
 
 def test_units_come_from_names_and_comments(own: Fill) -> None:
-    filled = own("float64 motor_temperature\nfloat32 speed # m/s, forwards\nfloat64 range_mm\n")
+    filled = own("float64 motor_temperature\nfloat32 speed # m/s, forward\nfloat64 range_mm\n")
     assert filled.statements == (
         "wave = math.sin(self.count / 10.0)  # -1.0 to 1.0",
         "msg.motor_temperature = 20.0 + 2.0 * wave  # degrees Celsius",
-        "msg.speed = 0.5 + 0.5 * wave  # m/s, forwards",
-        "msg.range_mm = 1.0 + 0.5 * wave  # millimetres",
+        "msg.speed = 0.5 + 0.5 * wave  # m/s, forward",
+        "msg.range_mm = 1.0 + 0.5 * wave  # millimeters",
     )
     assert filled.imports == ("import math", "from robot_msgs.msg import Sample")
     assert filled.type == "robot_msgs/msg/Sample"
@@ -384,11 +384,11 @@ def test_arrays_of_messages_are_filled_in_a_loop(own: Fill) -> None:
         "for count in range(self.count, self.count + 3):",
         "    corner = Point()",
         "    angle = count / 10.0  # radians",
-        "    corner.x = math.cos(angle)  # metres",
+        "    corner.x = math.cos(angle)  # meters",
         "    corner.y = math.sin(angle)",
         "    msg.corners.append(corner)",
         "for count, wheel in enumerate(msg.wheels, self.count):",
-        "    wheel.speed = 0.5 + 0.5 * math.sin(count / 10.0)  # metres per second",
+        "    wheel.speed = 0.5 + 0.5 * math.sin(count / 10.0)  # meters per second",
     )
     assert filled.packages == ("geometry_msgs", "robot_msgs")
 
@@ -420,7 +420,7 @@ def test_long_names_of_fields_do_not_make_long_lines(own: Fill) -> None:
     assert filled.statements == (
         "wave = math.sin(self.count / 10.0)  # -1.0 to 1.0",
         f"drawn = msg.{name}.{inner}  # noqa: E501",
-        "side = 2.0 + wave  # metres",
+        "side = 2.0 + wave  # meters",
         "corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]",
         "drawn.points = [Point32(x=x, y=y) for x, y in corners]",
         f"msg.{name}.{name}_now = wave  # noqa: E501",

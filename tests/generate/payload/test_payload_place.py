@@ -37,4 +37,4 @@ def test_messages_of_the_workspace(tmp_path: Path, capsys: pytest.CaptureFixture
 
 def test_a_node_named_like_a_class_that_it_imports(capsys: pytest.CaptureFixture[str]) -> None:
     assert new("poses", "--node-name", "pose", "--message-type", "geometry_msgs/PoseArray") == 0
-    assert "defect" not in capsys.readouterr().err
+    assert "internal error" not in capsys.readouterr().err

@@ -179,7 +179,7 @@ def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
 
 def test_a_pipe_in_place_of_a_template(lamp: Path) -> None:
     os.mkfifo(lamp / "lamp.txt.jinja")
-    assert "lamp.txt.jinja: is no file" in said(lamp)
+    assert "lamp.txt.jinja: is not a file" in said(lamp)
 
 
 def test_both_processes_render_the_same(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A package stays in step with its templates, and keeps what its owner wrote."""
+"""A package is updated to the current templates, and keeps what its owner wrote."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_new_records_answers_and_files(package: Path) -> None:
 def test_nothing_to_do(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
     assert main(["update", "talker"]) == 0
-    assert capsys.readouterr().out == "The package is in step with the templates.\n"
+    assert capsys.readouterr().out == "The package is up to date with the templates.\n"
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 
@@ -97,7 +97,7 @@ def test_both_changes_come_together(
     assert os.access(node, os.X_OK)
     assert (package / "NOTES.md").read_text() == "# talker\n"
     assert main(["update", "talker", "--content", str(team)]) == 0
-    assert capsys.readouterr().out == "The package is in step with the templates.\n"
+    assert capsys.readouterr().out == "The package is up to date with the templates.\n"
 
 
 def test_a_conflict_is_marked_and_told(
@@ -135,7 +135,7 @@ def test_a_template_of_a_team_that_is_not_named(
         assert main(command) == 2
         assert capsys.readouterr().err == (
             "ros2-scaffold: error: talker/.ros2-scaffold.json: made with the template 'beacon', "
-            "which is not known here; --content names the directory with the templates of a team\n"
+            "which does not exist here; --content names the directory of a team's templates\n"
         )
 
 

@@ -362,7 +362,7 @@ def test_broken_condition_equals_catkin(pieces: list[str]) -> None:
         ("<a>é < 2</a>", "1:6", 'write "&lt;" for "<", or a tag name behind it'),
         ("<a>&nbsp;</a>", "1:4", '"&nbsp;" means nothing in package.xml: write the character'),
         ("<a>&#1;</a>", "1:4", '"&#1;" stands for no character that XML allows'),
-        ("<a b='1' b='2'/>", "1:10", "the attribute 'b' is there twice"),
+        ("<a b='1' b='2'/>", "1:10", "the attribute 'b' is a duplicate"),
         ("<a b=1/>", "1:6", "a value in quotes expected in the tag <a>"),
         ("<a b='1'c='2'/>", "1:9", "a blank expected between attributes of <a>"),
         ("<a b/>", "1:5", "an attribute of <a> has no value"),

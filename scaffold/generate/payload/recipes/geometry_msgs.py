@@ -5,10 +5,10 @@ from __future__ import annotations
 from scaffold.generate.payload.recipe import Recipe
 
 _POINT = Recipe(
-    says="a point that moves on a circle of 1 metre radius",
+    says="a point that moves on a circle of 1 meter radius",
     code="""
         angle = self.count / 10.0  # radians
-        msg.x = math.cos(angle)  # metres
+        msg.x = math.cos(angle)  # meters
         msg.y = math.sin(angle)
     """,
     log="x {msg.x:.2f} m, y {msg.y:.2f} m",
@@ -16,7 +16,7 @@ _POINT = Recipe(
     frame="map",
 )
 _SQUARE = """
-    side = 2.0 + math.sin(self.count / 10.0)  # metres
+    side = 2.0 + math.sin(self.count / 10.0)  # meters
     corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
     msg{path}.points = [Point32(x=x, y=y) for x, y in corners]
 """
@@ -24,14 +24,14 @@ _SQUARE = """
 RECIPES: dict[str, Recipe] = {
     "Accel": Recipe(
         says="the acceleration of a robot that speeds up and slows down",
-        code="msg.linear.x = 0.5 * math.sin(self.count / 10.0)  # metres per second squared",
+        code="msg.linear.x = 0.5 * math.sin(self.count / 10.0)  # meters per second squared",
         log="{msg.linear.x:.2f} m/s^2",
         checks=("-0.5 <= message.linear.x <= 0.5",),
     ),
     "AccelWithCovariance": Recipe(
         says="the acceleration of a robot that speeds up and slows down",
         code="""
-            msg.accel.linear.x = 0.5 * math.sin(self.count / 10.0)  # metres per second squared
+            msg.accel.linear.x = 0.5 * math.sin(self.count / 10.0)  # meters per second squared
             msg.covariance[::7] = 0.01  # the diagonal
         """,
         log="{msg.accel.linear.x:.2f} m/s^2",
@@ -41,8 +41,8 @@ RECIPES: dict[str, Recipe] = {
         says="the inertia of a solid ball whose mass changes",
         code="""
             msg.m = 2.0 + math.sin(self.count / 10.0)  # kilograms
-            msg.com.z = 0.1  # metres
-            moment = 0.4 * msg.m * 0.1**2  # kilograms times metres squared
+            msg.com.z = 0.1  # meters
+            moment = 0.4 * msg.m * 0.1**2  # kilograms times meters squared
             msg.ixx = moment
             msg.iyy = moment
             msg.izz = moment
@@ -67,10 +67,10 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Pose": Recipe(
-        says="a pose on a circle of 1 metre radius, heading along it",
+        says="a pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
-            msg.position.x = math.cos(angle)  # metres
+            msg.position.x = math.cos(angle)  # meters
             msg.position.y = math.sin(angle)
             heading = angle + math.pi / 2.0
             msg.orientation.z = math.sin(heading / 2.0)  # a turn about the vertical axis
@@ -84,10 +84,10 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Pose2D": Recipe(
-        says="a pose on a circle of 1 metre radius, heading along it",
+        says="a pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
-            msg.x = math.cos(angle)  # metres
+            msg.x = math.cos(angle)  # meters
             msg.y = math.sin(angle)
             msg.theta = angle + math.pi / 2.0  # radians
         """,
@@ -95,11 +95,11 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.x**2 + message.y**2 == pytest.approx(1.0)",),
     ),
     "PoseArray": Recipe(
-        says="poses beside each other that move forwards and back",
+        says="poses beside each other that move forward and back",
         code="""
             for index in range(5):
                 pose = Pose()
-                pose.position.x = math.sin(self.count / 10.0)  # metres
+                pose.position.x = math.sin(self.count / 10.0)  # meters
                 pose.position.y = 0.5 * index
                 msg.poses.append(pose)
         """,
@@ -111,15 +111,15 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "PoseWithCovariance": Recipe(
-        says="an uncertain pose on a circle of 1 metre radius, heading along it",
+        says="an uncertain pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
-            msg.pose.position.x = math.cos(angle)  # metres
+            msg.pose.position.x = math.cos(angle)  # meters
             msg.pose.position.y = math.sin(angle)
             heading = angle + math.pi / 2.0
             msg.pose.orientation.z = math.sin(heading / 2.0)  # a turn about the vertical axis
             msg.pose.orientation.w = math.cos(heading / 2.0)
-            msg.covariance[::7] = 0.01  # the diagonal: metres squared, radians squared
+            msg.covariance[::7] = 0.01  # the diagonal: meters squared, radians squared
         """,
         log="x {msg.pose.position.x:.2f} m",
         checks=(
@@ -143,7 +143,7 @@ RECIPES: dict[str, Recipe] = {
         says="a transform that circles around the origin and turns",
         code="""
             angle = self.count / 10.0  # radians
-            msg.translation.x = math.cos(angle)  # metres
+            msg.translation.x = math.cos(angle)  # meters
             msg.translation.y = math.sin(angle)
             msg.rotation.z = math.sin(angle / 2.0)  # a turn about the vertical axis
             msg.rotation.w = math.cos(angle / 2.0)
@@ -157,7 +157,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.child_frame_id = 'base_link'
             angle = self.count / 10.0  # radians
-            msg.transform.translation.x = math.cos(angle)  # metres
+            msg.transform.translation.x = math.cos(angle)  # meters
             msg.transform.translation.y = math.sin(angle)
             msg.transform.rotation.z = math.sin(angle / 2.0)  # a turn about the vertical axis
             msg.transform.rotation.w = math.cos(angle / 2.0)
@@ -170,18 +170,18 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Twist": Recipe(
-        says="the velocity of a robot that drives forwards in curves",
+        says="the velocity of a robot that drives forward in curves",
         code="""
-            msg.linear.x = 0.5  # metres per second
+            msg.linear.x = 0.5  # meters per second
             msg.angular.z = math.sin(self.count / 10.0)  # radians per second
         """,
         log="{msg.angular.z:.2f} rad/s",
         checks=("message.linear.x == 0.5", "-1.0 <= message.angular.z <= 1.0"),
     ),
     "TwistWithCovariance": Recipe(
-        says="the measured velocity of a robot that drives forwards in curves",
+        says="the measured velocity of a robot that drives forward in curves",
         code="""
-            msg.twist.linear.x = 0.5  # metres per second
+            msg.twist.linear.x = 0.5  # meters per second
             msg.twist.angular.z = math.sin(self.count / 10.0)  # radians per second
             msg.covariance[::7] = 0.01  # the diagonal
         """,
@@ -199,11 +199,11 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.x**2 + message.y**2 == pytest.approx(1.0)",),
     ),
     "VelocityStamped": Recipe(
-        says="the velocity of a robot that drives forwards in curves",
+        says="the velocity of a robot that drives forward in curves",
         code="""
             msg.body_frame_id = 'base_link'
             msg.reference_frame_id = 'odom'
-            msg.velocity.linear.x = 0.5  # metres per second
+            msg.velocity.linear.x = 0.5  # meters per second
             msg.velocity.angular.z = math.sin(self.count / 10.0)  # radians per second
         """,
         log="{msg.velocity.angular.z:.2f} rad/s",
@@ -214,7 +214,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.force.x = math.sin(self.count / 10.0)  # newtons
             msg.force.z = -9.81  # newtons: 1 kilogram
-            msg.torque.y = 0.1 * msg.force.x  # newton metres
+            msg.torque.y = 0.1 * msg.force.x  # newton meters
         """,
         log="x {msg.force.x:.2f} N, z {msg.force.z:.2f} N",
         checks=("-1.0 <= message.force.x <= 1.0",),

@@ -8,7 +8,7 @@ _POSES = """
     for index in range(5):
         pose = PoseStamped()
         pose.header = msg.header
-        pose.pose.position.x = float(index)  # metres
+        pose.pose.position.x = float(index)  # meters
         pose.pose.position.y = math.sin(self.count / 10.0 + index)
         msg.{field}.append(pose)
 """
@@ -27,7 +27,7 @@ RECIPES: dict[str, Recipe] = {
     "GridCells": Recipe(
         says="a row of occupied cells that moves sideways",
         code="""
-            msg.cell_width = 0.5  # metres
+            msg.cell_width = 0.5  # meters
             msg.cell_height = 0.5
             y = 0.5 * (self.count % 10)
             msg.cells = [Point(x=0.5 * column, y=y) for column in range(5)]
@@ -40,10 +40,10 @@ RECIPES: dict[str, Recipe] = {
         says="the size and the place of a map",
         code="""
             msg.map_load_time = self.get_clock().now().to_msg()
-            msg.resolution = 0.05  # metres per cell
+            msg.resolution = 0.05  # meters per cell
             msg.width = 100  # cells
             msg.height = 60
-            msg.origin.position.x = -2.5  # metres: where the first cell is
+            msg.origin.position.x = -2.5  # meters: where the first cell is
             msg.origin.position.y = -1.5
         """,
         log="{msg.width} x {msg.height} cells",
@@ -57,7 +57,7 @@ RECIPES: dict[str, Recipe] = {
         """,
         code="""
             msg.info.map_load_time = msg.header.stamp
-            msg.info.resolution = 0.1  # metres per cell
+            msg.info.resolution = 0.1  # meters per cell
             msg.info.width = WIDTH
             msg.info.height = HEIGHT
             row = [0] * WIDTH  # free
@@ -77,12 +77,12 @@ RECIPES: dict[str, Recipe] = {
             msg.child_frame_id = 'base_link'
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
             angle = 0.2 * seconds  # radians
-            msg.pose.pose.position.x = math.sin(angle)  # metres
+            msg.pose.pose.position.x = math.sin(angle)  # meters
             msg.pose.pose.position.y = 1.0 - math.cos(angle)
             msg.pose.pose.orientation.z = math.sin(angle / 2.0)  # a turn about the vertical axis
             msg.pose.pose.orientation.w = math.cos(angle / 2.0)
             msg.pose.covariance[::7] = 0.01  # the diagonal
-            msg.twist.twist.linear.x = 0.2  # metres per second
+            msg.twist.twist.linear.x = 0.2  # meters per second
             msg.twist.twist.angular.z = 0.2  # radians per second
             msg.twist.covariance[::7] = 0.01
         """,

@@ -75,7 +75,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.name = 'speed'
             msg.type = ParameterType.PARAMETER_DOUBLE
-            msg.description = 'How fast to drive, in metres per second'
+            msg.description = 'How fast to drive, in meters per second'
             highest = 2.0 + math.sin(self.count / 10.0)
             msg.floating_point_range = [FloatingPointRange(from_value=0.0, to_value=highest)]
         """,

@@ -10,7 +10,7 @@ _SCAN = """
     msg.angle_max = msg.angle_min + msg.angle_increment * (RAYS - 1)
     msg.scan_time = 0.1  # seconds
     msg.time_increment = msg.scan_time / RAYS
-    msg.range_min = 0.1  # metres
+    msg.range_min = 0.1  # meters
     msg.range_max = 10.0
 """
 
@@ -69,7 +69,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.values) == 3",),
     ),
     "CompressedImage": Recipe(
-        says="a grey PNG image with a pattern that moves to the left",
+        says="a gray PNG image with a pattern that moves to the left",
         constants="""
             WIDTH = 64  # pixels
             HEIGHT = 48
@@ -77,7 +77,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             row = bytes((column + self.count) * 4 % 256 for column in range(WIDTH))
             chunks = [
-                (b'IHDR', struct.pack('>IIBBBBB', WIDTH, HEIGHT, 8, 0, 0, 0, 0)),  # 8 bits, grey
+                (b'IHDR', struct.pack('>IIBBBBB', WIDTH, HEIGHT, 8, 0, 0, 0, 0)),  # 8 bits, gray
                 (b'IDAT', zlib.compress(HEIGHT * (b'\\0' + row))),
                 (b'IEND', b''),
             ]
@@ -111,7 +111,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("250.0 <= message.illuminance <= 350.0", "message.variance == 1.0"),
     ),
     "Image": Recipe(
-        says="a grey image with a pattern that moves to the left",
+        says="a gray image with a pattern that moves to the left",
         constants="""
             WIDTH = 64  # pixels
             HEIGHT = 48
@@ -141,7 +141,7 @@ RECIPES: dict[str, Recipe] = {
             msg.orientation_covariance[::4] = 1e-4  # the diagonal
             msg.angular_velocity.z = 0.2  # radians per second
             msg.angular_velocity_covariance[::4] = 1e-4
-            msg.linear_acceleration.z = 9.81  # metres per second squared: gravity
+            msg.linear_acceleration.z = 9.81  # meters per second squared: gravity
             msg.linear_acceleration_covariance[::4] = 1e-2
         """,
         log="z {msg.orientation.z:.2f}, w {msg.orientation.w:.2f}",
@@ -161,7 +161,7 @@ RECIPES: dict[str, Recipe] = {
             msg.position = [angle, -angle]  # radians
             velocity = 0.2 * math.cos(0.2 * seconds)
             msg.velocity = [velocity, -velocity]  # radians per second
-            msg.effort = [0.5, 0.2]  # newton metres
+            msg.effort = [0.5, 0.2]  # newton meters
         """,
         log="{msg.name[0]} {msg.position[0]:.2f} rad",
         checks=(
@@ -205,7 +205,7 @@ RECIPES: dict[str, Recipe] = {
     "LaserEcho": Recipe(
         says="three echoes of one ray of a laser",
         code="""
-            distance = 2.0 + math.sin(self.count / 10.0)  # metres
+            distance = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.echoes = [distance, distance + 0.5, distance + 1.0]
         """,
         log="{len(msg.echoes)} echoes, {msg.echoes[0]:.2f} m",
@@ -215,7 +215,7 @@ RECIPES: dict[str, Recipe] = {
         says="a scan of a round room whose wall moves in and out",
         constants="RAYS = 360  # of one scan",
         code=f"""{_SCAN}
-    distance = 2.0 + math.sin(self.count / 10.0)  # metres
+    distance = 2.0 + math.sin(self.count / 10.0)  # meters
     msg.ranges = [distance] * RAYS
     msg.intensities = [100.0] * RAYS
         """,
@@ -246,10 +246,10 @@ RECIPES: dict[str, Recipe] = {
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
             angle = 0.2 * seconds  # radians
             transform = Transform()
-            transform.translation.x = math.cos(angle)  # metres
+            transform.translation.x = math.cos(angle)  # meters
             transform.translation.y = math.sin(angle)
             twist = Twist()
-            twist.linear.x = -0.2 * math.sin(angle)  # metres per second
+            twist.linear.x = -0.2 * math.sin(angle)  # meters per second
             twist.linear.y = 0.2 * math.cos(angle)
             msg.joint_names = ['base']
             msg.transforms = [transform]
@@ -266,7 +266,7 @@ RECIPES: dict[str, Recipe] = {
         says="a scan of a round room with a window, two echoes for each ray",
         constants="RAYS = 360  # of one scan",
         code=f"""{_SCAN}
-    distance = 2.0 + math.sin(self.count / 10.0)  # metres
+    distance = 2.0 + math.sin(self.count / 10.0)  # meters
     msg.ranges = [LaserEcho(echoes=[distance, distance + 1.0])] * RAYS
     msg.intensities = [LaserEcho(echoes=[100.0, 50.0])] * RAYS
         """,
@@ -282,8 +282,8 @@ RECIPES: dict[str, Recipe] = {
             msg.status.service = NavSatStatus.SERVICE_GPS
             msg.latitude = 48.137 + 1e-4 * math.sin(angle)  # degrees
             msg.longitude = 11.575 + 1e-4 * math.cos(angle)
-            msg.altitude = 520.0  # metres above the ellipsoid
-            msg.position_covariance[::4] = 4.0  # the diagonal, metres squared
+            msg.altitude = 520.0  # meters above the ellipsoid
+            msg.position_covariance[::4] = 4.0  # the diagonal, meters squared
             msg.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
         """,
         log="{msg.latitude:.6f}, {msg.longitude:.6f}",
@@ -307,7 +307,7 @@ RECIPES: dict[str, Recipe] = {
     "PointCloud": Recipe(
         says="a row of points that moves up and down, with intensities",
         code="""
-            height = math.sin(self.count / 10.0)  # metres
+            height = math.sin(self.count / 10.0)  # meters
             msg.points = [Point32(x=float(x), z=height) for x in range(10)]
             msg.channels = [ChannelFloat32(name='intensity', values=[1.0] * len(msg.points))]
         """,
@@ -318,7 +318,7 @@ RECIPES: dict[str, Recipe] = {
         says="a ring of points that moves up and down",
         constants="POINTS = 100",
         code="""
-            height = math.sin(self.count / 10.0)  # metres
+            height = math.sin(self.count / 10.0)  # meters
             angles = [2.0 * math.pi * index / POINTS for index in range(POINTS)]
             points = [(math.cos(angle), math.sin(angle), height) for angle in angles]
             msg.height = 1  # the points have no order
@@ -356,7 +356,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.radiation_type = Range.ULTRASOUND
             msg.field_of_view = 0.5  # radians
-            msg.min_range = 0.1  # metres
+            msg.min_range = 0.1  # meters
             msg.max_range = 4.0
             msg.range = 2.0 + math.sin(self.count / 10.0)
         """,

@@ -8,7 +8,7 @@ RECIPES: dict[str, Recipe] = {
     "Mesh": Recipe(
         says="a triangle that grows and shrinks",
         code="""
-            size = 2.0 + math.sin(self.count / 10.0)  # metres
+            size = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.vertices = [Point(), Point(x=size), Point(y=size)]
             msg.triangles = [MeshTriangle(vertex_indices=[0, 1, 2])]
         """,
@@ -27,7 +27,7 @@ RECIPES: dict[str, Recipe] = {
     "Plane": Recipe(
         says="a floor that moves up and down",
         code="""
-            height = math.sin(self.count / 10.0)  # metres
+            height = math.sin(self.count / 10.0)  # meters
             msg.coef = [0.0, 0.0, 1.0, -height]  # ax + by + cz + d = 0
         """,
         log="{msg.coef.tolist()}",
@@ -37,7 +37,7 @@ RECIPES: dict[str, Recipe] = {
         says="a box that grows and shrinks",
         code="""
             msg.type = SolidPrimitive.BOX
-            length = 2.0 + math.sin(self.count / 10.0)  # metres
+            length = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.dimensions = [length, 0.5, 0.2]  # in x, y and z
         """,
         log="a box of {msg.dimensions[0]:.2f} m",

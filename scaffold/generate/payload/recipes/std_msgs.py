@@ -66,7 +66,7 @@ RECIPES: dict[str, Recipe] = {
     "ByteMultiArray": _matrix("bytes([(self.count + index) % 256])", "counters of one byte each"),
     "Char": _counter(8),
     "ColorRGBA": Recipe(
-        says="a colour that goes from blue to red and back",
+        says="a color that goes from blue to red and back",
         code="""
             msg.r = 0.5 + 0.5 * math.sin(self.count / 10.0)  # 0.0 to 1.0
             msg.b = 1.0 - msg.r

@@ -38,7 +38,7 @@ RECIPES: dict[str, Recipe] = {
         says="a flight to a height and back",
         code="""
             msg.joint_names = ['base']
-            target = 2.0 + math.sin(self.count / 10.0)  # metres
+            target = 2.0 + math.sin(self.count / 10.0)  # meters
             for seconds, height in enumerate([0.0, target, 0.0]):
                 transform = Transform()
                 transform.translation.z = height
@@ -55,7 +55,7 @@ RECIPES: dict[str, Recipe] = {
         says="a height that is to be reached after one second",
         code="""
             transform = Transform()
-            transform.translation.z = 2.0 + math.sin(self.count / 10.0)  # metres
+            transform.translation.z = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.transforms = [transform]
             msg.velocities = [Twist()]
             msg.time_from_start.sec = 1

@@ -9,9 +9,9 @@ _MARKER = """
     {marker}.type = Marker.SPHERE
     {marker}.action = Marker.ADD
     angle = self.count / 10.0  # radians
-    {marker}.pose.position.x = math.cos(angle)  # metres
+    {marker}.pose.position.x = math.cos(angle)  # meters
     {marker}.pose.position.y = math.sin(angle)
-    {marker}.scale = Vector3(x=0.2, y=0.2, z=0.2)  # metres
+    {marker}.scale = Vector3(x=0.2, y=0.2, z=0.2)  # meters
     {marker}.color = ColorRGBA(r=1.0, a=1.0)  # red, opaque
 """
 
@@ -36,9 +36,9 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.name = 'target'
             msg.description = 'Where to go'
-            msg.scale = 1.0  # metres
+            msg.scale = 1.0  # meters
             angle = self.count / 10.0  # radians
-            msg.pose.position.x = math.cos(angle)  # metres
+            msg.pose.position.x = math.cos(angle)  # meters
             msg.pose.position.y = math.sin(angle)
             control = InteractiveMarkerControl()
             control.name = 'move_x'
@@ -71,7 +71,7 @@ RECIPES: dict[str, Recipe] = {
             msg.control_name = 'move_x'
             msg.event_type = InteractiveMarkerFeedback.POSE_UPDATE
             angle = self.count / 10.0  # radians
-            msg.pose.position.x = math.cos(angle)  # metres
+            msg.pose.position.x = math.cos(angle)  # meters
             msg.pose.position.y = math.sin(angle)
         """,
         log="{msg.marker_name} at x {msg.pose.position.x:.2f} m",
@@ -88,8 +88,8 @@ RECIPES: dict[str, Recipe] = {
             marker.header.stamp = self.get_clock().now().to_msg()
             marker.header.frame_id = self.frame_id
             marker.name = 'target'
-            marker.scale = 1.0  # metres
-            marker.pose.position.x = math.cos(angle)  # metres
+            marker.scale = 1.0  # meters
+            marker.pose.position.x = math.cos(angle)  # meters
             marker.pose.position.y = math.sin(angle)
             msg.markers = [marker]
         """,
@@ -102,7 +102,7 @@ RECIPES: dict[str, Recipe] = {
         code="""
             msg.name = 'target'
             angle = self.count / 10.0  # radians
-            msg.pose.position.x = math.cos(angle)  # metres
+            msg.pose.position.x = math.cos(angle)  # meters
             msg.pose.position.y = math.sin(angle)
         """,
         log="{msg.name} at x {msg.pose.position.x:.2f} m",
@@ -119,7 +119,7 @@ RECIPES: dict[str, Recipe] = {
             pose = InteractiveMarkerPose(name='target')
             pose.header.stamp = self.get_clock().now().to_msg()
             pose.header.frame_id = self.frame_id
-            pose.pose.position.x = math.cos(angle)  # metres
+            pose.pose.position.x = math.cos(angle)  # meters
             pose.pose.position.y = math.sin(angle)
             msg.poses = [pose]
         """,
@@ -146,9 +146,9 @@ RECIPES: dict[str, Recipe] = {
                 marker.ns = 'example'
                 marker.id = index
                 marker.type = Marker.SPHERE
-                marker.pose.position.x = math.cos(angle)  # metres
+                marker.pose.position.x = math.cos(angle)  # meters
                 marker.pose.position.y = math.sin(angle)
-                marker.scale = Vector3(x=0.2, y=0.2, z=0.2)  # metres
+                marker.scale = Vector3(x=0.2, y=0.2, z=0.2)  # meters
                 marker.color = ColorRGBA(r=1.0, a=1.0)  # red, opaque
                 msg.markers.append(marker)
         """,
@@ -173,7 +173,7 @@ RECIPES: dict[str, Recipe] = {
     "MeshFile": Recipe(
         says="a file with a triangle that grows",
         code="""
-            size = self.count % 10 + 1  # metres
+            size = self.count % 10 + 1  # meters
             lines = ['solid triangle', 'facet normal 0 0 1', 'outer loop', 'vertex 0 0 0']
             lines += [f'vertex {size} 0 0', f'vertex 0 {size} 0', 'endloop', 'endfacet']
             lines += ['endsolid triangle']
