@@ -31,7 +31,11 @@ class EnvironmentMissingError(ScaffoldError):
     """No ROS 2 environment was found."""
 
 
-EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError)
+class OutOfTimeError(Exception):
+    """A file takes more time than anything that people write."""
+
+
+EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTimeError)
 """What code of this tool raises when a file asks for more than there is; the file is at fault."""
 
 
@@ -39,4 +43,6 @@ def exhausted(error: BaseException) -> str:
     """Return the message for one of ``EXHAUSTED``."""
     if isinstance(error, RecursionError):
         return "nested too deeply"
+    if isinstance(error, OutOfTimeError):
+        return "takes too long to check"
     return "nested too deeply, or too large for the memory"

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import time_limit
 from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
@@ -14,7 +15,7 @@ from scaffold.ament.finding import CRASHED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
 from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
-from scaffold.errors import EXHAUSTED, ScaffoldError, exhausted
+from scaffold.errors import EXHAUSTED, OutOfTimeError, ScaffoldError, exhausted
 from scaffold.files.disk import LargeFileError
 from scaffold.files.limits import most_bytes, why_unread
 from scaffold.model.package import Package
@@ -52,6 +53,7 @@ class _File:
         self.linters = linters
         self.key = ""
         self.findings: list[Finding] | None = None
+        self.ran_out_of_time = False
 
 
 def _unread(path: str, linters: int, why: str) -> _File:
@@ -83,7 +85,9 @@ class StyleCheck:
         found: list[Diagnostic] = []
         counts: dict[str, int] = {}
         for file in self._files.pop(id(package), ()):
-            for one in self._findings(file):
+            findings = self._findings(file)
+            package.is_repeatable &= not file.ran_out_of_time
+            for one in findings:
                 counts[one.code] = count = counts.get(one.code, 0) + 1
                 if count <= MOST_FINDINGS + 1:
                     found.append(_diagnostic(package, file.path, one))
@@ -99,10 +103,12 @@ class StyleCheck:
 
         name = file.path.rpartition("/")[2]
         try:
-            findings = check(name, file.data, said, file.linters)
+            with time_limit.limited():
+                findings = check(name, file.data, said, file.linters)
         except ScaffoldError:
             raise
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
+            file.ran_out_of_time = isinstance(error, OutOfTimeError)
             return [_failure(error, file.linters)]
         if self._cache is not None and file.key:
             self._cache.put(file.key, findings)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import islice
 
+from scaffold import time_limit
 from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.rule import Rule
 from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, crash_message
-from scaffold.errors import EXHAUSTED, exhausted
+from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
 from scaffold.model.package import Package
 from scaffold.source import Location, TooLargeError, ViewError
@@ -35,11 +36,13 @@ def _run(rule: Rule, package: Package) -> list[Diagnostic]:
     for _ in range(MOST_REFUSED):
         said.clear()
         try:
-            # One more than is shown, so that the session knows of it.
-            said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
+            with time_limit.limited():
+                # One more than is shown, so that the session knows of it.
+                said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
         except ViewError:
             pass
         except EXHAUSTED as error:
+            package.is_repeatable &= not isinstance(error, OutOfTimeError)
             path = _file_at_fault(package, error)
             if path is not None and package.refuse(path, exhausted(error)):
                 continue

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from scaffold.errors import EXHAUSTED, exhausted
+from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
 from scaffold.files.disk import LargeFileError
 from scaffold.files.limits import most_bytes, too_large, why_unread
 from scaffold.files.tree import (
@@ -416,6 +416,7 @@ class Package:
                 path = self._path_of(key)
                 if path is None:
                     raise
+                self.is_repeatable &= not isinstance(error, OutOfTimeError)
                 self._views[key] = ParseError(Location.start_of(path), exhausted(error))
         found = self._views[key]
         if isinstance(found, ViewError):

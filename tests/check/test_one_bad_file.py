@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 import pytest
 
+from scaffold import time_limit
 from scaffold.ament import backend
 from scaffold.ament.finding import Finding
 from scaffold.api import Diagnostic, Example, Package, Rule
@@ -21,6 +22,7 @@ from scaffold.check.fixes import fixer
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.files.disk import Disk, LargeFileError, holds
+from scaffold.source import ViewError
 
 MANIFEST = (
     '<package format="3"><name>{name}</name><version>0.1.0</version>'
@@ -314,3 +316,47 @@ def test_several_documents_have_their_own_verdicts() -> None:
     assert [code for code, _ in found] == ["PX051", "PX051"]
     assert found[0][1].startswith("does not fit a.rng: ")
     assert found[1][1].startswith("names the schema c.rng, which cannot be used: ")
+
+
+class Endless(Rule):
+    """Never ends with one file."""
+
+    code = "XX001"
+    name = "endless"
+    examples: ClassVar[tuple[Example, ...]] = ()
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in package.glob("*.py"):
+            try:
+                text = package.source(path).text
+            except ViewError:
+                continue
+            while "endless" in text:
+                pass
+            yield self.report(package.start_of(path), "seen")
+
+
+def test_a_file_that_takes_too_long_costs_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(time_limit.limited.__wrapped__, "__defaults__", (0.05,))  # type: ignore[attr-defined]
+    package = Package.of({"a.py": "a = 1\n", "b.py": "# endless\n", "c.py": "c = 1\n"})
+    reported = [(d.location.path, d.code, d.message) for d in runner.check(package, [Endless()])]
+    assert reported == [
+        ("a.py", "XX001", "seen"),
+        ("b.py", "SC001", "takes too long to check"),
+        ("c.py", "XX001", "seen"),
+    ]
+    assert not package.is_repeatable, "another machine may be faster"
+
+
+def test_the_style_of_a_file_may_not_take_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    def check(*_: object) -> list[Finding]:
+        while True:
+            pass
+
+    monkeypatch.setattr(time_limit.limited.__wrapped__, "__defaults__", (0.05,))  # type: ignore[attr-defined]
+    monkeypatch.setattr("scaffold.ament.verdict.check", check)
+    monkeypatch.setenv("SCAFFOLD_NO_CACHE", "1")
+    diagnostics = Session([], Selection()).check(Package.of({"a.py": "a = 1\n"}))
+    assert [(d.location.path, d.message) for d in diagnostics if d.code.startswith("SC")] == [
+        ("a.py", "takes too long to check")
+    ]
