@@ -8,8 +8,14 @@ from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import KINDS, Definitions, nearest_word
 from scaffold.api.messages import MessageTypes, interfaces_named
 
-_MISSPELT = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
-_MISSPELT |= {"service": "srv", "services": "srv", "sev": "srv", "svr": "srv", "actions": "action"}
+_MISSPELLED = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
+_MISSPELLED |= {
+    "service": "srv",
+    "services": "srv",
+    "sev": "srv",
+    "svr": "srv",
+    "actions": "action",
+}
 
 
 class InterfaceUnknown(MessageRule):
@@ -107,7 +113,7 @@ class InterfaceUnknown(MessageRule):
 def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | None:
     if not kind:
         return _without_kind(definitions, owner, name)
-    module = _MISSPELT.get(kind.lower(), kind)
+    module = _MISSPELLED.get(kind.lower(), kind)
     known = definitions.names(owner, module)
     if known is None or name.startswith("_") or name == "*":
         return None

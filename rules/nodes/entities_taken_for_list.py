@@ -40,7 +40,7 @@ class EntitiesTakenForList(RclpyRule):
     code = "ND100"
     name = "entities-taken-for-list"
     examples = (
-        Example("iterated over", _files("print([one.topic for one in self.publishers])")),
+        Example("iterated over", _files("print([pub.topic for pub in self.publishers])")),
         Example("converted to a list", _files("print(list(self.timers)[0])")),
         Example(
             "overridden",

@@ -65,7 +65,7 @@ class MethodNotCalled(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for facts in rclpy_files(package) if package.name != "rclpy" else ():
             for node in facts.module.walk(ast.Attribute):
-                if not isinstance(node.ctx, ast.Load) or not _wants_value(facts, node):
+                if not isinstance(node.ctx, ast.Load) or not _needs_value(facts, node):
                     continue
                 if facts.module.qualified_name(node) == "rclpy.ok":
                     message = "rclpy.ok is a function: always true; write rclpy.ok()"
@@ -78,7 +78,7 @@ class MethodNotCalled(Rule):
                     yield self.report(facts.module.location(node), message)
 
 
-def _wants_value(facts: RclpyFile, node: ast.Attribute) -> bool:
+def _needs_value(facts: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether a method that is not called makes no sense in this place."""
     match facts.module.parent(node):
         case ast.Attribute(attr=attr):

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
-_MISSPELT = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
+_MISSPELLED = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -90,7 +90,7 @@ class NodeNotConstructed(RclpyRule):
 
     def _check(self, facts: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
         for name, method in node.methods.items():
-            if name in _MISSPELT and node.constructor is None and _calls_init(method):
+            if name in _MISSPELLED and node.constructor is None and _calls_init(method):
                 message = f"{name!r} is never called as a constructor; did you mean '__init__'?"
                 yield self.report(facts.module.name_location(method), message)
         call = node.super_init

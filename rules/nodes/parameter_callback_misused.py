@@ -67,16 +67,16 @@ class ParameterCallbackMisused(RclpyRule):
         Example(
             "the list as a parameter, as a dict",
             {
-                "one.py": _NODE.format("self.on_set", ""),
-                "two.py": _NODE.format("self.on_set", "['rate']"),
+                "attribute.py": _NODE.format("self.on_set", ""),
+                "subscript.py": _NODE.format("self.on_set", "['rate']"),
             },
             reports=(
                 Report(
-                    "one.py:12:21",
+                    "attribute.py:12:21",
                     "'parameters' is a list of parameters, without 'value': AttributeError",
                 ),
                 Report(
-                    "two.py:12:21",
+                    "subscript.py:12:21",
                     "'parameters' is a list of parameters, not a dict: ['rate'] is a TypeError",
                 ),
             ),

@@ -142,8 +142,8 @@ class ParameterTypeDiffers(Rule):
                 kind, where = agreed_type(package, known, name)
                 given = value_given(node.launch, value)
                 if kind and given and given.type != kind:
-                    value_type_ = f"{given.text} is {a_type(given.type)}"
-                    message = f"{where} is {a_type(kind)}, but {value_type_}: {_ERROR}"
+                    actual = f"{given.text} is {a_type(given.type)}"
+                    message = f"{where} is {a_type(kind)}, but {actual}: {_ERROR}"
                     yield self.report(node.launch.location(value), message)
 
 
