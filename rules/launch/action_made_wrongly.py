@@ -63,7 +63,7 @@ class ActionMadeWrongly(LaunchRule):
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
             reports=(
-                Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing behind it"),
+                Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing after it"),
             ),
         ),
         Example(
@@ -84,7 +84,7 @@ class ActionMadeWrongly(LaunchRule):
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)
         if isinstance(parent, ast.Call) and parent.func is call.call:
-            yield self.report(call, f"a {call.kind} is called: a comma is missing behind it")
+            yield self.report(call, f"a {call.kind} is called: a comma is missing after it")
         if call.kind in {"GroupAction", "TimerAction"}:
             name = "GroupAction" if call.call.args and call.kind == "GroupAction" else ""
             actions = call.call.args[0] if name else call.given.get("actions")

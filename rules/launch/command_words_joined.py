@@ -31,7 +31,7 @@ class CommandWordsJoined(LaunchRule):
     **Why.** The parts of a command are joined as they are, so that ``xacro`` and its file become
     one word: ``ros2 launch`` stops with ``No such file or directory: 'xacro/opt/...'``.
 
-    **Fix.** A space at the end of ``'xacro '``, or ``' '`` behind ``FindExecutable(...)``.
+    **Fix.** A space at the end of ``'xacro '``, or ``' '`` after ``FindExecutable(...)``.
 
     **Source.** ``launch/substitutions/command.py``.
     """
@@ -56,7 +56,7 @@ class CommandWordsJoined(LaunchRule):
             reports=(
                 Report(
                     "launch/a.launch.py:7:12",
-                    "parts of a command are joined without spaces: write ' ' behind it",
+                    "parts of a command are joined without spaces: write ' ' after it",
                 ),
             ),
         ),
@@ -84,7 +84,7 @@ def _joined(launch: LaunchFile, node: ast.expr) -> str:
         word = str(launch.text(found, "name"))
     if word not in _PROGRAMS or _begins_with_space(launch, second):
         return ""
-    what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' behind it"
+    what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
     return f"parts of a command are joined without spaces: write {what}"
 
 

@@ -111,7 +111,7 @@ def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
         return f"{call.kind} takes a text, not another condition"
     match node:
         case ast.Constant(value=bool() | int() | None as value):
-            return f"{value!r} is no text: write {str(value).lower()!r}, or no condition"
+            return f"{value!r} is not a string: write {str(value).lower()!r}, or no condition"
         case ast.UnaryOp(op=ast.Not()) | ast.BoolOp():
             return _by_python(launch, node)
         case ast.Constant(value=str(text)) if text.strip().lower() not in _TRUTHS:

@@ -19,7 +19,7 @@ _DECLARED = "DeclareLaunchArgument('name', default_value='a')"
 
 
 class DeclaredTooLate(Rule):
-    """A launch argument is declared behind an action that reads it.
+    """A launch argument is declared after an action that reads it.
 
     **Why.** Actions are executed in their order, and the default is set by the declaration:
     ``launch configuration 'name' does not exist``, unless somebody gives it on the command line.
@@ -34,18 +34,18 @@ class DeclaredTooLate(Rule):
     examples = (
         Example("first", {"launch/a.launch.py": _LAUNCH.format(f"{_DECLARED}, node")}),
         Example(
-            "behind",
+            "after",
             {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
             reports=(
                 Report(
                     "launch/a.launch.py:8:12",
-                    "'name' is declared behind its use: the Node of line 9 reads it "
+                    "'name' is declared after its use: the Node of line 9 reads it "
                     "before it has a value",
                 ),
             ),
         ),
         Example(
-            "behind a function",
+            "after a function",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     f"OpaqueFunction(function=set_up), {_DECLARED}"
@@ -56,13 +56,13 @@ class DeclaredTooLate(Rule):
             reports=(
                 Report(
                     "launch/a.launch.py:14:12",
-                    "'name' is declared behind its use: the OpaqueFunction of line 10 "
+                    "'name' is declared after its use: the OpaqueFunction of line 10 "
                     "reads it before it has a value",
                 ),
             ),
         ),
         Example(
-            "added behind",
+            "added after",
             {
                 "launch/a.launch.py": _LAUNCH.format("node").replace("return", "launch =")
                 + f"    launch.add_action({_DECLARED})\n    return launch\n"
@@ -70,7 +70,7 @@ class DeclaredTooLate(Rule):
             reports=(
                 Report(
                     "launch/a.launch.py:8:12",
-                    "'name' is declared behind its use: the Node of line 9 reads it "
+                    "'name' is declared after its use: the Node of line 9 reads it "
                     "before it has a value",
                 ),
             ),
@@ -94,5 +94,5 @@ class DeclaredTooLate(Rule):
                     reported.add(name)
                     line = step.action.location.line
                     what = f"the {step.action.kind} of line {line} reads it"
-                    message = f"{name!r} is declared behind its use: {what} before it has a value"
+                    message = f"{name!r} is declared after its use: {what} before it has a value"
                     yield self.report(launch.location(call.call), message)

@@ -29,7 +29,7 @@ _LAUNCH = (
 
 
 class EventHandlerMisused(LaunchRule):
-    """An event handler watches what is no process, or calls a function that takes other arguments.
+    """An event handler watches what is not a process, or calls a function with wrong arguments.
 
     **Why.** ``ros2 launch`` stops: ``action_matcher must be an 'ExecuteLocal' instance or a
     callable``, or later, when it happens: ``on_exit() takes 0 positional arguments but 2 were

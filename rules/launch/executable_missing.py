@@ -45,7 +45,7 @@ class ExecutableMissing(Rule):
             reports=(
                 Report(
                     "launch/a.launch.py:7:43",
-                    "talker has no program 'talk.py' (it has: talk); 'talk' is meant",
+                    "talker has no program 'talk.py' (it has: talk); closest: 'talk'",
                 ),
             ),
         ),
@@ -59,11 +59,11 @@ class ExecutableMissing(Rule):
             reports=(
                 Report(
                     "launch/a.launch.xml:2:28",
-                    "talker has no program 'tlk' (it has: talk); 'talk' is meant",
+                    "talker has no program 'tlk' (it has: talk); closest: 'talk'",
                 ),
                 Report(
                     "launch/b.launch.yaml:4:11",
-                    "talker has no program 'tlk' (it has: talk); 'talk' is meant",
+                    "talker has no program 'tlk' (it has: talk); closest: 'talk'",
                 ),
             ),
             neighbours={"talker": _FILES},
@@ -83,7 +83,7 @@ class ExecutableMissing(Rule):
                 continue
             have = ", ".join(sorted(programs.sources)) or "none"
             near = get_close_matches(name, programs.sources, 1, 0.7)
-            hint = f"; {near[0]!r} is meant" if near else ""
+            hint = f"; closest: {near[0]!r}" if near else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
             yield self.report(use.executable_location, message)
 

@@ -98,7 +98,7 @@ class ImportFromWrongModule(Rule):
     ) -> Iterator[Diagnostic]:
         near = f"{one.module}s"
         if one.module not in known and near in known and one.root != "launch":
-            yield self.report(one, f"there is no {one.module}; {near!r} is meant")
+            yield self.report(one, f"there is no {one.module}; closest: {near!r}")
         for name in one.names if one.module in known else ():
             if name.name in known[one.module] or name.name == "*":
                 continue

@@ -27,7 +27,7 @@ def _launch(arguments: str) -> dict[str, str]:
 
 
 class IncludeArgumentUnusable(LaunchRule):
-    """The arguments of an include are no pairs, or a value is no text.
+    """The arguments of an include are not pairs, or a value is not a string.
 
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable``, ``not enough values to
     unpack``, ``'builtin_function_or_method' object is not iterable``.
@@ -46,7 +46,7 @@ class IncludeArgumentUnusable(LaunchRule):
             "a number",
             _launch("{'a': 3}.items()"),
             reports=(
-                Report("launch/a.launch.py:13:36", "'a' gets 3, which is no text: write '3'"),
+                Report("launch/a.launch.py:13:36", "'a' gets 3, which is not a string: write '3'"),
             ),
         ),
         Example(
@@ -80,7 +80,7 @@ class IncludeArgumentUnusable(LaunchRule):
             reports=(
                 Report(
                     "launch/a.launch.py:13:30",
-                    "these are no pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
+                    "these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
                 ),
             ),
         ),
@@ -99,7 +99,7 @@ class IncludeArgumentUnusable(LaunchRule):
 
 
 def _shape_problem(node: ast.expr) -> str:
-    """Return what is wrong about arguments that are no pairs; dictionaries have a rule."""
+    """Return what is wrong about arguments that are not pairs; dictionaries have a rule."""
     match node:
         case ast.Set():
             return f"this is a set: {_PAIRS}"
@@ -107,16 +107,16 @@ def _shape_problem(node: ast.expr) -> str:
             return "items is not called: write .items()"
         case ast.List(elts=items) | ast.Tuple(elts=items):
             if any(isinstance(one, ast.Constant | ast.JoinedStr) for one in items):
-                return f"these are no pairs: {_PAIRS}"
+                return f"these are not pairs: {_PAIRS}"
     return ""
 
 
 def _value_problem(launch: LaunchFile, node: ast.expr) -> str:
     value = launch.evaluator.evaluate(node)
     if isinstance(node, ast.Constant) and not isinstance(node.value, str):
-        return f"{node.value!r}, which is no text: write {str(node.value).lower()!r}"
+        return f"{node.value!r}, which is not a string: write {str(node.value).lower()!r}"
     if type(value) in {bool, int, float}:
-        return f"{value!r}, which is no text"
+        return f"{value!r}, which is not a string"
     if isinstance(node, ast.List) and any(
         isinstance(one, ast.Constant) and type(one.value) in {bool, int, float} for one in node.elts
     ):

@@ -70,7 +70,7 @@ class IncludeDoesNotFit(Rule):
             reports=(
                 Report(
                     "launch/a.launch.py:13:31",
-                    "launch/b.launch.py has no argument 'robot_nam'; 'robot_name' is meant",
+                    "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
                 ),
             ),
         ),
@@ -103,7 +103,7 @@ class IncludeDoesNotFit(Rule):
             near = get_close_matches(name, sorted(other.names - names), 1, 0.75)
             if name not in other.names and near and not other.is_open:
                 misspelt = True
-                message = f"{other.path} has no argument {name!r}; {near[0]!r} is meant"
+                message = f"{other.path} has no argument {name!r}; closest: {near[0]!r}"
                 yield self.report(launch.location(node), message)
         missing = sorted(other.required - names)
         if missing and not misspelt and _is_understood(call):

@@ -39,7 +39,7 @@ class KeywordUnknown(LaunchRule):
             reports=(
                 Report(
                     "launch/a.launch.py:7:39",
-                    "DeclareLaunchArgument has no argument 'default'; 'default_value' is meant",
+                    "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
                 ),
             ),
         ),
@@ -52,7 +52,7 @@ class KeywordUnknown(LaunchRule):
                 if known is None or name in known.names or name in _OLD:
                     continue
                 near = get_close_matches(name, sorted(known.names), 1, 0.6)
-                hint = f"; {near[0]!r} is meant" if near else ""
+                hint = f"; closest: {near[0]!r}" if near else ""
                 start, _ = launch.module.span(word)
                 at = launch.module.source.location(start, start + len(name))
                 yield self.report(at, f"{call.kind} has no argument {name!r}{hint}")

@@ -41,7 +41,7 @@ class ParameterRefusedByLaunch(Rule):
             reports=(
                 Report(
                     "launch/a.launch.py:7:61",
-                    "the parameter 'a' is None, which is no value of a parameter",
+                    "the parameter 'a' is None, which is not a value of a parameter",
                 ),
             ),
         ),
@@ -74,7 +74,7 @@ class ParameterRefusedByLaunch(Rule):
 def _problem(node: ast.expr) -> str:
     match node:
         case ast.Constant(value=None):
-            return "is None, which is no value of a parameter"
+            return "is None, which is not a value of a parameter"
         case ast.List(elts=[]) | ast.Tuple(elts=[]):
             return "is an empty list, whose type nobody knows"
         case ast.List(elts=items) | ast.Tuple(elts=items):

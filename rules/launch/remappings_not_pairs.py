@@ -20,7 +20,7 @@ def _launch(remappings: str) -> dict[str, str]:
 
 
 class RemappingsNotPairs(LaunchRule):
-    """``remappings=`` of a node is no list of pairs.
+    """``remappings=`` of a node is not a list of pairs.
 
     **Why.** ``ros2 launch`` stops with ``ValueError: not enough values to unpack``; a dictionary of
     remappings is read letter by letter.
@@ -57,7 +57,7 @@ class RemappingsNotPairs(LaunchRule):
         Example(
             "texts",
             _launch("['a:=b']"),
-            reports=(Report("launch/a.launch.py:7:62", "'a:=b' is no pair ('from', 'to')"),),
+            reports=(Report("launch/a.launch.py:7:62", "'a:=b' is not a pair ('from', 'to')"),),
         ),
         Example(
             "three parts",
@@ -87,7 +87,7 @@ def _problem(node: ast.expr) -> str:
     if isinstance(node, ast.List):
         for one in node.elts:
             if isinstance(one, ast.Constant) and isinstance(one.value, str):
-                return f"{one.value!r} is no pair ('from', 'to')"
+                return f"{one.value!r} is not a pair ('from', 'to')"
             if isinstance(one, ast.Tuple) and len(one.elts) != 2:  # noqa: PLR2004  from and to
                 return f"a remapping is a pair, and this has {len(one.elts)} parts"
     return ""

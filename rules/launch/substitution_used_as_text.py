@@ -26,7 +26,7 @@ class SubstitutionUsedAsText(LaunchRule):
     """A substitution such as LaunchConfiguration is used as text.
 
     **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument
-    must be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or behind ``if`` it is
+    must be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or after ``if`` it is
     an object, and the result silently wrong.
 
     **Fix.** A list of parts, ``['/', LaunchConfiguration('name')]``, PathJoinSubstitution,

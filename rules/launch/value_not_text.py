@@ -61,19 +61,19 @@ class ValueNotText(LaunchRule):
             "a number, an action, a number in the environment",
             {"launch/a.launch.py": _LAUNCH.format("3", "name", "3")},
             reports=(
-                Report("launch/a.launch.py:10:21", "this is no text: write '3'"),
+                Report("launch/a.launch.py:10:21", "this is not a string: write '3'"),
                 Report(
                     "launch/a.launch.py:11:48",
                     "this is the action DeclareLaunchArgument, not a value: write "
                     "LaunchConfiguration('name')",
                 ),
-                Report("launch/a.launch.py:11:78", "this is no text: write '3'"),
+                Report("launch/a.launch.py:11:78", "this is not a string: write '3'"),
             ),
         ),
         Example(
             "a number among texts",
             {"launch/a.launch.py": _LAUNCH.format("['a', 3]", "'n'", "'3'")},
-            reports=(Report("launch/a.launch.py:10:27", "this is no text: write '3'"),),
+            reports=(Report("launch/a.launch.py:10:27", "this is not a string: write '3'"),),
         ),
     )
 
@@ -107,7 +107,9 @@ def _texts(call: LaunchCall) -> Iterator[ast.expr]:
 
 def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
     if isinstance(node, ast.Constant) and type(node.value) in {int, float, bool}:
-        return "" if call.kind in _CONDITIONS else f"this is no text: write {str(node.value)!r}"
+        return (
+            "" if call.kind in _CONDITIONS else f"this is not a string: write {str(node.value)!r}"
+        )
     found = launch.call_of(node)
     if found is not None and found.kind in ACTIONS:
         name = launch.text(found, "name") if found.kind == "DeclareLaunchArgument" else None

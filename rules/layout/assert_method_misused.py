@@ -51,7 +51,7 @@ class AssertMethodMisused(TestRule):
             reports=(
                 Report(
                     "test/test_text.py:6:9",
-                    "assertEquals is gone in Python 3.12; assertEqual is meant",
+                    "assertEquals is gone in Python 3.12; use assertEqual",
                 ),
             ),
         ),
@@ -78,7 +78,7 @@ class AssertMethodMisused(TestRule):
             match node:
                 case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name)):
                     if name in _GONE and name not in own:
-                        message = f"{name} is gone in Python 3.12; {_GONE[name]} is meant"
+                        message = f"{name} is gone in Python 3.12; use {_GONE[name]}"
                         yield self.report(module.location(node.func), message)
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
                         message = f"{name} takes one value, the second is a message; compare them"

@@ -39,7 +39,7 @@ class AssertionAlwaysTrue(TestRule):
             ),
         ),
         Example(
-            "a text beside a comparison",
+            "a text next to a comparison",
             {"test/test_text.py": _TEST.format("ready() == 'a' or 'b'")},
             reports=(
                 Report(

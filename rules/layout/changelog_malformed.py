@@ -13,7 +13,7 @@ _HEADING = r"(?:forthcoming|v?\d+\.\d+\.\d+(?:\s*\(.*\))?)"
 
 
 class ChangelogMalformed(Rule):
-    """CHANGELOG.rst has a section whose heading is no version.
+    """CHANGELOG.rst has a section whose heading is not a version.
 
     **Why.** ``catkin_prepare_release`` and bloom read the sections by their headings,
     ``0.1.0 (2026-11-21)``; what does not fit is left out of the release.
@@ -40,7 +40,7 @@ class ChangelogMalformed(Rule):
             reports=(
                 Report(
                     "CHANGELOG.rst:5:1",
-                    "the section 'Release 0.1' is no version such as 1.2.3 (2026-11-21)",
+                    "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
                 ),
             ),
         ),
@@ -56,4 +56,6 @@ class ChangelogMalformed(Rule):
             if re.fullmatch(r"[-=^~\"]+", text) or re.fullmatch(_HEADING, text.lower()):
                 continue
             at = source.line_location(number)
-            yield self.report(at, f"the section {text!r} is no version such as 1.2.3 (2026-11-21)")
+            yield self.report(
+                at, f"the section {text!r} is not a version such as 1.2.3 (2026-11-21)"
+            )

@@ -59,7 +59,7 @@ class FixtureMisused(Rule):
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
             reports=(
-                Report("test/test_text.py:9:5", "there is no fixture 'txt'; 'text' is meant"),
+                Report("test/test_text.py:9:5", "there is no fixture 'txt'; closest: 'text'"),
             ),
         ),
         Example(
@@ -103,9 +103,11 @@ class FixtureMisused(Rule):
                 elif fixture is None and not test.node.decorator_list:
                     near = get_close_matches(name, known, 1, 0.75)
                     if name == "self" and test.class_ is None:
-                        message = f"{test.node.name} is no method: pytest finds no fixture 'self'"
+                        message = (
+                            f"{test.node.name} is not a method: pytest finds no fixture 'self'"
+                        )
                     elif near and name not in _BUILT_IN:
-                        message = f"there is no fixture {name!r}; {near[0]!r} is meant"
+                        message = f"there is no fixture {name!r}; closest: {near[0]!r}"
                     else:
                         continue
                     yield self.report(module.name_location(test.node), message)

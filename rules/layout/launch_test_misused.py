@@ -78,7 +78,7 @@ class LaunchTestMisused(Rule):
                 ),
                 Report(
                     "test/test_talker.py:12:7",
-                    "launch_testing does not run TestTalker: it is no TestCase",
+                    "launch_testing does not run TestTalker: it is not a TestCase",
                 ),
             ),
         ),
@@ -98,7 +98,7 @@ class LaunchTestMisused(Rule):
                     "object"
                 }
                 if has_tests and plain and not module.index.names(class_.name):
-                    message = f"launch_testing does not run {class_.name}: it is no TestCase"
+                    message = f"launch_testing does not run {class_.name}: it is not a TestCase"
                     yield self.report(class_, message)
 
 

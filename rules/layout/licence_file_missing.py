@@ -1,4 +1,4 @@
-"""LY006: the text of the licence comes with the package."""
+"""LY006: the text of the license comes with the package."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _DEPTH = 5
 
 
 class LicenceFileMissing(Rule):
-    """Neither the package nor its repository has the text of the licence.
+    """Neither the package nor its repository has the text of the license.
 
     **Why.** Most licences ask that their text comes along; rosdistro asks for it at the first
     release.

@@ -46,7 +46,7 @@ class MarkMisused(TestRule):
             reports=(
                 Report(
                     "test/test_text.py:4:2",
-                    "pytest has no mark 'parameterize'; 'parametrize' is meant",
+                    "pytest has no mark 'parameterize'; closest: 'parametrize'",
                 ),
             ),
         ),
@@ -59,7 +59,7 @@ class MarkMisused(TestRule):
             reports=(
                 Report(
                     "test/test_text.py:4:2",
-                    "a condition that is no text needs reason='...': pytest stops here",
+                    "a condition that is not a string needs reason='...': pytest stops here",
                 ),
             ),
         ),
@@ -75,12 +75,12 @@ class MarkMisused(TestRule):
 
 def _mark_problem(name: str, decorator: ast.expr) -> str:
     if name in _MEANT:
-        return f"pytest has no mark {name!r}; {_MEANT[name]!r} is meant"
+        return f"pytest has no mark {name!r}; closest: {_MEANT[name]!r}"
     if not isinstance(decorator, ast.Call):
         return "" if name != "parametrize" else "parametrize needs names and values"
     words = keywords(decorator)
     if name == "skipif" and "reason" not in words and len(decorator.args) == 1:
         match decorator.args[0]:
             case ast.Compare() | ast.BoolOp() | ast.UnaryOp() | ast.Constant(value=bool()):
-                return "a condition that is no text needs reason='...': pytest stops here"
+                return "a condition that is not a string needs reason='...': pytest stops here"
     return ""

@@ -16,7 +16,7 @@ class NestedPackage(Rule):
     **Why.** colcon does not look inside a package that it has found: the inner one is never
     built, without a message.
 
-    **Fix.** Move the inner package beside the outer one, below ``src/``.
+    **Fix.** Move the inner package next to the outer one, below ``src/``.
 
     **Source.** ROS 2 documentation, "Creating a package": "You can also not have nested packages".
     """

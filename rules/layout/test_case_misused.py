@@ -48,7 +48,7 @@ class TestCaseMisused(TestRule):
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
             reports=(
-                Report("test/test_text.py:5:9", "unittest never calls set_up; setUp is meant"),
+                Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
                 Report(
                     "test/test_text.py:8:9",
                     "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
@@ -110,7 +110,7 @@ def _case_problem(module: PythonModule, method: FunctionNode) -> str:
     problem = ""
     for right in _SET_UP:
         if name != right and name.replace("_", "").lower() == right.lower():
-            return f"unittest never calls {name}; {right} is meant"
+            return f"unittest never calls {name}; use {right}"
     if name in {"setUpClass", "tearDownClass"} and not decorated:
         problem = f"unittest calls {name} on the class: @classmethod is missing"
     elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:

@@ -19,7 +19,7 @@ class TestInTest(TestRule):
 
     **Why.** pytest does not collect it: it is never run, whatever it states.
 
-    **Fix.** Move it out, behind the test that it stands in.
+    **Fix.** Move it out, after the test that it stands in.
 
     **Source.** pytest documentation, "Conventions for Python test discovery".
     """
@@ -35,7 +35,7 @@ class TestInTest(TestRule):
             reports=(
                 Report(
                     "test/test_text.py:8:5",
-                    "test_more stands in test_text: pytest does not collect it",
+                    "test_more is inside test_text: pytest does not collect it",
                 ),
             ),
         ),
@@ -46,7 +46,7 @@ class TestInTest(TestRule):
             for node in ast.walk(test.node):
                 is_other = isinstance(node, ast.FunctionDef) and node is not test.node
                 if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
-                    place = f"{node.name} stands in {test.node.name}"
+                    place = f"{node.name} is inside {test.node.name}"
                     message = f"{place}: pytest does not collect it"
                     yield self.report(module.location(node), message)
 

@@ -24,7 +24,7 @@ _CLASS = "class TextTests:\n    def test_more(self):\n        assert True\n"
 
 
 class TestNeverRun(Rule):
-    """A function or class of tests stands beside others, and pytest does not run it.
+    """A function or class of tests stands next to others, and pytest does not run it.
 
     **Why.** The file passes without it: pytest takes functions that begin with ``test`` and classes
     that begin with ``Test``.

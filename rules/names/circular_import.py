@@ -68,7 +68,7 @@ class CircularImport(Rule):
                 yield self.report(one, message)
 
     def _takes_names(self, package: Package, one: Import, path: str) -> bool:
-        """Tell whether an import takes what the module makes behind its own imports."""
+        """Tell whether an import takes what the module makes after its own imports."""
         module = package.module(path)
         last = max((other.location.line for other in module.imports if other.top_level), default=0)
         lines = [

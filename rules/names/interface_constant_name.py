@@ -16,7 +16,7 @@ class InterfaceConstantName(Rule):
     **Why.** The build stops in rosidl_adapter: ``'max' is an invalid constant name``. An ``=``
     makes a line a constant, also where a default was meant.
 
-    **Fix.** Write capitals; a default stands behind the name of a field without ``=``.
+    **Fix.** Write capitals; a default comes after the name of a field without ``=``.
 
     **Source.** ``rosidl_adapter/parser.py``, ``VALID_CONSTANT_NAME_PATTERN``.
     """
@@ -32,7 +32,7 @@ class InterfaceConstantName(Rule):
             },
         ),
         Example(
-            "small letters, a default with an equals sign, a bound with blanks",
+            "small letters, a default with an equals sign, a bound with spaces",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n",

@@ -11,7 +11,7 @@ _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.
 
 
 class InterfaceTextEscape(Rule):
-    r"""A comment or text of an interface holds a backslash that is no valid escape.
+    r"""A comment or text of an interface holds a backslash that is not a valid escape.
 
     **Why.** The build stops in rosidl_adapter: ``UnicodeDecodeError processing template
     'struct.idl.em': 'unicodeescape' codec can't decode``, without the line. A backslash at the end
@@ -85,6 +85,6 @@ class InterfaceTextEscape(Rule):
 
 
 def _last_declaration(lines: Sequence[str]) -> int:
-    """Return the index of the last line that declares something: comments behind it are dropped."""
+    """Return the index of the last line that declares something: comments after it are dropped."""
     stated = [n for n, line in enumerate(lines) if line.partition("#")[0].strip(" \t\r\n-")]
     return stated[-1] if stated else -1

@@ -13,7 +13,7 @@ _LISTS = (
 
 
 class InterfaceTypeName(Rule):
-    """A .msg, .srv or .action file has a name that is no type name.
+    """A .msg, .srv or .action file has a name that is not a type name.
 
     **Why.** The build stops in rosidl_adapter: ``'my_type' is an invalid message name``.
 

@@ -36,7 +36,7 @@ class ModuleCalled(PythonRule):
             "the module",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
             reports=(
-                Report("setup.py:3:9", "'glob' is a module here: TypeError; glob.glob() is meant"),
+                Report("setup.py:3:9", "'glob' is a module here: TypeError; use glob.glob()"),
             ),
         ),
     )
@@ -47,5 +47,5 @@ class ModuleCalled(PythonRule):
         for call in module.walk(ast.Call):
             name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
             if name in _MODULES:
-                message = f"{name!r} is a module here: TypeError; {_MODULES[name]}() is meant"
+                message = f"{name!r} is a module here: TypeError; use {_MODULES[name]}()"
                 yield self.report(module.location(call.func), message)

@@ -56,7 +56,7 @@ class OwnImportMissing(Rule):
             reports=(
                 Report(
                     "talker/node.py:1:1",
-                    "the package has no module 'talker.texts'; 'talker.text' is meant",
+                    "the package has no module 'talker.texts'; closest: 'talker.text'",
                 ),
             ),
         ),
@@ -79,12 +79,12 @@ class OwnImportMissing(Rule):
             reports=(
                 Report(
                     "talker/node.py:1:1",
-                    "no module 'text' is installed: ModuleNotFoundError; 'talker.text' is meant",
+                    "no module 'text' is installed: ModuleNotFoundError; closest: 'talker.text'",
                 ),
                 Report(
                     "talker/node.py:2:1",
                     "no module 'src.talker.text' is installed: ModuleNotFoundError; "
-                    "'talker.text' is meant",
+                    "closest: 'talker.text'",
                 ),
             ),
         ),
@@ -112,13 +112,13 @@ class OwnImportMissing(Rule):
             if not may_be_made(package, name):
                 modules = [one for one in modules_of(package, root) if "__init__" not in one]
                 near = nearest(package, name, modules, 0.6)
-                hint = f"; {near!r} is meant" if near else ""
+                hint = f"; closest: {near!r}" if near else ""
                 yield self.report(one, f"the package has no module {name!r}{hint}")
         elif not one.level:
             meant = meant_module(package, module, name)
             if meant:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
-                yield self.report(one, f"{message}; {meant!r} is meant")
+                yield self.report(one, f"{message}; closest: {meant!r}")
 
     def _check_names(
         self, package: Package, one: Import, name: str, path: str

@@ -18,7 +18,7 @@ _FILES = {"CMakeLists.txt": _LISTS, "talker/__init__.py": "", "talker/text.py": 
 class RelativeImportInScript(Rule):
     """A program that is started as a file imports relatively.
 
-    **Why.** In ``lib/<package>`` it is no part of a package: ``ImportError: attempted relative
+    **Why.** In ``lib/<package>`` it is not a part of a package: ``ImportError: attempted relative
     import with no known parent package``.
 
     **Fix.** Write the full name: ``from talker.text import TEXT``.

@@ -15,7 +15,7 @@ _LISTS = "project(talker)\ninstall(PROGRAMS talker/{}.py DESTINATION lib/${{PROJ
 class ScriptShadowsModule(Rule):
     """An installed script has the name of a module that nodes import.
 
-    **Why.** Python looks in the script's own directory first: every program installed beside it
+    **Why.** Python looks in the script's own directory first: every program installed next to it
     that imports ``logging`` or ``queue``, as rclpy does, imports the script instead and dies.
 
     **Fix.** Rename the script, or install it without its ending: ``RENAME``.
@@ -35,7 +35,7 @@ class ScriptShadowsModule(Rule):
             reports=(
                 Report(
                     "CMakeLists.txt:2:18",
-                    "logging.py hides the module 'logging' from every program beside it",
+                    "logging.py hides the module 'logging' from every program next to it",
                 ),
             ),
         ),
@@ -47,5 +47,5 @@ class ScriptShadowsModule(Rule):
             if ending != "py":
                 continue
             if stem in sys.stdlib_module_names or (stem in ROS_PACKAGES and stem != package.name):
-                message = f"{program.name} hides the module {stem!r} from every program beside it"
+                message = f"{program.name} hides the module {stem!r} from every program next to it"
                 yield self.report(program, message)

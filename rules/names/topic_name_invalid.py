@@ -22,7 +22,7 @@ class TopicNameInvalid(RclpyRule):
 
     **Why.** ``rclpy.exceptions.InvalidTopicNameException`` at start.
 
-    **Fix.** Use letters, digits, ``_`` and ``/``; no digit behind a ``/``, no ``/`` at the end.
+    **Fix.** Use letters, digits, ``_`` and ``/``; no digit after a ``/``, no ``/`` at the end.
 
     **Source.** design.ros2.org, "Topic and service name mapping"; ``rcl/validate_topic_name.c``.
     """

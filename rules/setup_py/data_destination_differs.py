@@ -23,7 +23,7 @@ _GLOB = "['launch/talk.launch.py']"
 
 
 class DataDestinationDiffers(Rule):
-    """An entry of ``data_files`` is no pair, or installs where nobody looks.
+    """An entry of ``data_files`` is not a pair, or installs where nobody looks.
 
     **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
     found in the share directory of package 'talker'``. An absolute path leaves the workspace, or
@@ -78,7 +78,7 @@ class DataDestinationDiffers(Rule):
             },
             reports=(
                 Report(
-                    "setup.py:6:9", "a comma is missing behind this: 'tuple' object is not callable"
+                    "setup.py:6:9", "a comma is missing after this: 'tuple' object is not callable"
                 ),
             ),
         ),
@@ -100,7 +100,7 @@ class DataDestinationDiffers(Rule):
         keyword = setup.keywords.get("data_files")
         for call in ast.walk(keyword.node) if keyword else ():
             if isinstance(call, ast.Call) and isinstance(call.func, ast.Tuple):
-                message = "a comma is missing behind this: 'tuple' object is not callable"
+                message = "a comma is missing after this: 'tuple' object is not callable"
                 yield self.report(setup.module.location(call.func), message)
 
 

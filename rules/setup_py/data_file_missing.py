@@ -18,7 +18,7 @@ class DataFileMissing(Rule):
     """data_files name a file that does not exist, or a pattern that matches none of the files.
 
     **Why.** A missing file stops the build. A pattern that matches nothing is silent: the files
-    beside it are not there at run time.
+    next to it are not there at run time.
 
     **Fix.** Write the name, or the ending, that the files have.
 

@@ -18,7 +18,7 @@ class EntryPointMalformed(Rule):
     **Why.** setuptools stops the build, or makes one bogus executable out of two lines: two
     strings without a comma between them are one string.
 
-    **Fix.** Write ``'name = package.module:function'`` and a comma behind each.
+    **Fix.** Write ``'name = package.module:function'`` and a comma after each.
 
     **Source.** Python packaging user guide, "Entry points specification".
     """
@@ -38,7 +38,7 @@ class EntryPointMalformed(Rule):
             reports=(
                 Report(
                     "setup.py:5:9",
-                    "a comma is missing behind this console script: it is joined to the next",
+                    "a comma is missing after this console script: it is joined to the next",
                 ),
             ),
         ),
@@ -59,7 +59,7 @@ class EntryPointMalformed(Rule):
         for entry in package.setup_py.console_scripts:
             if len(entry.joined) > 1 and entry.text.count("=") > 1:
                 at = entry.joined[0]
-                message = "a comma is missing behind this console script: it is joined to the next"
+                message = "a comma is missing after this console script: it is joined to the next"
                 yield self.report(at, message)
             elif entry.malformed:
                 yield self.report(entry, f"console script {entry.text!r}: {entry.malformed}")

@@ -35,7 +35,7 @@ class EntryPointUnusable(Rule):
             "without the package",
             {"setup.py": _SETUP.format("node"), **_FILES},
             reports=(
-                Report("setup.py:6:39", "no module 'node' is installed; 'talker.node' is meant"),
+                Report("setup.py:6:39", "no module 'node' is installed; closest: 'talker.node'"),
             ),
         ),
         Example(
@@ -44,7 +44,7 @@ class EntryPointUnusable(Rule):
             reports=(
                 Report(
                     "setup.py:6:39",
-                    "no module 'my_package.node' is installed; 'talker.node' is meant",
+                    "no module 'my_package.node' is installed; closest: 'talker.node'",
                 ),
             ),
         ),
@@ -78,7 +78,7 @@ class EntryPointUnusable(Rule):
                 continue
             meant = _meant(package, entry.module)
             if meant:
-                message = f"no module {entry.module!r} is installed; {meant!r} is meant"
+                message = f"no module {entry.module!r} is installed; closest: {meant!r}"
                 yield self.report(entry, message)
 
     def _check_function(

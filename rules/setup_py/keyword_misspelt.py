@@ -51,7 +51,7 @@ class KeywordMisspelt(Rule):
             reports=(
                 Report(
                     "setup.py:6:5",
-                    "setup() has no 'entry_point': nobody reads it; 'entry_points' is meant",
+                    "setup() has no 'entry_point': nobody reads it; closest: 'entry_points'",
                 ),
             ),
         ),
@@ -74,7 +74,7 @@ class KeywordMisspelt(Rule):
                 continue
             near = get_close_matches(word.arg, _KNOWN, 1, 0.8)
             if near:
-                message = f"setup() has no {word.arg!r}: nobody reads it; {near[0]!r} is meant"
+                message = f"setup() has no {word.arg!r}: nobody reads it; closest: {near[0]!r}"
                 yield self.report(setup.module.location(word), message)
         keyword = setup.keyword("entry_points")
         node = keyword.node if keyword else None

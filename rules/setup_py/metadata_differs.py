@@ -30,7 +30,7 @@ _SETUP = (
 
 
 class MetadataDiffers(Rule):
-    """Version, maintainer, description or licence differ between setup.py and package.xml.
+    """Version, maintainer, description or license differ between setup.py and package.xml.
 
     **Why.** ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things;
     ``catkin_prepare_release`` stops at two versions.
@@ -50,7 +50,7 @@ class MetadataDiffers(Rule):
             "the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}
         ),
         Example(
-            "another version and another licence",
+            "another version and another license",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
             reports=(
                 Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
@@ -104,7 +104,7 @@ def _or_all(values: list[str]) -> list[str]:
 
 
 def _means_one_of(license_: str, wanted: list[str]) -> bool:
-    """Tell whether two spellings stand for the same licence."""
+    """Tell whether two spellings stand for the same license."""
     meant = set(spdx_of(license_))
     return any(not meant.isdisjoint(spdx_of(one)) for one in wanted)
 

@@ -44,7 +44,7 @@ class NodeWithoutEntryPoint(Rule):
             {"setup.py": _SETUP.format("        'other = talker.other:main',\n"), **_FILES},
         ),
         Example(
-            "a copy, kept beside the node",
+            "a copy, kept next to the node",
             {
                 "setup.py": _SETUP.format(""),
                 **_FILES,

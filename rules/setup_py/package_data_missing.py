@@ -1,4 +1,4 @@
-"""SP015: files that a module reads are installed beside it."""
+"""SP015: files that a module reads are installed next to it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _FILES = {
 
 
 class PackageDataMissing(Rule):
-    """A module reads a file that lies beside it, and setup.py does not install that file.
+    """A module reads a file that lies next to it, and setup.py does not install that file.
 
     **Why.** It works in the source tree and with ``--symlink-install``; installed it is
     ``FileNotFoundError: .../site-packages/talker/words.txt``.
