@@ -269,9 +269,9 @@ def _show(
 
 
 def _diff(plan: WritePlan, above: WritePlan | None) -> str:
-    from scaffold.generate.update.provenance import NAME
+    from scaffold.generate.update.provenance import HIDDEN
 
-    return plan.diff(hidden=[NAME]) + (above.diff() if above is not None else "")
+    return plan.diff(hidden=HIDDEN) + (above.diff() if above is not None else "")
 
 
 def _summary(
@@ -283,7 +283,7 @@ def _summary(
 ) -> str:
     """Return what is written and edited, and the next commands."""
     from scaffold.generate import repository
-    from scaffold.generate.update.provenance import NAME
+    from scaffold.generate.update.provenance import HIDDEN
     from scaffold.writing.plan import State
 
     words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
@@ -307,7 +307,7 @@ def _summary(
         if added.by_hand:
             return "\n".join([*lines, "Nothing was changed."])
         return "\n".join([*lines, "", "Everything is already there: nothing was changed."])
-    ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), NAME}
+    ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), *HIDDEN}
     if all(path in ours for _, _, path in rows) and added.start is None:
         return "\n".join(lines)
     return "\n".join([*lines, "", *_next_commands(package, added)])

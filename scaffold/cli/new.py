@@ -208,7 +208,9 @@ def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> Wr
     directory = _refuse_existing(options, made.name)
     files = repository.inside(made.rendered.files)
     files = {path: text for path, text in files.items() if path not in left}
-    files[provenance.NAME] = provenance.Provenance.of(made).text()
+    has_attributes = os.path.lexists(os.path.join(directory, provenance.ATTRIBUTES))
+    is_new = not has_attributes and provenance.ATTRIBUTES not in files
+    files |= provenance.Provenance.of(made).files(is_new=is_new)
     return WritePlan.of(directory, files, executable=made.rendered.executable)
 
 
@@ -320,7 +322,7 @@ def _tree(made: Draft, plan: WritePlan) -> list[str]:
     from scaffold.generate.update import provenance
     from scaffold.writing.plan import State
 
-    notes_of = {provenance.NAME: "what `ros2-scaffold update` needs", **made.rendered.notes}
+    notes_of = {**provenance.PURPOSES, **made.rendered.notes}
     words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}
     rows: list[tuple[str, str]] = [(f"{made.name}/", "")]
     parents: list[str] = []

@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.questions.defaults import User
     from scaffold.generate.templates import template
     from scaffold.generate.update import update
-    from scaffold.generate.update.provenance import NAME
+    from scaffold.generate.update.provenance import HIDDEN
     from scaffold.writing.plan import WritePlan
 
     directory = os.path.normpath(options.directory)
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
         if not is_dry:
             repository.write(above, plan, force=True)
     if options.diff:
-        terminal.show_patch(plan.diff(hidden=[NAME]))
+        terminal.show_patch(plan.diff(hidden=HIDDEN))
         terminal.show_patch(above.diff() if above else "")
     for remark in updated.remarks:
         terminal.note(remark)

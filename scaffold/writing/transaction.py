@@ -30,6 +30,8 @@ TREE = "tree"
 """What a stage calls the directory that is to appear whole."""
 RECORD = ".ros2-scaffold.json"
 """The file that says how a package was made: it changes last, so that it never claims too much."""
+BASES = ".ros2-scaffold.bases"
+"""The sidecar of the record; it changes just before it."""
 
 _JOURNAL = "journal"
 _NEW_JOURNAL = "journal.new"
@@ -215,7 +217,8 @@ def replace_all(root: str, replacements: Sequence[Replacement]) -> None:
             was done has been undone.
         OSError: the system refuses; what was done has been undone.
     """
-    ordered = sorted(replacements, key=lambda file: (file.path == RECORD, file.path))
+    last = (BASES, RECORD)
+    ordered = sorted(replacements, key=lambda file: (file.path in last, file.path))
     with Stage.made(root) as stage:
         changes: list[Change] = []
         for number, file in enumerate(ordered):

@@ -798,7 +798,9 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert said.err == ""
     assert said.out == dedent(f"""\
         talker/
-            .ros2-scaffold.json            what `ros2-scaffold update` needs
+            .gitattributes                 how git merges the two .ros2-scaffold files
+            .ros2-scaffold.bases           what the templates gave, for `ros2-scaffold update`
+            .ros2-scaffold.json            how it was made, for `ros2-scaffold update`
             CHANGELOG.rst                  what changed, for releases
             CMakeLists.txt                 what is installed and tested
             LICENSE                        the full text of the license

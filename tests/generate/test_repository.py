@@ -13,8 +13,10 @@ import yaml
 from scaffold.cli.main import main
 from scaffold.errors import ConflictError
 from scaffold.files.disk import Disk
+from scaffold.files.tree import DiskTree
 from scaffold.generate import repository
-from scaffold.generate.update.provenance import NAME, parse
+from scaffold.generate.update import provenance, update
+from scaffold.generate.update.provenance import NAME
 from scaffold.model.discovery import colcon
 from scaffold.writing.plan import WritePlan
 from tests.generate.test_pre_commit import CONFIG, FINDING, Repository, break_, variables
@@ -53,6 +55,11 @@ def files(top: Path) -> dict[str, bytes]:
     return {path: data for path, data in paths.items() if not path.startswith(".git/")}
 
 
+def write_record(package: Path, record: provenance.Provenance) -> None:
+    for name, text in record.files(is_new=False).items():
+        (package / name).write_text(text)
+
+
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
     """Return the top of a repository that is a workspace."""
@@ -66,7 +73,7 @@ def test_new_writes_them_at_the_top(workspace: Path, capsys: pytest.CaptureFixtu
     assert new(workspace / "src", "--extras", *EXTRAS) == 0
     assert sorted(path for path in files(workspace) if not path.startswith("src/")) == AT_TOP
     hidden = [file.name for file in (workspace / "src" / "talker").glob(".*")]
-    assert hidden == [NAME]
+    assert sorted(hidden) == sorted(provenance.PURPOSES)
     assert not (workspace / "src" / "talker" / "CONTRIBUTING.md").exists()
     said = capsys.readouterr()
     assert ".github/workflows/talker.yaml" in said.out
@@ -312,10 +319,10 @@ def test_update_merges_at_the_top(workspace: Path, capsys: pytest.CaptureFixture
     record = workspace / "src" / "talker" / NAME
     path = workspace / ".github" / "workflows" / "talker.yaml"
     text = path.read_text()
-    old = parse(record.read_text(), NAME)
+    old = update.read(DiskTree(record.parent), "talker")
     before = text.replace("ubuntu-24.04", "ubuntu-22.04")
     rendered = {**old.rendered, ":/.github/workflows/talker.yaml": before}
-    record.write_text(old.with_files(old.answers, rendered).text())
+    write_record(record.parent, old.with_files(old.answers, rendered))
     path.write_text(f"# mine\n{before}")
     capsys.readouterr()
     assert main(["update", str(workspace / "src" / "talker")]) == 0
@@ -331,9 +338,9 @@ def test_update_merges_in_a_package_that_is_a_repository(
     name = ".github/workflows/ci.yaml"
     record, path = tmp_path / "talker" / NAME, tmp_path / "talker" / name
     text = path.read_text()
-    old = parse(record.read_text(), NAME)
+    old = update.read(DiskTree(record.parent), "talker")
     before = text.replace("ubuntu-24.04", "ubuntu-22.04")
-    record.write_text(old.with_files(old.answers, {**old.rendered, name: before}).text())
+    write_record(record.parent, old.with_files(old.answers, {**old.rendered, name: before}))
     path.write_text(f"# mine\n{before}")
     capsys.readouterr()
     assert main(["update", str(tmp_path / "talker")]) == 0
@@ -358,10 +365,10 @@ def test_a_record_names_no_file_outside_of_the_repository(
     (tmp_path / "secret").write_text("secret\n")
     assert new(workspace / "src", "--extras", "ci") == 0
     record = workspace / "src" / "talker" / NAME
-    old = parse(record.read_text(), NAME)
+    old = update.read(DiskTree(record.parent), "talker")
     names = [":/../secret", f":/{tmp_path}/secret", "../../../secret", ":/\0", ":/"]
     rendered = {**old.rendered, **dict.fromkeys(names, "x\n")}
-    record.write_text(old.with_files(old.answers, rendered).text())
+    write_record(record.parent, old.with_files(old.answers, rendered))
     capsys.readouterr()
     assert main(["update", str(workspace / "src" / "talker")]) == 0
     assert "secret" not in capsys.readouterr().err

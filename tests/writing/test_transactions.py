@@ -23,8 +23,21 @@ from scaffold.writing import lock, rename, transaction
 from scaffold.writing.plan import WritePlan
 
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
-BEFORE = {"a": "old a\n", "b/c": "old c\n", "gone": "old\n", transaction.RECORD: "old record\n"}
-AFTER = {"a": "new a\n", "b/c": "new c\n", "d/e/f": "new f\n", transaction.RECORD: "new record\n"}
+BEFORE = {
+    "a": "old a\n",
+    "b/c": "old c\n",
+    "gone": "old\n",
+    transaction.BASES: "old bases\n",
+    transaction.RECORD: "old record\n",
+}
+AFTER = {
+    "a": "new a\n",
+    "b/c": "new c\n",
+    "d/e/f": "new f\n",
+    transaction.BASES: "new bases\n",
+    transaction.RECORD: "new record\n",
+}
+TOP = [transaction.BASES, transaction.RECORD, "a", "b", "gone"]
 
 CALLS = ("open", "mkdir", "rename", "replace", "unlink", "rmdir", "fsync", "fchmod", "link")
 """What changes something on a disk."""
@@ -115,9 +128,14 @@ def test_what_is_killed_at_any_step_is_completed_or_undone(tmp_path: Path, how: 
     assert outcomes == {"completed", "undone"}
 
 
-def test_the_record_changes_last(tmp_path: Path) -> None:
+def test_the_sidecar_and_the_record_change_last(tmp_path: Path) -> None:
     root = tmp_path / "p"
     for _ in cut_off(root):
+        if (root / transaction.BASES).read_text() == AFTER[transaction.BASES]:
+            assert {**tree(root), transaction.RECORD: ""}.items() >= {
+                **AFTER,
+                transaction.RECORD: "",
+            }.items()
         if (root / transaction.RECORD).read_text() == AFTER[transaction.RECORD]:
             assert tree(root).items() >= AFTER.items()
 
@@ -183,7 +201,7 @@ def test_a_file_that_changes_before_its_rename_stops_all(
         WritePlan.of(tmp_path, AFTER, remove=["gone"]).write(force=True)
     assert len(seen) > 2
     assert tree(tmp_path) == {**BEFORE, "b/c": "mine\n"}
-    assert sorted(os.listdir(tmp_path)) == [transaction.RECORD, "a", "b", "gone"]
+    assert sorted(os.listdir(tmp_path)) == TOP
 
 
 def test_what_is_written_to_an_open_file_is_kept(
@@ -480,4 +498,4 @@ def test_a_full_disk_leaves_the_old_files(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(InputError, match=r"No space left on device; nothing was written$"):
         WritePlan.of(tmp_path, AFTER, remove=["gone"]).write(force=True)
     assert tree(tmp_path) == BEFORE
-    assert sorted(os.listdir(tmp_path)) == [transaction.RECORD, "a", "b", "gone"]
+    assert sorted(os.listdir(tmp_path)) == TOP

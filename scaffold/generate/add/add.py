@@ -103,6 +103,8 @@ def add(target: Target, wanted: Wanted) -> Added:
     with _refusing(package):
         _refuse_ros_1(package)
         old = regenerate.provenance_of(package)
+        if old is not None and old.merged:
+            old = regenerate.joined(target, old)
         wanted = wanted._replace(given={**regenerate.remembered(old), **wanted.given})
         made = rendered_part.make(target, old, wanted)
         _refuse_taken(package, made)
@@ -208,7 +210,8 @@ def _others(
     edited = edit(target.package, made.addition)
     files = dict(edited.files)
     if old is not None:
-        files |= regenerate.noted(old, rendered_part.make(target, old, wanted, old.date))
+        piece = rendered_part.make(target, old, wanted, old.date)
+        files |= regenerate.noted(target.package, old, piece)
     return files, edited.by_hand
 
 

@@ -13,9 +13,10 @@ from scaffold.generate.edit.edit import edit
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.repository import inside
 from scaffold.generate.templates.template import BASE, Role
-from scaffold.generate.update import provenance, update
-from scaffold.generate.update.provenance import NAME, Provenance
+from scaffold.generate.update import branches, provenance, update
+from scaffold.generate.update.provenance import ATTRIBUTES, NAME, Provenance
 from scaffold.model.package import Package
+from scaffold.writing.transaction import BASES
 
 OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
 """The questions of the base that a part asks, too; a package has answered most of them."""
@@ -29,13 +30,32 @@ def provenance_of(package: Package) -> Provenance | None:
     """
     if not package.has(NAME):
         return None
-    return provenance.parse(package.source(NAME).text, f"{package.directory}/{NAME}")
+    sidecar = package.source(BASES).text if package.has(BASES) else None
+    path = f"{package.directory}/{NAME}"
+    old = provenance.parse(package.source(NAME).text, path, sidecar)
+    there = {path: package.tree.read(path) for path in old.lost if package.has(path)}
+    return old.completed(there)
 
 
 def remembered(old: Provenance | None) -> dict[str, Given]:
     """Return the answers that a package was made with, as far as parts ask for them."""
     answers = old.answers if old is not None else {}
     return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
+
+
+def joined(target: Target, old: Provenance) -> Provenance:
+    """Return how a package was made; after a merge of branches, with the files for both.
+
+    Raises:
+        InputError: the package was made with a template that is not known here.
+    """
+    given = update.recorded(old, target.templates, target.package.directory, [])
+
+    def drafted(those: branches.Parts) -> Mapping[str, str]:
+        changed = {**given, parts.ADD: Given(those, NAME)}
+        return _drafted(target, changed, old).rendered.files
+
+    return branches.joined(old, drafted)
 
 
 def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | None:
@@ -65,12 +85,13 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
     after = _drafted(target, given, old)
     answers |= {name: after.answers[name] for name in following}
     files, wanted = before.rendered.files, after.rendered.files
+    old = old.completed({path: text.encode() for path, text in files.items()})
     changed = {path: text for path, text in wanted.items() if files.get(path) != text}
-    in_step = files == old.rendered and files.keys() <= wanted.keys()
+    in_step = files == old.rendered and not old.lost and files.keys() <= wanted.keys()
     package = target.package
     if not in_step or not all(_is_as(package, path, files.get(path)) for path in changed):
         return None
-    return {**changed, NAME: old.with_files(answers, wanted).text()}
+    return {**changed, **_recorded(package, old, old.with_files(answers, wanted))}
 
 
 def is_noted(old: Provenance, piece: Piece) -> bool:
@@ -78,20 +99,31 @@ def is_noted(old: Provenance, piece: Piece) -> bool:
     return _with_piece(old, piece) == old.answers
 
 
-def noted(old: Provenance, piece: Piece) -> dict[str, bytes]:
+def noted(package: Package, old: Provenance, piece: Piece) -> dict[str, bytes]:
     """Return the record of a package whose files are edited, with the piece in it.
 
     Args:
+        package: The package as it is.
         old: How the package was made.
         piece: What is added, as of the day that the package was made.
+
+    Raises:
+        InputError: what the templates gave for a file is lost.
     """
     answers = _with_piece(old, piece)
     if answers == old.answers:
         return {}
+    update.refuse_lost(old, package.directory, old.lost)
     base = Package.of({**inside(old.rendered), NAME: ""})
     files = {**piece.rendered.files, **old.rendered}
     files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
-    return {NAME: old.with_files(answers, files).text().encode()}
+    written = _recorded(package, old, old.with_files(answers, files))
+    return {path: text.encode() for path, text in written.items()}
+
+
+def _recorded(package: Package, old: Provenance, new: Provenance) -> dict[str, str]:
+    """Return the record with its sidecar; the first time git learns how to merge them."""
+    return new.files(is_new=not old.has_sidecar and not package.has(ATTRIBUTES))
 
 
 def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:

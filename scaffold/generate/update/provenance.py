@@ -1,7 +1,7 @@
-"""What a package remembers of its making: the answers, and the files as they were written.
+"""What a package remembers of its making: the answers, and a hash of each file as it was written.
 
 ``update`` merges what changed in the templates since then. The templates of that day may be gone
-when it is wanted, so the record holds what they gave (docs/adr/0007-packages-keep-their-origin.md).
+when it runs, so a sidecar holds what they gave (docs/adr/0007-packages-keep-their-origin.md).
 """
 
 from __future__ import annotations
@@ -10,25 +10,42 @@ import base64
 import json
 import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import date
+from types import MappingProxyType
 from typing import Any
 
 from scaffold import __version__
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
+from scaffold.generate.parts import ADD
+from scaffold.generate.update import bases
+from scaffold.generate.update.bases import hash_of
 from scaffold.programs import installation
 from scaffold.record import NamedTuple
-from scaffold.writing.transaction import RECORD
+from scaffold.writing.transaction import BASES, RECORD
 
 NAME = RECORD
 """The record's path in a package."""
+ATTRIBUTES = ".gitattributes"
+"""The path of the file that says how git merges the record and its sidecar."""
+HIDDEN = (BASES, NAME)
+"""What no diff shows."""
+PURPOSES = {
+    ATTRIBUTES: f"how git merges the two {RECORD.rpartition('.')[0]} files",
+    BASES: "what the templates gave, for `ros2-scaffold update`",
+    NAME: "how it was made, for `ros2-scaffold update`",
+}
+"""What each file is for."""
 
 _ABOUT = (
     "How ros2-scaffold made this package, for `ros2-scaffold update`. Commit it, do not edit it."
 )
-_MOST = 20_000_000
-"""Bytes of the files in a record; more is no package of ours."""
+_ATTRIBUTES = f"""\
+# What two branches add is kept; `ros2-scaffold update` makes one record of it.
+{RECORD} merge=union
+{BASES} merge=union linguist-generated
+"""
 
 
 class Provenance(NamedTuple):
@@ -42,6 +59,14 @@ class Provenance(NamedTuple):
     """The files as the templates gave them, by path."""
     version: str = __version__
     """Of this tool."""
+    lost: Mapping[str, Sequence[str]] = MappingProxyType({})
+    """The hashes of files that the sidecar lacks, by path; several after a merge."""
+    merged: Mapping[str, Sequence[str]] = MappingProxyType({})
+    """The hashes of files that two branches have changed, by path."""
+    is_canonical: bool = True
+    """Whether the record has the form in which it would be written now."""
+    has_sidecar: bool = True
+    """Whether its form has one; that of earlier versions had not."""
 
     @classmethod
     def of(cls, made: Draft) -> Provenance:
@@ -52,43 +77,184 @@ class Provenance(NamedTuple):
         """Return the record of the same package with more in it, which is added now."""
         return Provenance(self.date, answers, rendered)
 
-    def text(self) -> str:
-        """Return the record as a file."""
-        data = json.dumps(dict(self.rendered), ensure_ascii=False).encode()
-        entries = {
-            "about": _ABOUT,
-            "version": self.version,
-            "date": self.date.isoformat(),
-            "answers": dict(self.answers),
-            "rendered": base64.b64encode(zlib.compress(data, 9)).decode(),
+    def completed(self, candidates: Mapping[str, bytes]) -> Provenance:
+        """Return the record with lost files that are found elsewhere.
+
+        Args:
+            candidates: Files by path; one is used only if it has the recorded hash.
+        """
+        matching = {
+            path: candidates[path].decode(errors="replace")
+            for path, hashes in self.lost.items()
+            if path in candidates and [hash_of(candidates[path])] == list(hashes)
         }
-        return json.dumps(entries, indent=2, ensure_ascii=False) + "\n"
+        lost = {path: hashes for path, hashes in self.lost.items() if path not in matching}
+        return self._replace(rendered={**self.rendered, **matching}, lost=lost)
+
+    def files(self, *, is_new: bool) -> dict[str, str]:
+        """Return the record and its sidecar as files.
+
+        Args:
+            is_new: The package has no sidecar so far: git has to learn how to merge both.
+        """
+        attributes = {ATTRIBUTES: _ATTRIBUTES} if is_new else {}
+        return {**attributes, BASES: bases.text(self.rendered), NAME: self.text()}
+
+    def text(self) -> str:
+        """Return the record as a file, in which every line can be merged by itself.
+
+        The last entry of what grows is always the same: git keeps the new lines of both sides of
+        a merge, and each of them ends in a comma.
+        """
+        parts = self.answers.get(ADD, [])
+        others = sorted(item for item in self.answers.items() if item[0] != ADD)
+        hashes = [(path, hash_of(text.encode())) for path, text in sorted(self.rendered.items())]
+        return "\n".join(
+            [
+                "{",
+                f'  "about": {_json(_ABOUT)},',
+                f'  "version": {_json(self.version)},',
+                f'  "date": {_json(self.date.isoformat())},',
+                '  "answers": {',
+                *(f"    {_json(name)}: {_json(value)}," for name, value in others),
+                f"    {_json(ADD)}: [",
+                *(f"      {_json(part)}," for part in parts),
+                "      null",
+                "    ]",
+                "  },",
+                '  "files": {',
+                *(f"    {_json(path)}: {_json(hash_)}," for path, hash_ in hashes),
+                '    "": null',
+                "  }",
+                "}\n",
+            ]
+        )
 
 
-def parse(text: str, path: str) -> Provenance:
+def _json(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def parse(text: str, path: str, sidecar: str | None = None) -> Provenance:
     """Return the record in a file.
 
     Args:
         text: What is in it.
         path: For messages.
+        sidecar: The file beside it; ``None`` if there is none.
 
     Raises:
-        InputError: it is damaged, or a newer version of this tool wrote it.
+        InputError: it is damaged, a merge has left a conflict in it, or a newer version of this
+            tool wrote it.
     """
+    bases.refuse_conflict(text, path)
     try:
-        entries = json.loads(text)
-        _refuse_newer(str(entries["version"]), path)
-        packed = zlib.decompressobj()
-        data = packed.decompress(base64.b64decode(entries["rendered"]), _MOST)
-        rendered = json.loads(data)
+        entries = json.loads(text, object_pairs_hook=_merged_entries)
+        version = _newest(entries["version"])
+        _refuse_newer(version, path)
         day = date.fromisoformat(entries["date"])
-        found = Provenance(day, entries["answers"], rendered, str(entries["version"]))
+        answers = _merged_answers(entries["answers"])
+        if "rendered" in entries:
+            old = _unpacked(entries["rendered"])
+            return Provenance(day, answers, old, version, is_canonical=False, has_sidecar=False)
+        hashes = _hashes(entries["files"])
+    except _TypeError as error:
+        raise InputError(f"{path}: damaged: an entry has the wrong type") from error
     except (ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path}: damaged: {' '.join(str(error).split()) or 'cut off'}") from error
-    texts = [*found.rendered, *found.rendered.values()] if isinstance(rendered, dict) else [None]
-    if not (_are_answers(found.answers) and all(isinstance(one, str) for one in texts)):
-        raise InputError(f"{path}: damaged: an entry has the wrong type")
-    return found
+    where = f"{path.removesuffix(NAME)}{BASES}" if path.endswith(NAME) else BASES
+    texts = bases.parse(sidecar, where) if sidecar is not None else {}
+    lost = {
+        name: several
+        for name, several in hashes.items()
+        if not all((name, hash_) in texts for hash_ in several)
+    }
+    rendered = {
+        name: bases.combined([texts[name, hash_] for hash_ in several])
+        for name, several in hashes.items()
+        if name not in lost
+    }
+    merged = {name: several for name, several in hashes.items() if len(several) > 1}
+    is_agreed = answers.keys() == entries["answers"].keys()
+    is_canonical = is_agreed and not lost and not merged
+    return Provenance(day, answers, rendered, version, lost, merged, is_canonical)
+
+
+class _TypeError(Exception):
+    """An entry of a record has the wrong type."""
+
+
+_MOST_SIDES = 100
+"""How often an entry is there after merges, and how long lists are of which one is made."""
+
+
+def _merged_entries(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON; a merge may have kept an entry of both sides.
+
+    Lists become one, and of other entries there is a tuple, which JSON does not have.
+    """
+    entries: dict[str, Any] = {}
+    for name, value in pairs:
+        old = entries.get(name, value)
+        if isinstance(old, (list, tuple)) and len(old) > _MOST_SIDES and name in entries:
+            raise _TypeError
+        if isinstance(old, list) and isinstance(value, list) and name in entries:
+            entries[name] = [*old, *(item for item in value if item not in old)]
+        elif isinstance(old, tuple):
+            entries[name] = old if value in old else (*old, value)
+        else:
+            entries[name] = value if old == value else (old, value)
+    return entries
+
+
+def _newest(version: object) -> str:
+    return max(map(str, version if isinstance(version, tuple) else [version]), key=_release)
+
+
+def _merged_answers(answers: object) -> dict[str, Any]:
+    """Return the answers; where two sides of a merge differ, the question is asked again.
+
+    That is the description, which follows from the parts unless the user has given one.
+    """
+    if not isinstance(answers, dict):
+        raise _TypeError
+    agreed = {name: value for name, value in answers.items() if not isinstance(value, tuple)}
+    if isinstance(agreed.get(ADD), list):
+        agreed[ADD] = [part for part in agreed[ADD] if part is not None]
+    if not _are_answers(agreed):
+        raise _TypeError
+    return agreed
+
+
+def _hashes(entries: object) -> dict[str, tuple[str, ...]]:
+    """Return the hashes of each file."""
+    if not isinstance(entries, dict):
+        raise _TypeError
+    hashes = {
+        path: value if isinstance(value, tuple) else (value,)
+        for path, value in entries.items()
+        if path
+    }
+    if not all(isinstance(hash_, str) for several in hashes.values() for hash_ in several):
+        raise _TypeError
+    _refuse_surrogates(hashes)
+    return hashes
+
+
+def _unpacked(packed: str) -> dict[str, str]:
+    """Return the files of a record that has them in itself."""
+    decoder = zlib.decompressobj()
+    files = json.loads(decoder.decompress(base64.b64decode(packed), bases.MOST))
+    if not isinstance(files, dict) or not all(isinstance(text, str) for text in files.values()):
+        raise _TypeError
+    _refuse_surrogates([*files, *files.values()])
+    return files
+
+
+def _refuse_surrogates(texts: Iterable[str]) -> None:
+    """Raise ValueError for what JSON can say and no file can hold."""
+    for text in texts:
+        text.encode()
 
 
 def _refuse_newer(version: str, path: str) -> None:
@@ -114,9 +280,14 @@ _MOST_DEEP = 10
 
 
 def _depth(value: object) -> int:
-    """Return how deep lists and mappings are nested; what is too deep is not looked at."""
+    """Return how deep lists and mappings are nested; what is too deep is not looked at.
+
+    A tuple, which is an entry that two sides of a merge differ in, is too deep anywhere.
+    """
     depth, level = 0, [value]
     while level and depth <= _MOST_DEEP:
+        if any(isinstance(one, tuple) for one in level):
+            return _MOST_DEEP + 1
         inner: list[object] = []
         for one in level:
             inner += one.values() if isinstance(one, dict) else one if isinstance(one, list) else ()

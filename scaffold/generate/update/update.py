@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from scaffold.errors import InputError
@@ -16,15 +16,23 @@ from scaffold.generate.questions.questions import Given
 from scaffold.generate.repository import MARK, NOWHERE, Place, is_below, place_of_files
 from scaffold.generate.repository import read as read_file
 from scaffold.generate.templates.template import Template
+from scaffold.generate.update.branches import Parts, joined
 from scaffold.generate.update.merge import MARKS, merge
-from scaffold.generate.update.provenance import NAME, Provenance, parse
+from scaffold.generate.update.provenance import (
+    ATTRIBUTES,
+    HIDDEN,
+    NAME,
+    Provenance,
+    parse,
+)
+from scaffold.writing.transaction import BASES
 
 
 class Updated(NamedTuple):
     """A package updated to the current templates, in memory."""
 
     files: Mapping[str, bytes]
-    """What is written: files that change, and the record."""
+    """What is written: files that change, and the record with its sidecar."""
     executable: frozenset[str]
     conflicts: Mapping[str, int]
     """How many places of a file the user has to decide, by path."""
@@ -33,8 +41,8 @@ class Updated(NamedTuple):
 
     @property
     def changed(self) -> list[str]:
-        """The files that change, besides the record."""
-        return [path for path in self.files if path != NAME]
+        """The files that change, besides the record and its sidecar."""
+        return [path for path in self.files if path not in HIDDEN]
 
 
 def update(
@@ -63,12 +71,24 @@ def update(
     provenance = read(tree, where)
     remarks: list[str] = []
     given = recorded(provenance, templates, where, remarks)
-    made = draft.draft(roots, templates, given, user, provenance.date, place)
-    present = _present(tree, where, place, {*provenance.rendered, *made.rendered.files})
+
+    def drafted(parts: Parts) -> Draft:
+        changed = {**given, ADD: given[ADD]._replace(value=parts)}
+        return draft.draft(roots, templates, changed, user, provenance.date, place)
+
+    made = drafted(given[ADD].value)
+    provenance = joined(provenance, lambda parts: drafted(parts).rendered.files)
+    recorded_files = {*provenance.rendered, *provenance.lost}
+    present = _present(tree, where, place, {*recorded_files, *made.rendered.files})
     _refuse_undecided(present, where, made)
+    now = {path: text.encode() for path, text in made.rendered.files.items()}
+    provenance = provenance.completed(now).completed(present)
+    refuse_lost(provenance, where, now.keys() & present.keys())
     files, conflicts = _merged(present, provenance, made, remarks)
-    if provenance.rendered != made.rendered.files:
-        files[NAME] = Provenance.of(made).text().encode()
+    if provenance.rendered != made.rendered.files or not provenance.is_canonical:
+        is_new = not provenance.has_sidecar and ATTRIBUTES not in {*files, *tree.files}
+        written = Provenance.of(made).files(is_new=is_new)
+        files |= {path: text.encode() for path, text in written.items()}
     executable = frozenset(path for path in made.rendered.executable if path in files)
     return Updated(files, executable, conflicts, tuple(remarks))
 
@@ -85,9 +105,22 @@ def read(tree: Tree, where: str) -> Provenance:
             f"{path} is missing: created without ros2-scaffold, or before it kept records"
         )
     try:
-        return parse(tree.read(NAME).decode(), path)
+        record = tree.read(NAME).decode()
+        path = f"{where}/{BASES}"
+        sidecar = tree.read(BASES).decode() if BASES in tree.files else None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: {error}") from error
+    return parse(record, f"{where}/{NAME}", sidecar)
+
+
+def refuse_lost(provenance: Provenance, where: str, needed: Collection[str]) -> None:
+    """Raise InputError if what the templates gave for a file is needed and lost."""
+    lost = sorted(provenance.lost.keys() & set(needed))
+    if lost:
+        raise InputError(
+            f"{where}/{BASES}: lacks what the templates gave for {', '.join(lost)}, which cannot "
+            "be merged without it; restore the file from git; nothing was changed"
+        )
 
 
 def recorded(
@@ -160,7 +193,7 @@ def _merged(
         if before == text:
             continue
         if path not in present:
-            if before is None:
+            if before is None and path not in provenance.lost:
                 files[path] = now
             else:
                 remarks.append(f"{path} changed in the templates; you have removed it")
@@ -173,7 +206,7 @@ def _merged(
                 conflicts[path] = found.conflicts
     remarks += [
         f"{path} is no longer in the templates; remove it if you do not need it"
-        for path in provenance.rendered
+        for path in [*provenance.rendered, *provenance.lost]
         if path in present and path not in made.rendered.files
     ]
     return files, conflicts

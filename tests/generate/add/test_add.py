@@ -258,7 +258,7 @@ def test_a_team_adds_extras_of_its_own(tmp_path: Path, *, is_changed: bool) -> N
     record, other = (json.loads(files.pop(NAME)) for files in (after, expected))
     assert record["answers"] == other["answers"]
     if not is_changed:
-        assert (after, record["rendered"]) == (expected, other["rendered"])
+        assert (after, record["files"]) == (expected, other["files"])
     assert main(["update", str(one / "demo"), "--content", str(team)]) == 0
     assert (one / "demo" / "Dockerfile").read_bytes() == after["Dockerfile"]
 
