@@ -108,7 +108,7 @@ def test_a_conflict_is_marked_and_told(
     change(team, node_of(team), "Log the next message", "Tell the next message")
     assert main(["update", "talker", "--content", str(team)]) == 1
     said = capsys.readouterr().out
-    assert said.startswith(f"{NODE}: merged, 1 conflict to decide\n")
+    assert said.startswith(f"{NODE}: merged, 1 conflict to resolve\n")
     lines = [line.strip() for line in node.read_text().split("\n")]
     start = lines.index("<<<<<<< yours")
     assert lines[start : start + 7] == [
