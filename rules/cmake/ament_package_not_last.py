@@ -24,9 +24,9 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 
 
 class AmentPackageNotLast(Rule):
-    """A call that has to come first stands behind ``ament_package()``.
+    """A call that has to come first comes after ``ament_package()``.
 
-    **Why.** CMake stops at an export or a linter behind it; a Python package behind it is never
+    **Why.** CMake stops at an export or a linter after it; a Python package after it is never
     installed, for ``ament_package()`` does that.
 
     **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
@@ -41,12 +41,12 @@ class AmentPackageNotLast(Rule):
             "last", {"CMakeLists.txt": f"{_LISTS}ament_export_libraries(talker)\nament_package()\n"}
         ),
         Example(
-            "an export behind it",
+            "an export after it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
             reports=(
                 Report(
                     "CMakeLists.txt:4:1",
-                    "ament_export_libraries() stands behind ament_package() of line 3",
+                    "ament_export_libraries() comes after ament_package() in line 3",
                 ),
             ),
         ),
@@ -59,5 +59,5 @@ class AmentPackageNotLast(Rule):
         line = calls[0].location.line
         for command in package.cmake.find(*FATAL):
             if command.index > calls[0].index:
-                message = f"{command.name}() stands behind ament_package() of line {line}"
+                message = f"{command.name}() comes after ament_package() in line {line}"
                 yield self.report(command.name_location, message)

@@ -48,7 +48,7 @@ class CommandMisspelt(Rule):
             reports=(
                 Report(
                     "CMakeLists.txt:3:1",
-                    "CMake knows no command ament_pakage(); ament_package() is meant",
+                    "CMake knows no command ament_pakage(); closest: ament_package()",
                 ),
             ),
         ),
@@ -78,7 +78,7 @@ class CommandMisspelt(Rule):
                 yield self.report(command.name_location, message)
             elif not meant:
                 for one in _near(name):
-                    message = f"CMake knows no command {name}(); {one}() is meant"
+                    message = f"CMake knows no command {name}(); closest: {one}()"
                     yield self.report(command.name_location, message)
 
 

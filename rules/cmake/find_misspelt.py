@@ -32,7 +32,7 @@ class FindMisspelt(Rule):
             reports=(
                 Report(
                     "CMakeLists.txt:2:14",
-                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    "no package 'std_msg' is known; closest: 'std_msgs'",
                     fix="write std_msgs",
                 ),
             ),
@@ -47,7 +47,7 @@ class FindMisspelt(Rule):
             reports=(
                 Report(
                     "CMakeLists.txt:3:36",
-                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    "no package 'std_msg' is known; closest: 'std_msgs'",
                     fix="write std_msgs",
                 ),
             ),
@@ -80,7 +80,7 @@ class FindMisspelt(Rule):
         if argument.value == name:
             edit = Edit("CMakeLists.txt", argument.start, argument.end, meant)
             fix = Fix(f"write {meant}", (edit,))
-        yield self.report(at, f"no package {name!r} is known; {meant!r} is meant", fix)
+        yield self.report(at, f"no package {name!r} is known; closest: {meant!r}", fix)
 
 
 def _is_of_ros(name: str) -> bool:

@@ -10,7 +10,7 @@ _INSTALL = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
 
 
 class InstallBehindAmentPackage(Rule):
-    """``install`` stands behind ``ament_package()``.
+    """``install()`` comes after ``ament_package()``.
 
     **Why.** It works, but ``ament_package()`` has to be the last call: what comes later is not
     seen by the hooks that run there.
@@ -26,12 +26,10 @@ class InstallBehindAmentPackage(Rule):
     examples = (
         Example("before", {"CMakeLists.txt": f"project(talker)\n{_INSTALL}ament_package()\n"}),
         Example(
-            "behind",
+            "after",
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
             reports=(
-                Report(
-                    "CMakeLists.txt:3:1", "stands behind ament_package() of line 2, like 1 more"
-                ),
+                Report("CMakeLists.txt:3:1", "comes after ament_package() in line 2, like 1 more"),
             ),
         ),
     )
@@ -45,5 +43,5 @@ class InstallBehindAmentPackage(Rule):
         for command in behind[:1]:
             line = calls[0].location.line
             more = f", like {len(behind) - 1} more" if len(behind) > 1 else ""
-            message = f"stands behind ament_package() of line {line}{more}"
+            message = f"comes after ament_package() in line {line}{more}"
             yield self.report(command.name_location, message)

@@ -14,7 +14,7 @@ _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_
 class InterfaceFileMissing(Rule):
     """``rosidl_generate_interfaces`` lists a file that is not there, or is no interface.
 
-    **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``. For a file beside
+    **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``. For a file next to
     CMakeLists.txt it complains of ``get_filename_component``: a directory must stand in front.
 
     **Fix.** Write the path of the file relative to CMakeLists.txt; it ends in .msg, .srv, .action
@@ -51,7 +51,7 @@ class InterfaceFileMissing(Rule):
             ),
         ),
         Example(
-            "beside CMakeLists.txt",
+            "next to CMakeLists.txt",
             {"CMakeLists.txt": _LISTS % "Beat.msg", "Beat.msg": "int32 count\n"},
             reports=(
                 Report(

@@ -14,7 +14,7 @@ class LintersNeverRun(Rule):
 
     **Why.** No linter runs under ``colcon test``, which passes.
 
-    **Fix.** Call ``ament_lint_auto_find_test_dependencies()`` behind ``find_package``.
+    **Fix.** Call ``ament_lint_auto_find_test_dependencies()`` after ``find_package``.
 
     **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``.
     """

@@ -67,7 +67,7 @@ class ProgramWithoutShebang(Rule):
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
         ),
         Example(
-            "behind a byte order mark",
+            "after a byte order mark",
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"\ufeff{SHEBANG}\nimport rclpy\n"},
             reports=(
                 Report(
@@ -116,7 +116,7 @@ def _starts_python(line: str) -> bool:
     if words[:1] == ["/usr/bin/env"] and len(words) > 1:
         if words[1] == "-S":
             return len(words) > ENV_WORDS and words[2].startswith("python3")
-        # The kernel hands over all behind the first blank as one word.
+        # The kernel hands over all after the first blank as one word.
         return words[1] in {"python3", "python3.12"} and len(words) == ENV_WORDS
     if words[:1] == ["/bin/env"]:
         return words[1:] == ["python3"]

@@ -18,7 +18,7 @@ class ProjectMissing(Rule):
     **Why.** CMake stops at ``ament_package()``, as the name of the project is not that of the
     package: it invents ``Project``.
 
-    **Fix.** Write ``project(<name of the package>)`` behind ``cmake_minimum_required``.
+    **Fix.** Write ``project(<name of the package>)`` after ``cmake_minimum_required``.
 
     **Source.** ``ament_cmake_core/cmake/core/ament_package.cmake``.
     """

@@ -12,7 +12,7 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}install(FILES a
 class ReturnBeforeAmentPackage(Rule):
     """``return()`` stands before ``ament_package()``, and no condition around it.
 
-    **Why.** CMake reads no further: nothing behind it is built or installed, and the package is
+    **Why.** CMake reads no further: nothing after it is built or installed, and the package is
     in no index. ``colcon build`` says that all is well; ``Package 'talker' not found``.
 
     **Fix.** Remove the call, or write the condition that it is for around it.

@@ -34,7 +34,7 @@ class TestingConditionUnset(Rule):
                 Report(
                     "CMakeLists.txt:2:4",
                     "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
-                    "BUILD_TESTING is meant",
+                    "closest: BUILD_TESTING",
                     fix="write BUILD_TESTING",
                 ),
             ),
@@ -61,5 +61,5 @@ class TestingConditionUnset(Rule):
             if any(name in one.values for one in cmake.commands if one is not condition):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
-            message = f"nothing sets {name}, so the tests below never run; BUILD_TESTING is meant"
+            message = f"nothing sets {name}, so the tests below never run; closest: BUILD_TESTING"
             yield self.report(argument, message, Fix("write BUILD_TESTING", (edit,)))

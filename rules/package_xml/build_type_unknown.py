@@ -37,7 +37,7 @@ class BuildTypeUnknown(Rule):
             reports=(
                 Report(
                     "package.xml:2:15",
-                    "colcon knows no build type 'ament_pyton'; 'ament_python' is meant",
+                    "colcon knows no build type 'ament_pyton'; closest: 'ament_python'",
                     fix="write ament_python",
                 ),
             ),
@@ -54,6 +54,6 @@ class BuildTypeUnknown(Rule):
             near = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
             if element.text in KNOWN or not near:
                 continue
-            message = f"colcon knows no build type {element.text!r}; {near[0]!r} is meant"
+            message = f"colcon knows no build type {element.text!r}; closest: {near[0]!r}"
             edit = Edit("package.xml", *element.text_span, near[0])
             yield self.report(element.text_location, message, Fix(f"write {near[0]}", (edit,)))

@@ -106,7 +106,7 @@ def _problem(name: str) -> str:
     elif name.startswith("python3_"):
         problem = f"keys of rosdep have dashes: {name.replace('_', '-')!r}"
     elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
-        problem = f"{name!r} is of Python 2, which is gone; {'python3-' + name[7:]!r} is meant"
+        problem = f"{name!r} is of Python 2, which is gone; closest: {'python3-' + name[7:]!r}"
     elif name in _NO_KEYS:
         problem = f"{name!r} is a build type, no package: rosdep cannot resolve it; remove it"
     return problem

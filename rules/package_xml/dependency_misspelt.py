@@ -34,7 +34,7 @@ class DependencyMisspelt(Rule):
             reports=(
                 Report(
                     "package.xml:2:11",
-                    "no package 'std_msg' is known; 'std_msgs' is meant",
+                    "no package 'std_msg' is known; closest: 'std_msgs'",
                     fix="write std_msgs",
                 ),
             ),
@@ -48,6 +48,6 @@ class DependencyMisspelt(Rule):
             meant = similar_package(name)
             if meant is None or package.workspace.get(name) is not None or name == package.name:
                 continue
-            message = f"no package {name!r} is known; {meant!r} is meant"
+            message = f"no package {name!r} is known; closest: {meant!r}"
             edit = Edit("package.xml", *dependency.element.text_span, meant)
             yield self.report(dependency, message, Fix(f"write {meant}", (edit,)))

@@ -20,7 +20,7 @@ _FILE = {"LICENSE": "                 Apache License\n           Version 2.0, Ja
 
 
 class LicenseDiffers(Rule):
-    """package.xml names another licence than the LICENSE file of the package holds.
+    """package.xml names another license than the LICENSE file of the package holds.
 
     **Why.** Who uses the package reads two different terms; reviewers of a release refuse it.
 

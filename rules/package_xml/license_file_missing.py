@@ -12,7 +12,7 @@ _MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package
 class LicenseFileMissing(Rule):
     """``<license file="...">`` names a file that does not exist.
 
-    **Why.** The text of the licence is part of the release; no tool looks whether it is there.
+    **Why.** The text of the license is part of the release; no tool looks whether it is there.
 
     **Fix.** Write the path relative to package.xml, or add the file.
 
@@ -26,7 +26,7 @@ class LicenseFileMissing(Rule):
         Example(
             "not there",
             {"package.xml": _MANIFEST.format("LICENCE"), "LICENSE": "..."},
-            reports=(Report("package.xml:2:18", "there is no file 'LICENCE' beside package.xml"),),
+            reports=(Report("package.xml:2:18", "there is no file 'LICENCE' next to package.xml"),),
         ),
     )
 
@@ -37,4 +37,4 @@ class LicenseFileMissing(Rule):
                 continue
             if file.value.startswith(("..", "/")):
                 continue
-            yield self.report(file, f"there is no file {file.value!r} beside package.xml")
+            yield self.report(file, f"there is no file {file.value!r} next to package.xml")
