@@ -122,7 +122,7 @@ def test_a_conflict_is_marked_and_told(
     ]
     marked = node.read_text()
     assert main(["update", "talker", "--content", str(team)]) == 2
-    assert "has a conflict that an earlier update has marked" in capsys.readouterr().err
+    assert "has conflict markers of an earlier update" in capsys.readouterr().err
     assert node.read_text() == marked
 
 
