@@ -52,7 +52,7 @@ def case(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Mon
             path.write_text(path.read_text() + "X = 1 \n")
         return Case(package, ["check", "--fix", "talker"])
     team = tmp_path / "team" / "templates"
-    for name in ("publisher", "package", "ament_cmake"):
+    for name in ("nodes/publisher", "package", "build_types/ament_cmake"):
         shutil.copytree(Path(content.roots("templates")[0]) / name, team / name)
     for path in team.rglob("*.jinja"):
         if path.name.endswith((".py.jinja", ".md.jinja", ".txt.jinja")):
