@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.ament.backend import StyleCheck
+from scaffold.ament.codes import CODES, LINT_CMAKE, XMLLINT
 from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
 
@@ -17,6 +18,15 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
     Raises:
         ViewError: the package does not have what the linter reads.
     """
-    if code.startswith("CM"):
-        from scaffold.ament import cmake_diagnostics as linter
-    return linter.diagnostics(package, code)
+    linters = CODES[code].linters
+    if linters == LINT_CMAKE:
+        from scaffold.ament import cmake_diagnostics
+
+        return cmake_diagnostics.diagnostics(package, code)
+    if linters == XMLLINT:
+        from scaffold.ament import xml_diagnostics
+
+        return xml_diagnostics.diagnostics(package, code)
+    from scaffold.ament import copyright_diagnostics
+
+    return copyright_diagnostics.diagnostics(package, code)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from inspect import cleandoc
 from typing import TYPE_CHECKING
 
 from scaffold.check.rule import Example, Report, Rule
+from scaffold.diagnostic import Severity
 from scaffold.edits import Safety
 
 if TYPE_CHECKING:
@@ -18,6 +19,22 @@ _FIXED_WITH: dict[Safety | None, str] = {
     Safety.SAFE: " · fixable with `--fix`",
     Safety.UNSAFE: " · fixable with `--fix --unsafe-fixes`",
 }
+
+_PLUGINS = {
+    "A": "flake8-builtins",
+    "C": "flake8-comprehensions",
+    "D": "pydocstyle",
+    "E": "pycodestyle",
+    "F": "pyflakes",
+    "I": "flake8-import-order",
+    "Q": "flake8-quotes",
+    "W": "pycodestyle",
+}
+"""Where a style code is from, by its first letter."""
+_STYLE_HEAD = """\
+## Python style and docstrings
+
+The codes of flake8 and pydocstyle, with the verdict of ament_flake8 and ament_pep257."""
 
 
 def summary(rule: type[Rule]) -> str:
@@ -46,10 +63,11 @@ def style_page(style: AmentCode) -> str:
     from scaffold.ament.codes import LINTERS
 
     names = [name for flag, name in LINTERS.items() if style.linters & flag]
-    text = style.summary[0].upper() + style.summary[1:]
     facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
     facts += _FIXED_WITH.get(style.fix, "")
-    return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n"
+    text = style.summary[0].upper() + style.summary[1:]
+    source = f"**Source.** {_PLUGINS[style.code[0]]}, as {names[0]} runs it."
+    return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n\n{source}\n"
 
 
 def as_data(rule: type[Rule]) -> dict[str, object]:
@@ -65,12 +83,18 @@ def as_data(rule: type[Rule]) -> dict[str, object]:
 
 
 def write(directory: str, rules: Sequence[type[Rule]]) -> None:
-    """Write a page per rule and a table of all, and remove pages of rules that are no more."""
+    """Write a page per code and tables of all, and remove pages of codes that are no more."""
     import os
+
+    from scaffold.ament.codes import STYLE
 
     os.makedirs(directory, exist_ok=True)
     pages = {f"{rule.code}.md": page(rule) for rule in rules}
-    pages["README.md"] = f"# Rules\n\n{table(rules)}\n"
+    pages |= {f"{code}.md": style_page(style) for code, style in STYLE.items()}
+    styles = _rows(
+        (one.code, one.name, one.severity, one.fix, one.summary) for one in STYLE.values()
+    )
+    pages["README.md"] = f"# Rules\n\n{table(rules)}\n\n{_STYLE_HEAD}\n\n{styles}\n"
     for name in os.listdir(directory):
         if name.endswith(".md") and name not in pages:
             os.remove(os.path.join(directory, name))
@@ -81,12 +105,17 @@ def write(directory: str, rules: Sequence[type[Rule]]) -> None:
 
 def table(rules: Sequence[type[Rule]]) -> str:
     """Return a Markdown table of rules."""
-    rows = [
-        f"| [{rule.code}]({rule.code}.md) | {rule.name} | {rule.severity.value} "
-        f"| {'yes' if has_fix(rule) else ''} | {summary(rule)} |"
-        for rule in rules
+    return _rows(
+        (rule.code, rule.name, rule.severity, rule.fix_safety(), summary(rule)) for rule in rules
+    )
+
+
+def _rows(rows: Iterable[tuple[str, str, Severity, Safety | None, str]]) -> str:
+    lines = [
+        f"| [{code}]({code}.md) | {name} | {severity.value} | {'yes' if fix else ''} | {what} |"
+        for code, name, severity, fix, what in rows
     ]
-    return "\n".join(["| code | name | severity | fix | what |", "|---|---|---|---|---|", *rows])
+    return "\n".join(["| code | name | severity | fix | what |", "|---|---|---|---|---|", *lines])
 
 
 def has_fix(rule: type[Rule]) -> bool:

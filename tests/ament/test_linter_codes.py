@@ -10,10 +10,10 @@ import pytest
 from scaffold.ament.codes import CODES, STYLE
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.rule import Example, Rule
-from tests.ament import lint_cmake_cases
+from tests.ament import copyright_cases, lint_cmake_cases, xmllint_cases
 from tests.check.examples import assert_reported, assert_suppressible
 
-CASES = {**lint_cmake_cases.CASES}
+CASES = {**lint_cmake_cases.CASES, **copyright_cases.CASES, **xmllint_cases.CASES}
 RULES = {rule.code: rule for rule in AMENT_RULES}
 
 

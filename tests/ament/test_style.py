@@ -204,7 +204,7 @@ def test_places_names_and_severities() -> None:
 
 
 def test_every_code_of_the_table_has_a_name() -> None:
-    names = [one.name for one in codes.CODES.values()]
+    names = [one.name for one in codes.STYLE.values()]
     assert len(set(names)) == len(names)
     assert list(codes.CODES) == sorted(codes.CODES)
     assert all(one.summary[-1] != "." for one in codes.CODES.values())

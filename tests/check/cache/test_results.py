@@ -639,6 +639,8 @@ def _asks(path: Path) -> set[str]:
         "scaffold/formats",
         "scaffold/model",
         "scaffold/ament/copyright.py",
+        "scaffold/ament/copyright_diagnostics.py",
+        "scaffold/ament/xml_diagnostics.py",
         "scaffold/ament/files.py",
         "scaffold/ament/cmake_diagnostics.py",
         "scaffold/ament/lint_cmake.py",

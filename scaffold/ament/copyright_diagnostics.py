@@ -1,0 +1,106 @@
+"""What is wrong with notices, licence headers and repository files: codes and messages."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+
+from scaffold.ament.codes import diagnostic
+from scaffold.ament.copyright import (
+    REPOSITORY_FILES,
+    Header,
+    copyright_use,
+    departure,
+    headers,
+    identify_file,
+)
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.package import Package
+
+
+def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
+    """Yield what ament_copyright reports under one code, as advice where nobody runs it."""
+    if code == "LY020":
+        missing = [header for header in headers(package) if not header.holders]
+        yield from _of_headers(package, code, missing, _no_notice)
+    elif code == "LY021":
+        unknown = [one for one in headers(package) if one.holders and not one.licence]
+        yield from _of_headers(package, code, unknown, _unknown_header)
+    else:
+        yield from _of_repository(package, code)
+
+
+def _of_headers(
+    package: Package, code: str, faulty: list[Header], explain: Callable[[Header, int], str]
+) -> Iterator[Diagnostic]:
+    """Yield an error for each file that the linter looks at, and one advice for the others."""
+    if not faulty:
+        return
+    use = copyright_use(package)
+    passed_over = [header for header in faulty if not use.covers(header.path)]
+    for header in faulty:
+        if use.covers(header.path):
+            yield diagnostic(code, header.location, f"{explain(header, -1)}: ament_copyright fails")
+    if passed_over:
+        why = use.why_not or "it is told to exclude them"
+        first, others = passed_over[0], len(passed_over) - 1
+        message = f"{explain(first, others)}: ament_copyright would fail, but {why}"
+        yield diagnostic(code, first.location, message, severity=Severity.INFO)
+
+
+def _no_notice(header: Header, others: int) -> str:
+    """Return what is wrong; ``others`` are files that share the advice, -1 if it is none."""
+    if others < 0:
+        return header.unreadable or "no copyright notice in the first comment of this file"
+    return f"no copyright notice here and in {others} more" if others else "no copyright notice"
+
+
+def _unknown_header(header: Header, others: int) -> str:
+    more = f" (and {others} more files have no known header)" if others > 0 else ""
+    return f"{_reason(header.text)}{more}"
+
+
+def _reason(text: str) -> str:
+    if not text:
+        return "no licence header stands below the notice"
+    near = departure(text)
+    if near is not None:
+        licence, expected, given = near
+        return f'the header is not that of {licence}: "{given}" stands for "{expected}"'
+    if "SPDX-License-Identifier" in text:
+        return "an SPDX line stands below the notice, not the header of a licence"
+    start = " ".join(text.split()[:5])
+    return f'"{start} …" begins the header of no licence that is known'
+
+
+def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
+    if not _is_repository(package):
+        return
+    use = copyright_use(package)
+    for name in REPOSITORY_FILES:
+        wrong = _wrong(package, name)
+        at = package.start_of(name).location
+        if wrong and use.runs:
+            yield diagnostic(code, at, f"{wrong}: ament_copyright fails")
+        elif wrong:
+            message = f"{wrong}: ament_copyright would fail, but {use.why_not}"
+            yield diagnostic(code, at, message, severity=Severity.INFO)
+
+
+def _is_repository(package: Package) -> bool:
+    if package.has(".git") or package.has(".hg"):
+        return True
+    root = package.place
+    places = [os.path.join(root, name) for name in (".git", ".hg")] if root is not None else []
+    return any(package.outside.exists(place) for place in places)
+
+
+def _wrong(package: Package, name: str) -> str:
+    if not package.has(name):
+        return f"the repository has no {name}"
+    data = package.tree.read(name)
+    if not data:
+        return f"{name} is empty"
+    if identify_file(name, data) is None:
+        return f"{name} is not, word for word, the text that goes with a known licence"
+    return ""

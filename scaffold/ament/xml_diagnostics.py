@@ -1,0 +1,330 @@
+"""What XML files lack, and what the schemas of package.xml refuse: codes, messages and fixes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from difflib import get_close_matches
+
+from scaffold.ament import xmllint
+from scaffold.ament.codes import diagnostic
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import Edit, Fix, Safety
+from scaffold.files.tree import MANIFEST
+from scaffold.formats.xml import Attribute, Element
+from scaffold.model.manifest.manifest import XmlModel
+from scaffold.model.manifest.structure import (
+    FORMATS,
+    GROUPS,
+    LIMITS,
+    REQUIRED,
+    Misplaced,
+    Structure,
+    Unknown,
+    collapse,
+    structure,
+)
+from scaffold.model.manifest.values import (
+    CONDITION,
+    EMAIL,
+    GROUP_CONDITION,
+    LIMIT,
+    NAME,
+    URL_TYPES,
+    VERSION,
+    fits,
+    is_uri,
+)
+from scaffold.model.package import Package
+from scaffold.source import Location
+
+_Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
+_IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
+
+
+def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
+    """Yield what ament_xmllint reports under one code.
+
+    Raises:
+        ViewError: the code is about package.xml, and there is none that can be parsed.
+    """
+    if code == "PX050":
+        problems = _unreadable(package)
+    elif code in {"PX051", "PX052"}:
+        problems = _schemas(package, is_checked=code == "PX051")
+    elif code == "PX067":
+        yield from _names(package, code)
+        return
+    else:
+        problems = _PROBLEMS[code](package, structure(package))
+    for problem in problems:
+        yield diagnostic(code, *problem)
+
+
+def _unreadable(package: Package) -> Iterator[_Problem]:
+    for path in xmllint.of_package(package):
+        problem = xmllint.mistake(package, path) if path != MANIFEST else None
+        if problem is not None:
+            yield problem
+
+
+def _schemas(package: Package, *, is_checked: bool) -> Iterator[_Problem]:
+    for verdict in xmllint.verdicts(package):
+        if verdict.is_checked is is_checked:
+            yield verdict.location, verdict.message
+
+
+def _misplaced(package: Package, found: Structure) -> Iterator[_Problem]:
+    fix = _reorder(package, found) if found.misplaced else None
+    for misplaced in found.misplaced:
+        yield misplaced.elements[0].name_location, _place(misplaced), fix
+
+
+def _reorder(package: Package, found: Structure) -> Fix | None:
+    from scaffold.model.manifest import edit as manifest_edit
+
+    manifest = package.manifest
+    edit = None if found.unknown else manifest_edit.reorder(manifest)
+    if edit is None:
+        return None
+    moved = range(edit.start, edit.end)
+    has_comments = any(comment.start in moved for comment in manifest.comments)
+    safety = Safety.UNSAFE if has_comments else Safety.SAFE
+    return Fix("put the elements in order", (edit,), safety)
+
+
+def _place(misplaced: Misplaced) -> str:
+    tag = misplaced.elements[0].tag
+    sides = [
+        f"{word} <{element.tag}> in line {element.location.line}"
+        for word, element in (("behind", misplaced.after), ("before", misplaced.before))
+        if element is not None
+    ]
+    number = len(misplaced.elements)
+    subject = f"<{tag}>" if number == 1 else f"<{tag}> and what follows it ({number} elements)"
+    return f"{subject} must stand {' and '.join(sides)}"
+
+
+def _unknown(package: Package, found: Structure) -> Iterator[_Problem]:
+    for unknown in found.unknown:
+        reason, tag = _explain_element(found, unknown)
+        fix = _rename(package, unknown, tag) if tag else None
+        yield unknown.element.name_location, f"<{unknown.element.tag}> {reason}", fix
+
+
+def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
+    from scaffold.model.manifest import edit as manifest_edit
+
+    edits = manifest_edit.rename(package.manifest, unknown.element, tag)
+    return Fix(f"write <{tag}>", edits, Safety.UNSAFE)
+
+
+def _explain_element(found: Structure, unknown: Unknown) -> tuple[str, str | None]:
+    """Return what is wrong, and the tag that it should be, if that is plain."""
+    tag, number = unknown.element.tag, found.format
+    if unknown.element is found.root:
+        return "is not <package>, the root of every manifest", None
+    if unknown.since is not None:
+        return f"needs format {unknown.since}, but this manifest has format {number}", None
+    if tag == "run_depend":
+        return f"is of format 1: in format {number} it is <exec_depend>", "exec_depend"
+    if tag in _IN_EXPORT:
+        return "belongs inside of <export>", None
+    near = get_close_matches(tag, found.sections, n=1, cutoff=0.75)
+    if near:
+        return f"is not known in format {number}: <{near[0]}> is", near[0]
+    return f"is not known in format {number}", None
+
+
+def _missing(_: Package, found: Structure) -> Iterator[_Problem]:
+    misspelt = {
+        name
+        for unknown in found.unknown
+        for name in get_close_matches(unknown.element.tag, found.sections, n=1, cutoff=0.75)
+    }
+    for tag in found.missing:
+        if tag not in misspelt:
+            behind = REQUIRED[: REQUIRED.index(tag)]
+            where = f"behind <{behind[-1]}>" if behind else "at the beginning"
+            yield found.root.name_location, f"no <{tag}>: every manifest has one, {where}"
+
+
+def _repeated(package: Package, found: Structure) -> Iterator[_Problem]:
+    for again, first in found.repeated:
+        fix = None
+        if again.raw == first.raw:
+            fix = Fix("remove the second one", (package.manifest.remove(again),))
+        message = f"a second <{again.tag}>: the first is in line {first.location.line}"
+        yield again.name_location, message, fix
+
+
+def _attributes(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element, attribute in found.unknown_attributes:
+        if attribute.name != "condition":
+            yield attribute.name_location, _explain_attribute(found, element, attribute)
+
+
+def _explain_attribute(found: Structure, element: Element, attribute: Attribute) -> str:
+    name, tag = attribute.name, element.tag
+    if name == "xmlns":
+        return f"<{tag}> gets a namespace: the elements of a manifest have none"
+    if (tag, name) == ("license", "file"):
+        return f"<license file> needs format 3, but this manifest has format {found.format}"
+    if (tag, name) == ("version", "compatibility"):
+        return "<version compatibility> is in REP-149, but ament_xmllint's schema refuses it"
+    allowed = found.attributes(element)
+    near = get_close_matches(name, allowed, n=1)
+    if near:
+        return f'<{tag}> has no attribute "{name}": it has "{near[0]}"'
+    if allowed:
+        return f'<{tag}> has no attribute "{name}", only {", ".join(allowed)}'
+    return f'<{tag}> has no attributes in format {found.format}, so no "{name}"'
+
+
+def _format(package: Package, found: Structure) -> Iterator[_Problem]:
+    manifest = package.manifest
+    declared, root = manifest.declared_format, found.root
+    if declared is not None and declared not in map(str, FORMATS):
+        at = root.attributes["format"].location
+        yield at, f'format="{declared}" does not exist: there are 1, 2 and 3'
+        return
+    for model in manifest.xml_models:
+        named = re.search(r"package_format([0-9]+)\.xsd", model.href or "")
+        if named is None or named[1] == (declared or "1"):
+            continue
+        if declared is None:
+            message = f"no format: that is format 1, but the schema named is format {named[1]}"
+            yield root.name_location, message
+        else:
+            message = f"names the schema of format {named[1]}, but <package> has {declared}"
+            yield model.location, message, _name_schema(package, model, declared)
+
+
+def _name_schema(package: Package, model: XmlModel, declared: str) -> Fix:
+    source, instruction = package.manifest.source, model.instruction
+    start = source.text.index("package_format", instruction.start) + len("package_format")
+    end = source.text.index(".xsd", start)
+    return Fix(f"name the schema of format {declared}", (Edit(source.path, start, end, declared),))
+
+
+def _texts(_: Package, found: Structure) -> Iterator[_Problem]:
+    for at in found.stray_texts:
+        yield at, "text stands between the elements: only comments may"
+
+
+def _names(package: Package, code: str) -> Iterator[Diagnostic]:
+    for element, name in structure(package).values("name"):
+        if not fits(NAME, name):
+            is_plain = fits(NAME, name.replace("-", "_")) and not package.glob("msg/*.msg")
+            severity = Severity.WARNING if is_plain else Severity.ERROR
+            message = f"the name {name!r} {_explain_name(name)}"
+            yield diagnostic(code, element.text_location, message, severity=severity)
+
+
+def _explain_name(name: str) -> str:
+    if not name:
+        return "is empty"
+    wrong = sorted({c for c in name if not (c.isascii() and (c.isalnum() or c == "_"))})
+    if wrong:
+        shown = " ".join("a blank" if c == " " else c for c in wrong)
+        return f"has {shown} in it: only a to z, 0 to 9 and _ are allowed"
+    if name != name.lower():
+        return f"has capitals in it: write {name.lower()!r}"
+    if not name[0].isalpha():
+        return "does not begin with a letter"
+    return "has an underscore at its end or two in a row"
+
+
+def _versions(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element, version in found.values("version"):
+        if not fits(VERSION, version):
+            has_zero = fits(r"[0-9]+\.[0-9]+\.[0-9]+", version)
+            reason = "has a leading zero" if has_zero else "is not MAJOR.MINOR.PATCH"
+            yield element.text_location, f"the version {version!r} {reason}"
+
+
+def _url_types(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element in found.known:
+        if element.tag != "url" or element.get("type") is None:
+            continue
+        attribute = element.attributes["type"]
+        kind = collapse(attribute.value)
+        if kind not in URL_TYPES:
+            near = get_close_matches(kind, URL_TYPES, n=1)
+            hint = f": {near[0]} is" if near else f", only {', '.join(URL_TYPES)}"
+            yield attribute.location, f"the url type {kind!r} is not known{hint}"
+
+
+def _limits(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element in found.known:
+        if element.tag not in found.dependency_tags:
+            continue
+        for name, attribute in element.attributes.items():
+            if name in LIMITS and not fits(LIMIT, " ".join(attribute.value.split())):
+                message = f'{name}="{attribute.value}" is not one to three numbers'
+                yield attribute.location, message
+
+
+def _conditions(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element, attribute in found.unknown_attributes:
+        if attribute.name == "condition":
+            if found.format < FORMATS[-1]:
+                message = f"conditions need format 3, but this manifest has format {found.format}"
+            else:
+                message = f"<{element.tag}> has no condition: only dependencies and groups have"
+            yield attribute.name_location, message
+    for element in found.known:
+        if "condition" not in found.attributes(element) or element.get("condition") is None:
+            continue
+        attribute = element.attributes["condition"]
+        is_group = element.tag in GROUPS
+        if not fits(GROUP_CONDITION if is_group else CONDITION, collapse(attribute.value)):
+            what = "groups" if is_group else "dependencies"
+            reason = f"the schema does not allow all of these characters for {what}"
+            yield attribute.location, f"{attribute.value!r}: {reason}"
+
+
+def _no_email(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element in found.known:
+        if element.tag == "maintainer" and element.get("email") is None:
+            yield element.name_location, f"the maintainer {element.text!r} has no email"
+
+
+def _emails(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element in found.known:
+        if element.tag not in {"maintainer", "author"} or element.get("email") is None:
+            continue
+        attribute = element.attributes["email"]
+        if not fits(EMAIL, collapse(attribute.value)):
+            yield attribute.location, f"{attribute.value!r} is no e-mail address"
+
+
+def _nested(_: Package, found: Structure) -> Iterator[_Problem]:
+    for child, parent in found.nested:
+        message = f"<{child.tag}> stands inside of <{parent.tag}>, which holds text only"
+        yield child.name_location, message
+
+
+def _urls(_: Package, found: Structure) -> Iterator[_Problem]:
+    for element, url in found.values("url"):
+        if not is_uri(url):
+            yield element.text_location, f"{url!r} is not a URL"
+
+
+_PROBLEMS: Mapping[str, Callable[[Package, Structure], Iterator[_Problem]]] = {
+    "PX060": _misplaced,
+    "PX061": _unknown,
+    "PX062": _missing,
+    "PX063": _repeated,
+    "PX064": _attributes,
+    "PX065": _format,
+    "PX066": _texts,
+    "PX068": _versions,
+    "PX069": _url_types,
+    "PX070": _limits,
+    "PX071": _conditions,
+    "PX072": _no_email,
+    "PX073": _emails,
+    "PX074": _nested,
+    "PX075": _urls,
+}
