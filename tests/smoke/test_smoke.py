@@ -202,8 +202,9 @@ def test_never_publishes(packages: dict[str, Result]) -> None:
 
 def test_wrong_rate(packages: dict[str, Result]) -> None:
     found, problem = bad(packages, "slow")
-    assert problem.startswith("/slow comes at ")
-    assert problem.endswith(" Hz: bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
+    # Half of what is declared, so a message more or less decides which of the two is said.
+    assert problem.startswith(("/slow comes at ", "only "))
+    assert problem.endswith(": bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
     assert 1.0 < found["topics"][0]["rate_hz"] < 6.0
 
 
