@@ -37,16 +37,16 @@ def _line_length(_: Package, finding: Finding) -> _Explained:
 
 
 def _extra_whitespace(package: Package, finding: Finding) -> _Explained:
-    message = f'a blank stands between "{finding.said}" and its "("'
-    return message, _removal(package, finding, "remove the blank")
+    message = f"space between `{finding.said}` and `(`"
+    return message, _removal(package, finding, "remove the space")
 
 
 def _mismatch(package: Package, finding: Finding) -> _Explained:
     last, fix = finding.end - 1, None
     if not outline(package, finding.source).touches_literal(last, finding.end):
-        fix = Fix("even the blanks out", _even(finding))
+        fix = Fix("make the spaces equal", _even(finding))
     line, _ = finding.source.position(last)
-    return f'blanks behind the "(" of {finding.said} and before the ")" in line {line} differ', fix
+    return f'spaces after the "(" of {finding.said} and before the ")" in line {line} differ', fix
 
 
 def _even(finding: Finding) -> tuple[Edit, ...]:
@@ -77,12 +77,12 @@ def _tab(package: Package, finding: Finding) -> _Explained:
         rest = text.lstrip(" \t")
         indentation = text[: len(text) - len(rest)].replace("\t", "  ")
         edit = Edit(finding.source.path, start, end, indentation + rest.replace("\t", " "))
-        fix = Fix("write blanks", (edit,))
-    return "a tab: ament_lint_cmake wants blanks", fix
+        fix = Fix("replace the tab with spaces", (edit,))
+    return "tab in the line: ament_lint_cmake requires spaces", fix
 
 
 def _line_end(package: Package, finding: Finding) -> _Explained:
-    return "the line ends in blanks", _removal(package, finding, "remove the blanks")
+    return "trailing whitespace", _removal(package, finding, "remove the trailing whitespace")
 
 
 def _removal(package: Package, finding: Finding, title: str) -> Fix | None:
@@ -93,13 +93,13 @@ def _removal(package: Package, finding: Finding, title: str) -> Fix | None:
 
 
 def _odd_indentation(_: Package, finding: Finding) -> _Explained:
-    number = "one blank" if finding.said == "1" else f"{finding.said} blanks"
-    return f"indented by {number}: ament_lint_cmake wants steps of two", None
+    number = "one space" if finding.said == "1" else f"{finding.said} spaces"
+    return f"indented by {number}: ament_lint_cmake requires multiples of two", None
 
 
 def _mixed_case(package: Package, finding: Finding) -> _Explained:
     other = "lower" if finding.said == finding.said.upper() else "upper"
-    message = f'"{finding.said}" stands in a file whose first command is in {other} case'
+    message = f'"{finding.said}" in a file whose first command is in {other} case'
     source = finding.source
     return message, package.remember(("lower_case", source.path), lambda: _lower(package, source))
 
@@ -138,7 +138,7 @@ def _repeated_condition(_: Package, finding: Finding) -> _Explained:
 def _file_name(_: Package, finding: Finding) -> _Explained:
     if finding.said == "CMakeLists.txt":
         return "CMake looks for CMakeLists.txt, spelt exactly so", None
-    return f"ament_lint_cmake wants upper case in names of find modules: {finding.said}", None
+    return f"ament_lint_cmake requires upper case in names of find modules: {finding.said}", None
 
 
 def _unclosed(package: Package, finding: Finding) -> _Explained | None:
@@ -155,7 +155,7 @@ def _is_unparsable(package: Package) -> bool:
 
 
 def _pragma(_: Package, finding: Finding) -> _Explained:
-    return f"{finding.said!r} is no filter with - or +: ament_lint_cmake crashes on it", None
+    return f"{finding.said!r} is not a filter with - or +: ament_lint_cmake crashes on it", None
 
 
 def _handler_missing(_: Package, finding: Finding) -> _Explained:

@@ -153,14 +153,14 @@ let pass, as it cannot be broken, unless it belongs to ``message()``, which take
     AmentCode(
         "CM071",
         "space-before-parenthesis",
-        "A blank stands between a command and its ``(``",
+        "Space between a command and its ``(``",
         LINT_CMAKE,
         fix=SAFE,
-        message=('a blank stands between "if" and its "("'),
+        message=("space between `if` and `(`"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``.
 
-**Fix.** Remove the blank.
+**Fix.** Remove the space.
 
 **Source.** ament_lint_cmake, filter ``whitespace/extra``; ROS 2 code style, CMake.
 """,
@@ -168,15 +168,15 @@ let pass, as it cannot be broken, unless it belongs to ``message()``, which take
     AmentCode(
         "CM072",
         "parenthesis-space-mismatch",
-        "The blanks behind ``(`` and before ``)`` of a command differ",
+        "The spaces after ``(`` and before ``)`` of a command differ",
         LINT_CMAKE,
         fix=SAFE,
-        message=('blanks behind the "(" of set and before the ")" in line 2 differ'),
+        message=('spaces after the "(" of set and before the ")" in line 2 differ'),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``. It compares with the first ``)``
 that follows; one that begins a line may be indented like its command.
 
-**Fix.** Remove the blanks.
+**Fix.** Remove the spaces.
 
 **Source.** ament_lint_cmake, filter ``whitespace/mismatch``.
 """,
@@ -187,11 +187,11 @@ that follows; one that begins a line may be indented like its command.
         "A line of a CMake file has a tab in it",
         LINT_CMAKE,
         fix=SAFE,
-        message=("a tab: ament_lint_cmake wants blanks"),
+        message=("tab in the line: ament_lint_cmake requires spaces"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``.
 
-**Fix.** Indent by two blanks per tab; between words one blank.
+**Fix.** Indent by two spaces per tab; between words one space.
 
 **Source.** ament_lint_cmake, filter ``whitespace/tabs``; ROS 2 code style, CMake.
 """,
@@ -199,10 +199,10 @@ that follows; one that begins a line may be indented like its command.
     AmentCode(
         "CM074",
         "trailing-space-in-cmake",
-        "A line of a CMake file ends in blanks",
+        "A line of a CMake file has trailing whitespace",
         LINT_CMAKE,
         fix=SAFE,
-        message=("the line ends in blanks"),
+        message=("trailing whitespace"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``.
 
@@ -214,13 +214,13 @@ that follows; one that begins a line may be indented like its command.
     AmentCode(
         "CM075",
         "odd-indentation",
-        "A line of a CMake file begins with an odd number of blanks",
+        "A line of a CMake file is indented by an odd number of spaces",
         LINT_CMAKE,
-        message=("indented by 3 blanks: ament_lint_cmake wants steps of two"),
+        message=("indented by 3 spaces: ament_lint_cmake requires multiples of two"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``, in comments and strings as well.
 
-**Fix.** Indent by two blanks per level. No automatic fix: the line may have to go to the left
+**Fix.** Indent by two spaces per level. No automatic fix: the line may have to go to the left
 or to the right.
 
 **Source.** ament_lint_cmake, filter ``whitespace/indent``; ROS 2 code style, CMake.
@@ -232,10 +232,10 @@ or to the right.
         "Commands in upper case and in lower case are mixed in one file",
         LINT_CMAKE,
         fix=SAFE,
-        message=('"IF" stands in a file whose first command is in lower case'),
+        message=('"IF" in a file whose first command is in lower case'),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``. What the first command is, it
-demands of all others; the style guide wants lower case.
+demands of all others; the style guide asks for lower case.
 
 **Fix.** Write the commands in lower case.
 
@@ -250,7 +250,7 @@ demands of all others; the style guide wants lower case.
         fix=SAFE,
         message=('"FetchContent_Declare" mixes cases: write "fetchcontent_declare"'),
         documentation="""\
-**Why.** ``ament_lint_cmake`` fails under ``colcon test``; the style guide wants lower case.
+**Why.** ``ament_lint_cmake`` fails under ``colcon test``; the style guide asks for lower case.
 
 **Fix.** Write it in lower case: CMake does not tell the cases apart.
 
@@ -266,7 +266,7 @@ demands of all others; the style guide wants lower case.
         message=("else() repeats what opens its block; CMake ignores the words"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` fails under ``colcon test``. CMake ignores the words there, so
-they go wrong unnoticed. The linter judges a line as a whole: a command with arguments behind
+they go wrong unnoticed. The linter judges a line as a whole: a command with arguments after
 ``endif()`` on the same line is reported as well.
 
 **Fix.** Leave the parentheses empty; put another command on a line of its own.
@@ -313,7 +313,7 @@ and gets the line ``# lint_cmake: -convention/filename``.
         message=("BAR is handed over in FindFOO.cmake: expected FOO"),
         documentation="""\
 **Why.** ``find_package()`` looks at ``<file name>_FOUND``; another variable does not reach
-it. ``ament_lint_cmake`` fails under ``colcon test``, and it wants upper case.
+it. ``ament_lint_cmake`` fails under ``colcon test``, and it requires upper case.
 
 **Fix.** Give the name of the file, in upper case.
 
@@ -328,9 +328,9 @@ it. ``ament_lint_cmake`` fails under ``colcon test``, and it wants upper case.
         message=('no ")" follows the "(" of set'),
         documentation="""\
 **Why.** CMake stops there; ``ament_lint_cmake`` fails under ``colcon test``. To the linter
-a ``#`` begins a comment even inside of a string and hides the ``)`` behind it.
+a ``#`` begins a comment even inside of a string and hides the ``)`` after it.
 
-**Fix.** Close the command; break the line behind a string with a ``#``.
+**Fix.** Close the command; break the line after a string with a ``#``.
 
 **Source.** ament_lint_cmake, filter ``syntax``.
 """,
@@ -341,7 +341,7 @@ a ``#`` begins a comment even inside of a string and hides the ``)`` behind it.
         "A ``# lint_cmake:`` comment has a word that is no filter with ``-`` or ``+``",
         LINT_CMAKE,
         Severity.ERROR,
-        message=("'linelength' is no filter with - or +: ament_lint_cmake crashes on it"),
+        message=("'linelength' is not a filter with - or +: ament_lint_cmake crashes on it"),
         documentation="""\
 **Why.** ``ament_lint_cmake`` ends in a traceback on it; no file of the package is checked,
 and ``colcon test`` reports an error.
@@ -751,13 +751,13 @@ and ``colcon test`` reports an error.
     AmentCode(
         "F502",
         "percent-format-expects-mapping",
-        "a % format wants a mapping and gets none",
+        "a % format needs a mapping and gets none",
         severity=Severity.ERROR,
     ),
     AmentCode(
         "F503",
         "percent-format-expects-sequence",
-        "a % format wants a sequence and gets none",
+        "a % format needs a sequence and gets none",
         severity=Severity.ERROR,
     ),
     AmentCode(
@@ -892,7 +892,7 @@ and ``colcon test`` reports an error.
         severity=Severity.ERROR,
         fix=SAFE,
     ),
-    AmentCode("I100", "import-order", "an import stands in the wrong place", fix=SAFE),
+    AmentCode("I100", "import-order", "an import is in the wrong place", fix=SAFE),
     AmentCode("I101", "imported-names-order", "imported names are not sorted", fix=SAFE),
     AmentCode(
         "I201", "import-groups-not-separated", "no blank line between groups of imports", fix=SAFE
@@ -924,7 +924,7 @@ tool does not know who holds the copyright.
     AmentCode(
         "LY021",
         "licence-header-unknown",
-        "The text behind the copyright notice of a source file is no known licence header",
+        "The text after the copyright notice of a source file is not a known license header",
         COPYRIGHT,
         Severity.ERROR,
         other_severities={Severity.INFO: "no test of the package runs ament_copyright on the file"},
@@ -1016,13 +1016,13 @@ package is checked.
     AmentCode(
         "PX060",
         "element-misplaced",
-        "An element of package.xml stands where the schema does not allow it",
+        "An element of package.xml is where the schema does not allow it",
         XMLLINT,
         fix=SAFE,
-        message=("<author> must stand behind <license> in line 7 and before <depend> in line 8"),
+        message=("<author> must come after <license> in line 7 and before <depend> in line 8"),
         documentation="""\
 **Why.** ``ament_xmllint`` fails under ``colcon test``, with a message that names the element
-behind the wrong one.
+after the wrong one.
 
 **Fix.** Put the elements in the order name, version, description, maintainer, license, url,
 author, dependencies, group_depend, member_of_group, export. Comments go with the element that
@@ -1054,7 +1054,7 @@ format 2, or declare the later format.
         "package.xml lacks a name, version, description, maintainer or license",
         XMLLINT,
         Severity.ERROR,
-        message=("no <license>: every manifest has one, behind <maintainer>"),
+        message=("no <license>: every manifest has one, after <maintainer>"),
         documentation="""\
 **Why.** colcon refuses the manifest: the package is not built, or only as something else.
 
@@ -1115,9 +1115,9 @@ schema and fails under ``colcon test`` when the two differ. Without ``format`` i
     AmentCode(
         "PX066",
         "text-between-elements",
-        "Text stands between the elements of package.xml, or directly in ``<export>``",
+        "Text between the elements of package.xml, or directly in ``<export>``",
         XMLLINT,
-        message=("text stands between the elements: only comments may"),
+        message=("text between the elements: only comments are allowed"),
         documentation="""\
 **Why.** ``ament_xmllint`` fails under ``colcon test``; everybody else ignores the text, which
 is mostly the rest of an element or of a comment.
@@ -1143,7 +1143,7 @@ and interfaces of such a package cannot be generated. A dash alone is a warning:
 such a name have been released.
 
 **Fix.** Use lower-case letters, digits and single underscores between them, a letter first.
-No automatic fix: the name stands in other files, too.
+No automatic fix: the name is in other files, too.
 
 **Source.** REP-144; REP-149, ``<name>``; the schemas.
 """,
@@ -1197,7 +1197,7 @@ into the release.
     AmentCode(
         "PX071",
         "condition-misplaced",
-        "A ``condition`` stands where its format has none, or has characters that are not allowed",
+        "A ``condition`` is where its format has none, or has characters that are not allowed",
         XMLLINT,
         Severity.ERROR,
         message=("conditions need format 3, but this manifest has format 2"),
@@ -1228,10 +1228,10 @@ no quotes in the schema: write the bare word.
     AmentCode(
         "PX073",
         "email-malformed",
-        "What stands as the e-mail address of a maintainer or author is no address",
+        "The email address of a maintainer or author is not an address",
         XMLLINT,
         Severity.ERROR,
-        message=("'a at b.org' is no e-mail address"),
+        message=("'a at b.org' is not an email address"),
         documentation="""\
 **Why.** colcon refuses the manifest: the package is not built, or only as something else.
 
@@ -1243,10 +1243,10 @@ no quotes in the schema: write the bare word.
     AmentCode(
         "PX074",
         "element-nested",
-        "An element stands inside of one that holds only text",
+        "An element is inside one that holds only text",
         XMLLINT,
         Severity.ERROR,
-        message=("<url> stands inside of <license>, which holds text only"),
+        message=("<url> is inside <license>, which holds text only"),
         documentation="""\
 **Why.** colcon refuses the manifest: the package is not built, or only as something else.
 

@@ -62,13 +62,13 @@ def _unknown_header(header: Header, others: int) -> str:
 
 def _reason(text: str) -> str:
     if not text:
-        return "no licence header stands below the notice"
+        return "no license header below the notice"
     near = departure(text)
     if near is not None:
         licence, expected, given = near
-        return f'the header is not that of {licence}: "{given}" stands for "{expected}"'
+        return f'the header is not that of {licence}: "{given}" instead of "{expected}"'
     if "SPDX-License-Identifier" in text:
-        return "an SPDX line stands below the notice, not the header of a licence"
+        return "an SPDX line below the notice is not the header of a license"
     start = " ".join(text.split()[:5])
     return f'"{start} …" begins the header of no licence that is known'
 

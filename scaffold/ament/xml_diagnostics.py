@@ -97,12 +97,12 @@ def _place(misplaced: Misplaced) -> str:
     tag = misplaced.elements[0].tag
     sides = [
         f"{word} <{element.tag}> in line {element.location.line}"
-        for word, element in (("behind", misplaced.after), ("before", misplaced.before))
+        for word, element in (("after", misplaced.after), ("before", misplaced.before))
         if element is not None
     ]
     number = len(misplaced.elements)
     subject = f"<{tag}>" if number == 1 else f"<{tag}> and what follows it ({number} elements)"
-    return f"{subject} must stand {' and '.join(sides)}"
+    return f"{subject} must come {' and '.join(sides)}"
 
 
 def _unknown(package: Package, found: Structure) -> Iterator[_Problem]:
@@ -144,8 +144,8 @@ def _missing(_: Package, found: Structure) -> Iterator[_Problem]:
     }
     for tag in found.missing:
         if tag not in misspelt:
-            behind = REQUIRED[: REQUIRED.index(tag)]
-            where = f"behind <{behind[-1]}>" if behind else "at the beginning"
+            earlier = REQUIRED[: REQUIRED.index(tag)]
+            where = f"after <{earlier[-1]}>" if earlier else "at the beginning"
             yield found.root.name_location, f"no <{tag}>: every manifest has one, {where}"
 
 
@@ -209,7 +209,7 @@ def _name_schema(package: Package, model: XmlModel, declared: str) -> Fix:
 
 def _texts(_: Package, found: Structure) -> Iterator[_Problem]:
     for at in found.stray_texts:
-        yield at, "text stands between the elements: only comments may"
+        yield at, "text between the elements: only comments are allowed"
 
 
 def _names(package: Package, code: str) -> Iterator[Diagnostic]:
@@ -226,7 +226,7 @@ def _explain_name(name: str) -> str:
         return "is empty"
     wrong = sorted({c for c in name if not (c.isascii() and (c.isalnum() or c == "_"))})
     if wrong:
-        shown = " ".join("a blank" if c == " " else c for c in wrong)
+        shown = " ".join("a space" if c == " " else c for c in wrong)
         return f"has {shown} in it: only a to z, 0 to 9 and _ are allowed"
     if name != name.lower():
         return f"has capitals in it: write {name.lower()!r}"
@@ -296,12 +296,12 @@ def _emails(_: Package, found: Structure) -> Iterator[_Problem]:
             continue
         attribute = element.attributes["email"]
         if not fits(EMAIL, collapse(attribute.value)):
-            yield attribute.location, f"{attribute.value!r} is no e-mail address"
+            yield attribute.location, f"{attribute.value!r} is not an email address"
 
 
 def _nested(_: Package, found: Structure) -> Iterator[_Problem]:
     for child, parent in found.nested:
-        message = f"<{child.tag}> stands inside of <{parent.tag}>, which holds text only"
+        message = f"<{child.tag}> is inside <{parent.tag}>, which holds text only"
         yield child.name_location, message
 
 

@@ -136,7 +136,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "a/talker.py:2:3",
-                    "an SPDX line stands below the notice, not the header of a licence: "
+                    "an SPDX line below the notice is not the header of a license: "
                     "ament_copyright fails",
                 ),
             ),
@@ -147,7 +147,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "a/one.py:1:3",
-                    "an SPDX line stands below the notice, not the header of a licence "
+                    "an SPDX line below the notice is not the header of a license "
                     "(and 1 more files have no known header): ament_copyright would "
                     "fail, but no test of this package runs it",
                     severity=Severity.INFO,

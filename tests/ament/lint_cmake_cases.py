@@ -44,8 +44,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:1:3",
-                    'a blank stands between "if" and its "("',
-                    fix="remove the blank",
+                    "space between `if` and `(`",
+                    fix="remove the space",
                 ),
             ),
             fixed={"CMakeLists.txt": "if(A)\nendif()\n"},
@@ -62,13 +62,13 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:2:6",
-                    'blanks behind the "(" of set and before the ")" in line 2 differ',
-                    fix="even the blanks out",
+                    'spaces after the "(" of set and before the ")" in line 2 differ',
+                    fix="make the spaces equal",
                 ),
                 Report(
                     "CMakeLists.txt:4:4",
-                    'blanks behind the "(" of set and before the ")" in line 4 differ',
-                    fix="even the blanks out",
+                    'spaces after the "(" of set and before the ")" in line 4 differ',
+                    fix="make the spaces equal",
                 ),
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\nset(C 1)\n"},
@@ -79,8 +79,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:1:4",
-                    'blanks behind the "(" of set and before the ")" in line 4 differ',
-                    fix="even the blanks out",
+                    'spaces after the "(" of set and before the ")" in line 4 differ',
+                    fix="make the spaces equal",
                 ),
             ),
             fixed={"CMakeLists.txt": "set(\n  B\n  1\n)\n"},
@@ -91,7 +91,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:1:8",
-                    'blanks behind the "(" of message and before the ")" in line 1 differ',
+                    'spaces after the "(" of message and before the ")" in line 1 differ',
                 ),
             ),
         ),
@@ -103,7 +103,9 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             {"CMakeLists.txt": "if(A)\n\tset(B\t1)\nendif()\n"},
             reports=(
                 Report(
-                    "CMakeLists.txt:2:1", "a tab: ament_lint_cmake wants blanks", fix="write blanks"
+                    "CMakeLists.txt:2:1",
+                    "tab in the line: ament_lint_cmake requires spaces",
+                    fix="replace the tab with spaces",
                 ),
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\n"},
@@ -111,7 +113,9 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "in a string: write \\t",
             {"CMakeLists.txt": 'set(B "a\tb")\n'},
-            reports=(Report("CMakeLists.txt:1:9", "a tab: ament_lint_cmake wants blanks"),),
+            reports=(
+                Report("CMakeLists.txt:1:9", "tab in the line: ament_lint_cmake requires spaces"),
+            ),
         ),
     ),
     "CM074": (
@@ -120,16 +124,28 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             "behind a command, a comment, and alone",
             {"CMakeLists.txt": "project(talker) \n  \n# A talker.\t\n"},
             reports=(
-                Report("CMakeLists.txt:1:16", "the line ends in blanks", fix="remove the blanks"),
-                Report("CMakeLists.txt:2:1", "the line ends in blanks", fix="remove the blanks"),
-                Report("CMakeLists.txt:3:12", "the line ends in blanks", fix="remove the blanks"),
+                Report(
+                    "CMakeLists.txt:1:16",
+                    "trailing whitespace",
+                    fix="remove the trailing whitespace",
+                ),
+                Report(
+                    "CMakeLists.txt:2:1",
+                    "trailing whitespace",
+                    fix="remove the trailing whitespace",
+                ),
+                Report(
+                    "CMakeLists.txt:3:12",
+                    "trailing whitespace",
+                    fix="remove the trailing whitespace",
+                ),
             ),
             fixed={"CMakeLists.txt": "project(talker)\n\n# A talker.\n"},
         ),
         Example(
             "in a string",
             {"cmake/text.cmake": 'set(TEXT "one \ntwo")\n'},
-            reports=(Report("cmake/text.cmake:1:14", "the line ends in blanks"),),
+            reports=(Report("cmake/text.cmake:1:14", "trailing whitespace"),),
         ),
     ),
     "CM075": (
@@ -140,7 +156,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:4:1",
-                    "indented by 3 blanks: ament_lint_cmake wants steps of two",
+                    "indented by 3 spaces: ament_lint_cmake requires multiples of two",
                 ),
             ),
         ),
@@ -157,7 +173,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:2:1",
-                    '"IF" stands in a file whose first command is in lower case',
+                    '"IF" in a file whose first command is in lower case',
                     fix="write the commands in lower case",
                 ),
             ),
@@ -169,7 +185,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:2:1",
-                    '"if" stands in a file whose first command is in upper case',
+                    '"if" in a file whose first command is in upper case',
                     fix="write the commands in lower case",
                 ),
             ),
@@ -241,7 +257,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "cmake/FindFoo.cmake:1:1",
-                    "ament_lint_cmake wants upper case in names of find modules: FindFOO.cmake",
+                    "ament_lint_cmake requires upper case in names of find modules: FindFOO.cmake",
                 ),
             ),
         ),
@@ -305,7 +321,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:1:1",
-                    "'linelength' is no filter with - or +: ament_lint_cmake crashes on it",
+                    "'linelength' is not a filter with - or +: ament_lint_cmake crashes on it",
                 ),
             ),
         ),
@@ -315,7 +331,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "CMakeLists.txt:2:1",
-                    "'-linelenght' is no filter with - or +: ament_lint_cmake crashes on it",
+                    "'-linelenght' is not a filter with - or +: ament_lint_cmake crashes on it",
                 ),
             ),
         ),

@@ -146,7 +146,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "package.xml:6:4",
-                    "<author> must stand behind <license> in line 7 and before <depend> in line 8",
+                    "<author> must come after <license> in line 7 and before <depend> in line 8",
                     fix="put the elements in order",
                 ),
             ),
@@ -158,7 +158,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             reports=(
                 Report(
                     "package.xml:9:4",
-                    "<export> must stand behind <exec_depend> in line 10",
+                    "<export> must come after <exec_depend> in line 10",
                     fix="put the elements in order",
                 ),
             ),
@@ -236,11 +236,11 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
             reports=(
                 Report(
-                    "package.xml:1:2", "no <license>: every manifest has one, behind <maintainer>"
+                    "package.xml:1:2", "no <license>: every manifest has one, after <maintainer>"
                 ),
                 Report(
                     "package.xml:1:2",
-                    "no <maintainer>: every manifest has one, behind <description>",
+                    "no <maintainer>: every manifest has one, after <description>",
                 ),
             ),
         ),
@@ -346,8 +346,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "    ament_python\n  </export>\n</package>\n"
             },
             reports=(
-                Report("package.xml:2:22", "text stands between the elements: only comments may"),
-                Report("package.xml:4:5", "text stands between the elements: only comments may"),
+                Report("package.xml:2:22", "text between the elements: only comments are allowed"),
+                Report("package.xml:4:5", "text between the elements: only comments are allowed"),
             ),
         ),
     ),
@@ -503,12 +503,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "spelt out",
             {"package.xml": '<package>\n  <author email="a at b.org">A</author>\n</package>\n'},
-            reports=(Report("package.xml:2:18", "'a at b.org' is no e-mail address"),),
+            reports=(Report("package.xml:2:18", "'a at b.org' is not an email address"),),
         ),
         Example(
             "no domain",
             {"package.xml": '<package>\n  <maintainer email="a@b">A</maintainer>\n</package>\n'},
-            reports=(Report("package.xml:2:22", "'a@b' is no e-mail address"),),
+            reports=(Report("package.xml:2:22", "'a@b' is not an email address"),),
         ),
     ),
     "PX074": (
@@ -523,9 +523,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "    <url>http://a.org</url>\n  </license>\n</package>\n"
             },
             reports=(
-                Report(
-                    "package.xml:3:6", "<url> stands inside of <license>, which holds text only"
-                ),
+                Report("package.xml:3:6", "<url> is inside <license>, which holds text only"),
             ),
         ),
     ),
