@@ -148,7 +148,7 @@ def test_interfaces_and_programs_are_asked_for(
     terminal.answer("Fields of the request", '\x15Scan scan  # a "first" one' + ENTER)
     terminal.answer("Fields of the response", ENTER)
     terminal.answer("What else is in the package?", "timer")
-    terminal.answer("nothing has 'timer' in it", "\x15cpp_sets" + ENTER)
+    terminal.answer("no match for 'timer'", "\x15cpp_sets" + ENTER)
     terminal.answer("Name of the", ENTER)
     terminal.answer("What else is in the package?", ENTER)
     command = command_in(rest(terminal))
@@ -222,7 +222,7 @@ def test_what_is_wrong_is_said_in_full(
 def test_what_matches_nothing_chooses_nothing(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", "pyton")
-    terminal.answer("nothing has 'pyton' in it", ENTER + "\x15setuptools" + ENTER)
+    terminal.answer("no match for 'pyton'", ENTER + "\x15setuptools" + ENTER)
     terminal.says("Build system: ament_python")
 
 
@@ -256,7 +256,7 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
     terminal.answer("How often", ENTER)
     terminal.answer("What else is in the package?", "timer" + ENTER)
     terminal.answer("minimal_timer_2", "\x15minimal_timer" + ENTER)
-    terminal.says("the package has minimal_timer already")
+    terminal.says("the package already has minimal_timer")
 
 
 def test_the_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
