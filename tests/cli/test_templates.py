@@ -89,7 +89,7 @@ def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) ->
 
 def test_a_directory_without_templates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "test", str(tmp_path)]) == 2
-    assert "there is no directory templates in it" in capsys.readouterr().err
+    assert "it has no directory 'templates'" in capsys.readouterr().err
 
 
 @pytest.mark.build

@@ -21,7 +21,7 @@ BROKEN = {
     "a tag": ("rate: 1\nlicense: !!timestamp 2024-13-45\n", 2, "the tag '!!timestamp'"),
     "an object": ("a: !!python/object/apply:os.system [x]\n", 1, "the tag '!!python/object"),
     "a bad int": ("\n\nrate: 0b_\n", 3, "is not a number"),
-    "a bad float": ("rate: 1_:_\nx: [\n", 3, "not YAML"),
+    "a bad float": ("rate: 1_:_\nx: [\n", 3, "invalid YAML"),
     "a huge int": (f"rate: {'9' * 5000}\n", 1, "a number of 5000 characters"),
     "a huge hexadecimal int": (f"rate: 0x{'f' * 9000}\n", 1, "a number of 9002 characters"),
     "a bomb of aliases": (BOMB, 2, "the alias *a"),
@@ -32,8 +32,8 @@ BROKEN = {
     "deep lists": (f"a:\n  {'[' * 50}{']' * 50}\n", 2, "nested more than 40 levels deep"),
     "very deep lists": ("[" * 200_000, 1, ""),
     "two documents": ("a: 1\n---\nb: 1\n", 2, "a second document"),
-    "an open list": ("a: [1,\nb: ]}", 2, "not YAML"),
-    "NUL": ("a: 1\nb: \0\n", 0, "not YAML"),
+    "an open list": ("a: [1,\nb: ]}", 2, "invalid YAML"),
+    "NUL": ("a: 1\nb: \0\n", 0, "invalid YAML"),
 }
 
 

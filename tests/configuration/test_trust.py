@@ -343,7 +343,7 @@ def test_a_trusted_directory_of_another_owner_is_another_directory(
     entries.write_text(entries.read_text().replace(f"{owner} ", f"{owner + 1} "))
     assert run("rules").ignored
     assert not repository.has_run
-    assert "belongs to another user" in run("trust", "--list").out
+    assert "its owner has changed" in run("trust", "--list").out
 
 
 @pytest.mark.usefixtures("repository")

@@ -55,7 +55,7 @@ def test_what_nobody_knows_is_a_note(name: str, tmp_path: Path) -> None:
 
 
 def test_a_package_of_ros_1_has_an_heir(tmp_path: Path) -> None:
-    assert refusal("rospy", tmp_path).endswith("is of ROS 1; ROS 2 has rclpy instead")
+    assert refusal("rospy", tmp_path).endswith("is from ROS 1; ROS 2 has rclpy instead")
 
 
 def test_a_package_of_the_workspace_is_known(tmp_path: Path) -> None:

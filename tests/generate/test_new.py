@@ -1022,7 +1022,7 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
 @pytest.mark.parametrize(
     ("manifest", "message"),
     [
-        ("[", "template.yaml:2: not YAML"),
+        ("[", "template.yaml:2: invalid YAML"),
         ("- a", "must be a mapping with the keys summary, questions"),
         ("groups: []", "the key 'summary' is missing"),
         ("summary: x\nrole: node", "unknown key 'role'"),
