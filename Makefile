@@ -8,6 +8,8 @@ PIP_INSTALL = $(BIN)/python -m pip --disable-pip-version-check install --quiet
 
 DEMO = demo
 SCAFFOLD = $(BIN)/ros2-scaffold
+# All tests of a file stay in one process: they share what they build.
+PYTEST = $(BIN)/python -m pytest --numprocesses auto --dist loadfile
 # Shows a command as it would be typed, and runs it.
 RUN = @show() { echo; echo "\$$ ros2-scaffold $$*"; cd $(DEMO) && ../$(SCAFFOLD) "$$@"; }; show
 
@@ -41,11 +43,11 @@ demo: $(VENV)/demo.stamp
 
 .PHONY: test
 test: $(VENV)/test.stamp
-	$(BIN)/python -m pytest $(PYTEST_ARGS)
+	$(PYTEST) $(PYTEST_ARGS)
 
 .PHONY: test-quick
 test-quick: $(VENV)/test.stamp
-	$(BIN)/python -m pytest -m 'not build' $(PYTEST_ARGS)
+	$(PYTEST) -m 'not build' $(PYTEST_ARGS)
 
 .PHONY: nightly
 nightly: $(VENV)/test.stamp
