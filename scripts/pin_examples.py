@@ -64,15 +64,12 @@ def _example_calls(module: ast.Module) -> Iterator[ast.Call]:
 def _edit(
     call: ast.Call, offsets: Sequence[int], text: str, current: Sequence[Report]
 ) -> tuple[int, int, str]:
-    """Return the replacement of the argument ``reports``, or its insertion after ``files``."""
-    new = f"reports=({''.join(f'{_source(report)}, ' for report in current)})" if current else ""
-    for keyword in call.keywords:
-        if keyword.arg in {"at", "reports"}:
-            end = _offset(offsets, text, keyword.value.end_lineno, keyword.value.end_col_offset)
-            return _offset(offsets, text, keyword.lineno, keyword.col_offset), end, new
-    files = call.args[1]
-    end = _offset(offsets, text, files.end_lineno, files.end_col_offset)
-    return end, end, f", {new}" if new else ""
+    """Return what replaces the reports: the positional arguments after title and files."""
+    files, *old = call.args[1:]
+    last = old[-1] if old else files
+    start = _offset(offsets, text, files.end_lineno, files.end_col_offset)
+    end = _offset(offsets, text, last.end_lineno, last.end_col_offset)
+    return start, end, "".join(f", {_source(report)}" for report in current)
 
 
 def _source(report: Report) -> str:

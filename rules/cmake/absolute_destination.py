@@ -35,10 +35,8 @@ class AbsoluteDestination(Rule):
         Example(
             "absolute",
             {"CMakeLists.txt": _LISTS.format("/opt/talker/share")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:38", "installs to /opt/talker/share, outside of the workspace"
-                ),
+            Report(
+                "CMakeLists.txt:2:38", "installs to /opt/talker/share, outside of the workspace"
             ),
         ),
     )

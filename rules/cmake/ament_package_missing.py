@@ -31,12 +31,10 @@ class AmentPackageMissing(Rule):
         Example(
             "forgotten",
             {"CMakeLists.txt": _LISTS},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "no ament_package() at the end: `ros2` does not find the package",
-                    fix="call ament_package()",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "no ament_package() at the end: `ros2` does not find the package",
+                fix="call ament_package()",
             ),
             fixed={"CMakeLists.txt": f"{_LISTS}\n{_CALL}"},
         ),

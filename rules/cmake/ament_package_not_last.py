@@ -43,11 +43,9 @@ class AmentPackageNotLast(Rule):
         Example(
             "an export after it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:4:1",
-                    "ament_export_libraries() comes after ament_package() in line 3",
-                ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "ament_export_libraries() comes after ament_package() in line 3",
             ),
         ),
     )

@@ -32,7 +32,7 @@ class AmentPackageRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
-            reports=(Report("CMakeLists.txt:3:1", "ament_package() was called in line 2 already"),),
+            Report("CMakeLists.txt:3:1", "ament_package() was called in line 2 already"),
         ),
     )
 

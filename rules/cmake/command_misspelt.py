@@ -45,21 +45,15 @@ class CommandMisspelt(Rule):
         Example(
             "misspelt",
             {"CMakeLists.txt": _LISTS.format("ament_pakage")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "CMake knows no command ament_pakage(); closest: ament_package()",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "CMake knows no command ament_pakage(); closest: ament_package()",
             ),
         ),
         Example(
             "of catkin",
             {"CMakeLists.txt": _LISTS.format("catkin_package")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1", "catkin_package() is of ROS 1; ament has ament_package"
-                ),
-            ),
+            Report("CMakeLists.txt:3:1", "catkin_package() is of ROS 1; ament has ament_package"),
         ),
     )
 

@@ -73,12 +73,10 @@ class CommandUndefined(Rule):
         Example(
             "not found",
             {"CMakeLists.txt": _LISTS.format("")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "ament_add_pytest_test() is not known without "
-                    "find_package(ament_cmake_pytest REQUIRED)",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "ament_add_pytest_test() is not known without "
+                "find_package(ament_cmake_pytest REQUIRED)",
             ),
         ),
     )

@@ -57,11 +57,8 @@ class DeclaredNotFound(Rule):
         Example(
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
-            reports=(
-                Report(
-                    "package.xml:3:17",
-                    "<build_depend> 'std_msgs', but CMakeLists.txt does not find it",
-                ),
+            Report(
+                "package.xml:3:17", "<build_depend> 'std_msgs', but CMakeLists.txt does not find it"
             ),
         ),
     )

@@ -29,12 +29,10 @@ class FindMisspelt(Rule):
         Example(
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("std_msg")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:14",
-                    "no package 'std_msg' is known; closest: 'std_msgs'",
-                    fix="write std_msgs",
-                ),
+            Report(
+                "CMakeLists.txt:2:14",
+                "no package 'std_msg' is known; closest: 'std_msgs'",
+                fix="write std_msgs",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
         ),
@@ -44,12 +42,10 @@ class FindMisspelt(Rule):
                 "CMakeLists.txt": _LISTS.format("std_msgs")
                 + "ament_export_dependencies(std_msgs std_msg)\n"
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:36",
-                    "no package 'std_msg' is known; closest: 'std_msgs'",
-                    fix="write std_msgs",
-                ),
+            Report(
+                "CMakeLists.txt:3:36",
+                "no package 'std_msg' is known; closest: 'std_msgs'",
+                fix="write std_msgs",
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format("std_msgs")

@@ -27,12 +27,8 @@ class FindRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": f"project(talker)\n{_FIND}{_FIND}"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "'rclcpp' was looked for in line 2 already",
-                    fix="remove it",
-                ),
+            Report(
+                "CMakeLists.txt:3:1", "'rclcpp' was looked for in line 2 already", fix="remove it"
             ),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
         ),

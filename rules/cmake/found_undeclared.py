@@ -56,13 +56,11 @@ class FoundUndeclared(Rule):
         Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "CMakeLists.txt, line 3 finds 'std_msgs', which no dependency here "
-                    "names; add <build_depend>std_msgs</build_depend>",
-                    fix="declare std_msgs",
-                ),
+            Report(
+                "package.xml:3:4",
+                "CMakeLists.txt, line 3 finds 'std_msgs', which no dependency here "
+                "names; add <build_depend>std_msgs</build_depend>",
+                fix="declare std_msgs",
             ),
             fixed={
                 "package.xml": _MANIFEST.format("").replace(

@@ -52,13 +52,11 @@ class FoundWhenRunOnly(Rule):
         Example(
             "for running",
             {"package.xml": _MANIFEST.format(_EXEC), "CMakeLists.txt": _LISTS},
-            reports=(
-                Report(
-                    "package.xml:3:3",
-                    "<exec_depend> 'std_msgs' is not there when the package is built, "
-                    "but CMakeLists.txt, line 2 finds it; add <build_depend>",
-                    fix="add a <build_depend> of std_msgs",
-                ),
+            Report(
+                "package.xml:3:3",
+                "<exec_depend> 'std_msgs' is not there when the package is built, "
+                "but CMakeLists.txt, line 2 finds it; add <build_depend>",
+                fix="add a <build_depend> of std_msgs",
             ),
             fixed={
                 "package.xml": _MANIFEST.format("  <build_depend>std_msgs</build_depend>\n" + _EXEC)

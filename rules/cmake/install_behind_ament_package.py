@@ -28,9 +28,7 @@ class InstallBehindAmentPackage(Rule):
         Example(
             "after",
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
-            reports=(
-                Report("CMakeLists.txt:3:1", "comes after ament_package() in line 2, like 1 more"),
-            ),
+            Report("CMakeLists.txt:3:1", "comes after ament_package() in line 2, like 1 more"),
         ),
     )
 

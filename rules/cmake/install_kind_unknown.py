@@ -43,24 +43,20 @@ class InstallKindUnknown(Rule):
         Example(
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("PROGRAM"), "talker/node.py": "pass\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:9",
-                    "install() knows no PROGRAM, PROGRAMS is meant: CMake stops",
-                    fix="write PROGRAMS",
-                ),
+            Report(
+                "CMakeLists.txt:2:9",
+                "install() knows no PROGRAM, PROGRAMS is meant: CMake stops",
+                fix="write PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
         ),
         Example(
             "in lower case",
             {"CMakeLists.txt": _LISTS.format("programs"), "talker/node.py": "pass\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:9",
-                    "install() knows no programs, PROGRAMS is meant: CMake stops",
-                    fix="write PROGRAMS",
-                ),
+            Report(
+                "CMakeLists.txt:2:9",
+                "install() knows no programs, PROGRAMS is meant: CMake stops",
+                fix="write PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
         ),

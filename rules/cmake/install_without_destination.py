@@ -31,9 +31,7 @@ class InstallWithoutDestination(Rule):
         Example(
             "without",
             {"CMakeLists.txt": _LISTS.format(""), **_FILES},
-            reports=(
-                Report("CMakeLists.txt:2:1", "install(DIRECTORY) has no DESTINATION: CMake stops"),
-            ),
+            Report("CMakeLists.txt:2:1", "install(DIRECTORY) has no DESTINATION: CMake stops"),
         ),
     )
 

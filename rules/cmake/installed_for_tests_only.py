@@ -32,11 +32,9 @@ class InstalledForTestsOnly(Rule):
                 "CMakeLists.txt": _LISTS.format(f"if(BUILD_TESTING)\n{_INSTALL}endif()\n"),
                 "talker/node.py": _NODE,
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:18",
-                    "talker/node.py is installed only when tests are built: releases lack it",
-                ),
+            Report(
+                "CMakeLists.txt:3:18",
+                "talker/node.py is installed only when tests are built: releases lack it",
             ),
         ),
     )

@@ -41,26 +41,22 @@ class InstalledPathMissing(Rule):
                 + _INSTALL.format("PROGRAMS talker/nod.py"),
                 "talker/node.py": "",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "installs the directory include/, which does not exist: the build stops",
-                ),
-                Report(
-                    "CMakeLists.txt:4:18",
-                    "installs talker/nod.py, which does not exist: the build stops; "
-                    "talker/node.py is near",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "installs the directory include/, which does not exist: the build stops",
+            ),
+            Report(
+                "CMakeLists.txt:4:18",
+                "installs talker/nod.py, which does not exist: the build stops; "
+                "talker/node.py is near",
             ),
         ),
         Example(
             "an empty directory",
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "the directory include/ is empty: git does not keep it, then the build stops",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "the directory include/ is empty: git does not keep it, then the build stops",
             ),
         ),
     )

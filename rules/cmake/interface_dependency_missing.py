@@ -36,17 +36,15 @@ class InterfaceDependencyMissing(Rule):
         Example(
             "no DEPENDENCIES; one that is not enough",
             {"CMakeLists.txt": _LISTS % "", **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:4:1",
-                    "msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
-                    "DEPENDENCIES: add it",
-                ),
-                Report(
-                    "CMakeLists.txt:4:1",
-                    "msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not among "
-                    "the DEPENDENCIES: add it",
-                ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
+                "DEPENDENCIES: add it",
+            ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not among "
+                "the DEPENDENCIES: add it",
             ),
         ),
     )

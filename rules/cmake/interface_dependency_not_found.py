@@ -37,8 +37,7 @@ class InterfaceDependencyNotFound(Rule):
     name = "interface-dependency-not-found"
     examples = (
         Example(
-            "found",
-            {"CMakeLists.txt": _LISTS.format("find_package(std_msgs REQUIRED)\n"), **_BEAT},
+            "found", {"CMakeLists.txt": _LISTS.format("find_package(std_msgs REQUIRED)\n"), **_BEAT}
         ),
         Example(
             "geometry_msgs brings it along",
@@ -47,12 +46,10 @@ class InterfaceDependencyNotFound(Rule):
         Example(
             "not found",
             {"CMakeLists.txt": _LISTS.format(""), **_BEAT},
-            reports=(
-                Report(
-                    "CMakeLists.txt:4:1",
-                    "'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
-                    "find_package(std_msgs REQUIRED) is missing",
-                ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
+                "find_package(std_msgs REQUIRED) is missing",
             ),
         ),
     )

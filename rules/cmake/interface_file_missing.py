@@ -39,25 +39,21 @@ class InterfaceFileMissing(Rule):
                 "CMakeLists.txt": _LISTS % "\n  msg/beat.msg\n  Beat.msg\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:3",
-                    "there is no file 'msg/beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
-                ),
-                Report(
-                    "CMakeLists.txt:4:3",
-                    "there is no file 'Beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
-                ),
+            Report(
+                "CMakeLists.txt:3:3",
+                "there is no file 'msg/beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
+            ),
+            Report(
+                "CMakeLists.txt:4:3",
+                "there is no file 'Beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
             ),
         ),
         Example(
             "next to CMakeLists.txt",
             {"CMakeLists.txt": _LISTS % "Beat.msg", "Beat.msg": "int32 count\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:11",
-                    "Beat.msg must be in a directory, so CMake stops: move it to msg/",
-                ),
+            Report(
+                "CMakeLists.txt:2:11",
+                "Beat.msg must be in a directory, so CMake stops: move it to msg/",
             ),
         ),
     )

@@ -43,13 +43,11 @@ class InterfaceNotGenerated(Rule):
                 "msg/Beat.msg": "int32 count\n",
                 "srv/Add.srv": "int32 a\n---\nint32 b\n",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "srv/Add.srv is not among the files: nobody can use Add",
-                    fix="generate srv/Add.srv",
-                    severity=Severity.WARNING,
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "srv/Add.srv is not among the files: nobody can use Add",
+                fix="generate srv/Add.srv",
+                severity=Severity.WARNING,
             ),
             fixed={"CMakeLists.txt": _LISTS % '"msg/Beat.msg"\n  "srv/Add.srv"'},
         ),
@@ -59,11 +57,9 @@ class InterfaceNotGenerated(Rule):
                 "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:1",
-                    "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
-                ),
+            Report(
+                "CMakeLists.txt:1:1",
+                "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
             ),
         ),
         Example(
@@ -74,11 +70,9 @@ class InterfaceNotGenerated(Rule):
                 "setup.py": "",
                 "msg/Beat.msg": "int32 count\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:1",
-                    "an ament_python package generates no interfaces: move it to ament_cmake",
-                ),
+            Report(
+                "msg/Beat.msg:1:1",
+                "an ament_python package generates no interfaces: move it to ament_cmake",
             ),
         ),
     )

@@ -30,19 +30,16 @@ class InterfaceTargetDiffers(Rule):
         Example("the project", {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_MESSAGE}),
         Example("spelt out", {"CMakeLists.txt": _LISTS % "my_msgs", **_MESSAGE}),
         Example(
-            "only for tests",
-            {"CMakeLists.txt": _LISTS % "my_test_msgs SKIP_INSTALL", **_MESSAGE},
+            "only for tests", {"CMakeLists.txt": _LISTS % "my_test_msgs SKIP_INSTALL", **_MESSAGE}
         ),
         Example(
             "another name",
             {"CMakeLists.txt": _LISTS % "messages", **_MESSAGE},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:28",
-                    "the interfaces are generated as 'messages', but the project is "
-                    "'my_msgs': their libraries are not found when they are used",
-                    fix="write ${PROJECT_NAME}",
-                ),
+            Report(
+                "CMakeLists.txt:2:28",
+                "the interfaces are generated as 'messages', but the project is "
+                "'my_msgs': their libraries are not found when they are used",
+                fix="write ${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS % "${PROJECT_NAME}"},
         ),

@@ -33,13 +33,11 @@ class InterfacesBesidePythonPackage(Rule):
         Example(
             "the same name",
             {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "the Python package 'my_robot' and the interfaces generated in line "
-                    "2 have the same name, so CMake stops: move the interfaces to a "
-                    "package of their own",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "the Python package 'my_robot' and the interfaces generated in line "
+                "2 have the same name, so CMake stops: move the interfaces to a "
+                "package of their own",
             ),
         ),
     )

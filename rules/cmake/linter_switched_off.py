@@ -30,9 +30,7 @@ class LinterSwitchedOff(Rule):
         Example(
             "as written by ros2 pkg create",
             {"CMakeLists.txt": _LISTS.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
-            reports=(
-                Report("CMakeLists.txt:3:3", "switches ament_cmake_copyright off: it never runs"),
-            ),
+            Report("CMakeLists.txt:3:3", "switches ament_cmake_copyright off: it never runs"),
         ),
     )
 

@@ -30,11 +30,9 @@ class LintersNeverRun(Rule):
         Example(
             "found only",
             {"CMakeLists.txt": _LISTS.format("")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:16",
-                    "no linter runs: ament_lint_auto_find_test_dependencies() is not called",
-                ),
+            Report(
+                "CMakeLists.txt:3:16",
+                "no linter runs: ament_lint_auto_find_test_dependencies() is not called",
             ),
         ),
     )

@@ -29,21 +29,16 @@ class MinimumVersionMisplaced(Rule):
         Example(
             "after project",
             {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:1",
-                    "cmake_minimum_required() of line 2 belongs in front of project()",
-                ),
+            Report(
+                "CMakeLists.txt:1:1",
+                "cmake_minimum_required() of line 2 belongs in front of project()",
             ),
         ),
         Example(
             "none",
             {"CMakeLists.txt": "project(talker)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:1",
-                    "no cmake_minimum_required(VERSION ...) in front of project()",
-                ),
+            Report(
+                "CMakeLists.txt:1:1", "no cmake_minimum_required(VERSION ...) in front of project()"
             ),
         ),
     )

@@ -36,12 +36,10 @@ class MinimumVersionOutdated(Rule):
         Example(
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("2.8.3")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:32",
-                    "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
-                    fix="write 3.8",
-                ),
+            Report(
+                "CMakeLists.txt:1:32",
+                "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
+                fix="write 3.8",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("3.8")},
         ),

@@ -44,11 +44,9 @@ class NameRegisteredTwice(Rule):
         Example(
             "one name",
             {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:23",
-                    "ament_add_pytest_test(talk) stands in line 2 already: CMake stops",
-                ),
+            Report(
+                "CMakeLists.txt:3:23",
+                "ament_add_pytest_test(talk) stands in line 2 already: CMake stops",
             ),
         ),
     )

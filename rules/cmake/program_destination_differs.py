@@ -32,12 +32,10 @@ class ProgramDestinationDiffers(Rule):
         Example(
             "to bin, as for other programs",
             {"CMakeLists.txt": _LISTS.format("bin"), "talker/node.py": "import rclpy\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:45",
-                    "installs to bin; `ros2 run talker` looks in lib/talker",
-                    fix="install to lib/${PROJECT_NAME}",
-                ),
+            Report(
+                "CMakeLists.txt:2:45",
+                "installs to bin; `ros2 run talker` looks in lib/talker",
+                fix="install to lib/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),
@@ -47,12 +45,10 @@ class ProgramDestinationDiffers(Rule):
                 "CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"),
                 "talker/node.py": "import rclpy\n",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:45",
-                    "installs to lib/PROJECT_NAME; `ros2 run talker` looks in lib/talker",
-                    fix="install to lib/${PROJECT_NAME}",
-                ),
+            Report(
+                "CMakeLists.txt:2:45",
+                "installs to lib/PROJECT_NAME; `ros2 run talker` looks in lib/talker",
+                fix="install to lib/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),

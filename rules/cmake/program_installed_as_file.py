@@ -37,13 +37,11 @@ class ProgramInstalledAsFile(Rule):
         Example(
             "as a file",
             {"CMakeLists.txt": _LISTS.format("FILES"), "talker/node.py": _NODE},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:15",
-                    "install(FILES) drops the executable bit of talker/node.py: `ros2 "
-                    "run` finds no executable; install it with PROGRAMS",
-                    fix="write PROGRAMS",
-                ),
+            Report(
+                "CMakeLists.txt:2:15",
+                "install(FILES) drops the executable bit of talker/node.py: `ros2 "
+                "run` finds no executable; install it with PROGRAMS",
+                fix="write PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("PROGRAMS")},
             executable=("talker/node.py",),
@@ -54,12 +52,10 @@ class ProgramInstalledAsFile(Rule):
                 "CMakeLists.txt": _LISTS.format("DIRECTORY").replace("/node.py", ""),
                 "talker/node.py": _NODE,
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "install(DIRECTORY) drops the executable bit of talker/node.py: "
-                    "`ros2 run` finds no executable; install it with PROGRAMS",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "install(DIRECTORY) drops the executable bit of talker/node.py: "
+                "`ros2 run` finds no executable; install it with PROGRAMS",
             ),
             executable=("talker/node.py",),
         ),

@@ -37,14 +37,12 @@ class ProgramNotExecutable(Rule):
         Example(
             "not executable",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "CMakeLists.txt, line 2 installs it as a program, but it has no "
-                    "executable bit: `colcon build --symlink-install` makes an "
-                    "executable that does not start",
-                    fix="make talker/node.py executable",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "CMakeLists.txt, line 2 installs it as a program, but it has no "
+                "executable bit: `colcon build --symlink-install` makes an "
+                "executable that does not start",
+                fix="make talker/node.py executable",
             ),
             fixed={"talker/node.py": _NODE},
         ),

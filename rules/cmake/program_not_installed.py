@@ -75,12 +75,9 @@ class ProgramNotInstalled(Rule):
                 "CMakeLists.txt": _LISTS.format(""),
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "talker/other.py is a node with a main, but not installed: `ros2 "
-                    "run` misses it",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "talker/other.py is a node with a main, but not installed: `ros2 run` misses it",
             ),
         ),
     )

@@ -45,36 +45,30 @@ class ProgramWithoutShebang(Rule):
         Example(
             "without",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "installed as a program, but does not begin with #!/usr/bin/env python3",
-                    fix="begin with #!/usr/bin/env python3",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "installed as a program, but does not begin with #!/usr/bin/env python3",
+                fix="begin with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
         ),
         Example(
             "the Python of long ago",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/usr/bin/env python\nimport rclpy\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "'#!/usr/bin/env python' names a Python that ROS 2 does not have",
-                    fix="begin with #!/usr/bin/env python3",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "'#!/usr/bin/env python' names a Python that ROS 2 does not have",
+                fix="begin with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
         ),
         Example(
             "after a byte order mark",
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"\ufeff{SHEBANG}\nimport rclpy\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "a byte order mark stands in front: the kernel does not see the shebang",
-                    fix="begin with #!/usr/bin/env python3",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "a byte order mark stands in front: the kernel does not see the shebang",
+                fix="begin with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
         ),

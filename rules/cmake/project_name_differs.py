@@ -35,12 +35,10 @@ class ProjectNameDiffers(Rule):
         Example(
             "another name",
             {"package.xml": _MANIFEST, "CMakeLists.txt": "project(listener)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:9",
-                    "the project is 'listener', the package 'talker' (package.xml, line 2)",
-                    fix="name the project talker",
-                ),
+            Report(
+                "CMakeLists.txt:1:9",
+                "the project is 'listener', the package 'talker' (package.xml, line 2)",
+                fix="name the project talker",
             ),
             fixed={"CMakeLists.txt": "project(talker)\n"},
         ),

@@ -29,11 +29,9 @@ class PytestFileMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("test_talks.py"), "test/test_talk.py": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:28",
-                    "there is no test file test/test_talks.py; test/test_talk.py is near",
-                ),
+            Report(
+                "CMakeLists.txt:2:28",
+                "there is no test file test/test_talks.py; test/test_talk.py is near",
             ),
         ),
     )

@@ -36,12 +36,9 @@ class PytestFileUnregistered(Rule):
         Example(
             "forgotten",
             {"CMakeLists.txt": _LISTS.format(""), "test/test_talk.py": _TEST},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "test/test_talk.py is not registered with ament_add_pytest_test(): "
-                    "it never runs",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "test/test_talk.py is not registered with ament_add_pytest_test(): it never runs",
             ),
         ),
     )

@@ -38,21 +38,17 @@ class PythonPackageFound(Rule):
         Example(
             "pure Python",
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:14",
-                    "'launch_ros' is Python alone and has no CMake files: CMake stops",
-                ),
+            Report(
+                "CMakeLists.txt:2:14",
+                "'launch_ros' is Python alone and has no CMake files: CMake stops",
             ),
         ),
         Example(
             "a key of rosdep",
             {"CMakeLists.txt": _LISTS.format("python3-numpy")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:14",
-                    "'python3-numpy' is Python alone and has no CMake files: CMake stops",
-                ),
+            Report(
+                "CMakeLists.txt:2:14",
+                "'python3-numpy' is Python alone and has no CMake files: CMake stops",
             ),
         ),
     )

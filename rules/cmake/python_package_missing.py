@@ -23,29 +23,24 @@ class PythonPackageMissing(Rule):
     name = "python-package-missing"
     examples = (
         Example(
-            "there",
-            {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/__init__.py": ""},
+            "there", {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/__init__.py": ""}
         ),
         Example(
             "no __init__.py",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/node.py": ""},
-            reports=(
-                Report(
-                    "talker/__init__.py:1:1",
-                    "missing, but CMakeLists.txt, line 2 installs talker/: CMake stops",
-                    fix="create talker/__init__.py",
-                ),
+            Report(
+                "talker/__init__.py:1:1",
+                "missing, but CMakeLists.txt, line 2 installs talker/: CMake stops",
+                fix="create talker/__init__.py",
             ),
             fixed={"talker/__init__.py": ""},
         ),
         Example(
             "no directory",
             {"CMakeLists.txt": _LISTS.format("talkers"), "talker/__init__.py": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:30",
-                    "the Python package folder talkers/ does not exist: CMake stops",
-                ),
+            Report(
+                "CMakeLists.txt:2:30",
+                "the Python package folder talkers/ does not exist: CMake stops",
             ),
         ),
     )

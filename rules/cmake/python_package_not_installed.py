@@ -42,13 +42,11 @@ class PythonPackageNotInstalled(Rule):
         Example(
             "not installed",
             {**_FILES, "CMakeLists.txt": _LISTS.format("")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "talker/ is not installed, but talker/node.py:1 imports it; call "
-                    "ament_python_install_package(${PROJECT_NAME})",
-                    fix="install the modules",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "talker/ is not installed, but talker/node.py:1 imports it; call "
+                "ament_python_install_package(${PROJECT_NAME})",
+                fix="install the modules",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(f"{_CALL}\n")},
         ),

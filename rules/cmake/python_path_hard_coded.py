@@ -28,12 +28,10 @@ class PythonPathHardCoded(Rule):
         Example(
             "a version",
             {"CMakeLists.txt": _LISTS.format("lib/python3.8/site-packages")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:38",
-                    "installs Python modules to lib/python3.8/site-packages, where only "
-                    "one Python looks",
-                ),
+            Report(
+                "CMakeLists.txt:2:38",
+                "installs Python modules to lib/python3.8/site-packages, where only "
+                "one Python looks",
             ),
         ),
     )

@@ -38,11 +38,9 @@ class ReturnBeforeAmentPackage(Rule):
         Example(
             "in between",
             {"CMakeLists.txt": _LISTS.format("return()\n") + "ament_package()\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "CMake reads no further than here: ament_package() of line 5 is not called",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "CMake reads no further than here: ament_package() of line 5 is not called",
             ),
         ),
     )

@@ -32,24 +32,20 @@ class ShareDestinationDiffers(Rule):
         Example(
             "without the package",
             {"CMakeLists.txt": _LISTS.format("share"), **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:38",
-                    "installs to share/; `ros2 launch` and launch files look in share/talker/",
-                    fix="install to share/${PROJECT_NAME}",
-                ),
+            Report(
+                "CMakeLists.txt:2:38",
+                "installs to share/; `ros2 launch` and launch files look in share/talker/",
+                fix="install to share/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_WANTED)},
         ),
         Example(
             "with the programs",
             {"CMakeLists.txt": _LISTS.format("lib/${PROJECT_NAME}"), **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:38",
-                    "installs to lib/talker/; `ros2 launch` and launch files look in share/talker/",
-                    fix="install to share/${PROJECT_NAME}",
-                ),
+            Report(
+                "CMakeLists.txt:2:38",
+                "installs to lib/talker/; `ros2 launch` and launch files look in share/talker/",
+                fix="install to share/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_WANTED)},
         ),

@@ -43,16 +43,14 @@ class ShareDirectoryNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "config/talker.yaml": "",
             },
-            reports=(
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "config/ is not installed, so config/talker.yaml is not found at run time",
-                    severity=Severity.WARNING,
-                ),
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "launch/ is not installed, so launch/talk.launch.py is not found at run time",
-                ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "config/ is not installed, so config/talker.yaml is not found at run time",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "launch/ is not installed, so launch/talk.launch.py is not found at run time",
             ),
         ),
     )

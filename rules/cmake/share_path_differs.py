@@ -44,25 +44,21 @@ class SharePathDiffers(Rule):
         Example(
             "dropped",
             {**_FILES, "CMakeLists.txt": _LISTS.format("config/", "")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "what is in config/ lands in share/talker/, not in share/talker/config/",
-                    fix="keep config/ once",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "what is in config/ lands in share/talker/, not in share/talker/config/",
+                fix="keep config/ once",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("config", "")},
         ),
         Example(
             "doubled",
             {**_FILES, "CMakeLists.txt": _LISTS.format("config", "/config")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "what is in config/ lands in share/talker/config/config/, not in "
-                    "share/talker/config/",
-                    fix="keep config/ once",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "what is in config/ lands in share/talker/config/config/, not in "
+                "share/talker/config/",
+                fix="keep config/ once",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("config/", "/config")},
         ),

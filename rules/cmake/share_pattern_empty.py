@@ -45,21 +45,17 @@ class SharePatternEmpty(Rule):
         Example(
             "another ending",
             {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "the patterns leave nothing of config/, for instance config/talker.yaml",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "the patterns leave nothing of config/, for instance config/talker.yaml",
             ),
         ),
         Example(
             "all left out",
             {"CMakeLists.txt": _LISTS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:19",
-                    "the patterns leave nothing of config/, for instance config/talker.yaml",
-                ),
+            Report(
+                "CMakeLists.txt:2:19",
+                "the patterns leave nothing of config/, for instance config/talker.yaml",
             ),
         ),
     )

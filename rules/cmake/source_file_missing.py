@@ -43,11 +43,8 @@ class SourceFileMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:23",
-                    "there is no file src/a.cpp: CMake stops; src/b.cpp is near",
-                ),
+            Report(
+                "CMakeLists.txt:2:23", "there is no file src/a.cpp: CMake stops; src/b.cpp is near"
             ),
         ),
     )

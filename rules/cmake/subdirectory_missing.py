@@ -38,21 +38,14 @@ class SubdirectoryMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("src")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:18",
-                    "adds the directory src/, which does not exist: CMake stops",
-                ),
+            Report(
+                "CMakeLists.txt:2:18", "adds the directory src/, which does not exist: CMake stops"
             ),
         ),
         Example(
             "without a CMakeLists.txt",
             {"CMakeLists.txt": _LISTS.format("src"), "src/talker.py": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:18", "adds src/, which has no CMakeLists.txt: CMake stops"
-                ),
-            ),
+            Report("CMakeLists.txt:2:18", "adds src/, which has no CMakeLists.txt: CMake stops"),
         ),
     )
 

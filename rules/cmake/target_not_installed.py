@@ -32,7 +32,7 @@ class TargetNotInstalled(Rule):
         Example(
             "one is forgotten",
             {"CMakeLists.txt": _LISTS.format("")},
-            reports=(Report("CMakeLists.txt:4:16", "'listen' is built, but not installed"),),
+            Report("CMakeLists.txt:4:16", "'listen' is built, but not installed"),
         ),
     )
 

@@ -34,9 +34,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS.format("talks")},
-            reports=(
-                Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
-            ),
+            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
         ),
         Example(
             "Python scripts are no targets",
@@ -45,10 +43,8 @@ class TargetUndefined(Rule):
                 "install(TARGETS talk listen DESTINATION lib/${PROJECT_NAME})\n",
                 "talker/talk.py": "",
             },
-            reports=(
-                Report("CMakeLists.txt:2:17", "nothing defines the target 'talk': CMake stops"),
-                Report("CMakeLists.txt:2:22", "nothing defines the target 'listen': CMake stops"),
-            ),
+            Report("CMakeLists.txt:2:17", "nothing defines the target 'talk': CMake stops"),
+            Report("CMakeLists.txt:2:22", "nothing defines the target 'listen': CMake stops"),
         ),
         Example(
             "of a command that nobody here knows",

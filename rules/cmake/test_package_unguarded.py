@@ -49,12 +49,9 @@ class TestPackageUnguarded(Rule):
         Example(
             "not guarded",
             {"package.xml": _MANIFEST, "CMakeLists.txt": f"project(talker)\n{_FIND}"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:14",
-                    "'ament_lint_auto' is a test dependency, but found outside of "
-                    "if(BUILD_TESTING)",
-                ),
+            Report(
+                "CMakeLists.txt:2:14",
+                "'ament_lint_auto' is a test dependency, but found outside of if(BUILD_TESTING)",
             ),
         ),
     )

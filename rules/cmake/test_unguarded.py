@@ -32,17 +32,13 @@ class TestUnguarded(Rule):
     name = "test-unguarded"
     examples = (
         Example(
-            "guarded",
-            {"CMakeLists.txt": f"project(talker)\nif(BUILD_TESTING)\n  {_TEST}endif()\n"},
+            "guarded", {"CMakeLists.txt": f"project(talker)\nif(BUILD_TESTING)\n  {_TEST}endif()\n"}
         ),
         Example(
             "not guarded",
             {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "ament_add_pytest_test() stands outside of if(BUILD_TESTING)",
-                ),
+            Report(
+                "CMakeLists.txt:2:1", "ament_add_pytest_test() stands outside of if(BUILD_TESTING)"
             ),
         ),
     )

@@ -30,13 +30,11 @@ class TestingConditionUnset(Rule):
         Example(
             "that of catkin",
             {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:4",
-                    "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
-                    "closest: BUILD_TESTING",
-                    fix="write BUILD_TESTING",
-                ),
+            Report(
+                "CMakeLists.txt:2:4",
+                "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
+                "closest: BUILD_TESTING",
+                fix="write BUILD_TESTING",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
         ),

@@ -38,12 +38,10 @@ class VariableMisspelt(Rule):
         Example(
             "in lower case",
             {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:34",
-                    "nothing sets project_name: it is empty; ${PROJECT_NAME} is meant",
-                    fix="write PROJECT_NAME",
-                ),
+            Report(
+                "CMakeLists.txt:2:34",
+                "nothing sets project_name: it is empty; ${PROJECT_NAME} is meant",
+                fix="write PROJECT_NAME",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
         ),

@@ -32,9 +32,7 @@ class VariableUnclosed(Rule):
         Example(
             "not closed",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME"), "talker/node.py": ""},
-            reports=(
-                Report("CMakeLists.txt:3:15", "lib/${PROJECT_NAME: a } is missing, CMake stops"),
-            ),
+            Report("CMakeLists.txt:3:15", "lib/${PROJECT_NAME: a } is missing, CMake stops"),
         ),
     )
 

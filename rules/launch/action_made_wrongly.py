@@ -47,29 +47,25 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "no list",
             _launch(_RIGHT[0], "[GroupAction(node)]"),
-            reports=(Report("launch/a.launch.py:8:43", "one Node: write a list of it"),),
+            Report("launch/a.launch.py:8:43", "one Node: write a list of it"),
         ),
         Example(
             "several arguments",
             _launch(_RIGHT[0], "node, node"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:12",
-                    "LaunchDescription takes one list of actions: put them in [...]",
-                ),
+            Report(
+                "launch/a.launch.py:8:12",
+                "LaunchDescription takes one list of actions: put them in [...]",
             ),
         ),
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            reports=(
-                Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing after it"),
-            ),
+            Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing after it"),
         ),
         Example(
             "no program",
             _launch("name='node'", "[node]"),
-            reports=(Report("launch/a.launch.py:7:12", "Node needs executable=...: TypeError"),),
+            Report("launch/a.launch.py:7:12", "Node needs executable=...: TypeError"),
         ),
     )
 

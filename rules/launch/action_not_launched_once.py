@@ -39,21 +39,17 @@ class ActionNotLaunchedOnce(LaunchRule):
         Example(
             "again in the handler",
             {"launch/a.launch.py": _LAUNCH.format("first, second, ")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:59",
-                    "second is launched twice: here, and in the LaunchDescription",
-                ),
+            Report(
+                "launch/a.launch.py:10:59",
+                "second is launched twice: here, and in the LaunchDescription",
             ),
         ),
         Example(
             "watched, but not launched",
             {"launch/a.launch.py": _LAUNCH.format("")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:13",
-                    "a handler watches first, which is in no list: it is never launched",
-                ),
+            Report(
+                "launch/a.launch.py:8:13",
+                "a handler watches first, which is in no list: it is never launched",
             ),
         ),
     )
@@ -65,10 +61,7 @@ class ActionNotLaunchedOnce(LaunchRule):
         for name, made, loads in _nodes(launch):
             places = [items[load] for load in loads if load in items]
             listed = [one for one in places if one.holder == "LaunchDescription"]
-            again = [
-                *(one for one in places if one.holder in HANDLERS),
-                *listed[1:],
-            ]
+            again = [*(one for one in places if one.holder in HANDLERS), *listed[1:]]
             for one in again if listed else ():
                 if not _repeats(launch, one.node):
                     message = f"{name} is launched twice: here, and in the LaunchDescription"

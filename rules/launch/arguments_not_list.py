@@ -33,24 +33,20 @@ class ArgumentsNotList(LaunchRule):
         Example(
             "a string",
             {"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:61",
-                    "arguments is one string, which launch takes apart letter by letter",
-                    fix="split it",
-                ),
+            Report(
+                "launch/a.launch.py:7:61",
+                "arguments is one string, which launch takes apart letter by letter",
+                fix="split it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'.split()")},
         ),
         Example(
             "for ROS",
             {"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:65",
-                    "ros_arguments is one string, which launch takes apart letter by letter",
-                    fix="split it",
-                ),
+            Report(
+                "launch/a.launch.py:7:65",
+                "ros_arguments is one string, which launch takes apart letter by letter",
+                fix="split it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'.split()")},
         ),

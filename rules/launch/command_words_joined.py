@@ -43,21 +43,17 @@ class CommandWordsJoined(LaunchRule):
         Example(
             "no space",
             _launch("['xacro', 'a']"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:12",
-                    "parts of a command are joined without spaces: write 'xacro '",
-                ),
+            Report(
+                "launch/a.launch.py:7:12",
+                "parts of a command are joined without spaces: write 'xacro '",
             ),
         ),
         Example(
             "a program that is looked for",
             _launch("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:12",
-                    "parts of a command are joined without spaces: write ' ' after it",
-                ),
+            Report(
+                "launch/a.launch.py:7:12",
+                "parts of a command are joined without spaces: write ' ' after it",
             ),
         ),
     )

@@ -53,32 +53,26 @@ class ConditionUnusable(LaunchRule):
         Example(
             "a value of Python",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:65",
-                    "Python decides not before the LaunchConfiguration has a value: "
-                    "write NotSubstitution",
-                ),
+            Report(
+                "launch/a.launch.py:12:65",
+                "Python decides not before the LaunchConfiguration has a value: "
+                "write NotSubstitution",
             ),
         ),
         Example(
             "the name of the argument",
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:65",
-                    "'use' is neither true nor false: LaunchConfiguration('use') is meant",
-                ),
+            Report(
+                "launch/a.launch.py:12:65",
+                "'use' is neither true nor false: LaunchConfiguration('use') is meant",
             ),
         ),
         Example(
             "an expression without quotes",
             {"launch/a.launch.py": _LAUNCH.format("true", "PythonExpression(['not ', use])")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:65",
-                    "with the defaults this is 'not true': the name 'true' is not defined",
-                ),
+            Report(
+                "launch/a.launch.py:12:65",
+                "with the defaults this is 'not true': the name 'true' is not defined",
             ),
         ),
     )

@@ -68,15 +68,13 @@ class ConfigurationUndeclared(Rule):
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:9:56",
-                    "nothing sets the launch configuration 'node'; declared here is nothing",
-                ),
-                Report(
-                    "launch/b.launch.py:10:56",
-                    "nothing sets the launch configuration 'nod'; declared here is node",
-                ),
+            Report(
+                "launch/a.launch.py:9:56",
+                "nothing sets the launch configuration 'node'; declared here is nothing",
+            ),
+            Report(
+                "launch/b.launch.py:10:56",
+                "nothing sets the launch configuration 'nod'; declared here is node",
             ),
         ),
     )

@@ -36,12 +36,10 @@ class DeclaredTooLate(Rule):
         Example(
             "after",
             {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:12",
-                    "'name' is declared after its use: the Node of line 9 reads it "
-                    "before it has a value",
-                ),
+            Report(
+                "launch/a.launch.py:8:12",
+                "'name' is declared after its use: the Node of line 9 reads it "
+                "before it has a value",
             ),
         ),
         Example(
@@ -53,12 +51,10 @@ class DeclaredTooLate(Rule):
                 + "\n\ndef set_up(context):\n"
                 "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:14:12",
-                    "'name' is declared after its use: the OpaqueFunction of line 10 "
-                    "reads it before it has a value",
-                ),
+            Report(
+                "launch/a.launch.py:14:12",
+                "'name' is declared after its use: the OpaqueFunction of line 10 "
+                "reads it before it has a value",
             ),
         ),
         Example(
@@ -67,12 +63,10 @@ class DeclaredTooLate(Rule):
                 "launch/a.launch.py": _LAUNCH.format("node").replace("return", "launch =")
                 + f"    launch.add_action({_DECLARED})\n    return launch\n"
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:12",
-                    "'name' is declared after its use: the Node of line 9 reads it "
-                    "before it has a value",
-                ),
+            Report(
+                "launch/a.launch.py:8:12",
+                "'name' is declared after its use: the Node of line 9 reads it "
+                "before it has a value",
             ),
         ),
     )

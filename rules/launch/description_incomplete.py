@@ -51,22 +51,18 @@ class DescriptionIncomplete(LaunchRule):
                     "context", "Node(package='talker', executable='node')", ""
                 )
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:5:5",
-                    "`ros2 launch` calls generate_launch_description without arguments: TypeError",
-                ),
-                Report("launch/a.launch.py:8:5", "this Node is in no list: it is never executed"),
+            Report(
+                "launch/a.launch.py:5:5",
+                "`ros2 launch` calls generate_launch_description without arguments: TypeError",
             ),
+            Report("launch/a.launch.py:8:5", "this Node is in no list: it is never executed"),
         ),
         Example(
             "what add_action returns",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:9:5",
-                    "add_action() returns nothing: return the LaunchDescription",
-                ),
+            Report(
+                "launch/a.launch.py:9:5",
+                "add_action() returns nothing: return the LaunchDescription",
             ),
         ),
     )

@@ -51,23 +51,20 @@ class EventHandlerMisused(LaunchRule):
         Example(
             "no argument, an action, a timer, a list",
             {"launch/a.launch.py": _LAUNCH.format("", "Shutdown", "timer", "[handler]")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:9:29",
-                    "this is the action Shutdown, and EmitEvent takes an event of launch.events",
-                ),
-                Report(
-                    "launch/a.launch.py:15:43",
-                    "OnProcessExit watches processes, and TimerAction starts none of its own",
-                ),
-                Report(
-                    "launch/a.launch.py:15:58",
-                    "launch calls on_exit with event and context: TypeError",
-                ),
-                Report(
-                    "launch/a.launch.py:16:59",
-                    "RegisterEventHandler takes one handler, not a list of them",
-                ),
+            Report(
+                "launch/a.launch.py:9:29",
+                "this is the action Shutdown, and EmitEvent takes an event of launch.events",
+            ),
+            Report(
+                "launch/a.launch.py:15:43",
+                "OnProcessExit watches processes, and TimerAction starts none of its own",
+            ),
+            Report(
+                "launch/a.launch.py:15:58", "launch calls on_exit with event and context: TypeError"
+            ),
+            Report(
+                "launch/a.launch.py:16:59",
+                "RegisterEventHandler takes one handler, not a list of them",
             ),
         ),
     )

@@ -42,11 +42,9 @@ class ExecutableMissing(Rule):
         Example(
             "the module's name",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:43",
-                    "talker has no program 'talk.py' (it has: talk); closest: 'talk'",
-                ),
+            Report(
+                "launch/a.launch.py:7:43",
+                "talker has no program 'talk.py' (it has: talk); closest: 'talk'",
             ),
         ),
         Example(
@@ -56,15 +54,13 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            reports=(
-                Report(
-                    "launch/a.launch.xml:2:28",
-                    "talker has no program 'tlk' (it has: talk); closest: 'talk'",
-                ),
-                Report(
-                    "launch/b.launch.yaml:4:11",
-                    "talker has no program 'tlk' (it has: talk); closest: 'talk'",
-                ),
+            Report(
+                "launch/a.launch.xml:2:28",
+                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
+            ),
+            Report(
+                "launch/b.launch.yaml:4:11",
+                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
             ),
             neighbours={"talker": _FILES},
         ),

@@ -62,21 +62,17 @@ class ImportFromWrongModule(Rule):
     name = "import-from-wrong-module"
     examples = (
         Example(
-            "right",
-            {"launch/a.launch.py": _LAUNCH.format("launch_ros.actions", "TimerAction")},
+            "right", {"launch/a.launch.py": _LAUNCH.format("launch_ros.actions", "TimerAction")}
         ),
         Example(
             "wrong, and misspelt",
             {"launch/a.launch.py": _LAUNCH.format("launch.actions", "TimerActions")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:1:28",
-                    "launch.actions has no 'Node'; launch_ros.actions has",
-                ),
-                Report(
-                    "launch/a.launch.py:2:28",
-                    "launch.actions has no 'TimerActions'; 'TimerAction' is meant",
-                ),
+            Report(
+                "launch/a.launch.py:1:28", "launch.actions has no 'Node'; launch_ros.actions has"
+            ),
+            Report(
+                "launch/a.launch.py:2:28",
+                "launch.actions has no 'TimerActions'; 'TimerAction' is meant",
             ),
         ),
     )

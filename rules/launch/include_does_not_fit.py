@@ -56,28 +56,23 @@ class IncludeDoesNotFit(Rule):
         Example(
             "required, but not given",
             _files("b.launch.py", "{}"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:11:9",
-                    "launch/b.launch.py requires the argument 'robot_name', which is "
-                    "not given here",
-                ),
+            Report(
+                "launch/a.launch.py:11:9",
+                "launch/b.launch.py requires the argument 'robot_name', which is not given here",
             ),
         ),
         Example(
             "misspelt",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:13:31",
-                    "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
-                ),
+            Report(
+                "launch/a.launch.py:13:31",
+                "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
             ),
         ),
         Example(
             "itself",
             _files("a.launch.py", "{}"),
-            reports=(Report("launch/a.launch.py:11:9", "this file includes itself, without end"),),
+            Report("launch/a.launch.py:11:9", "this file includes itself, without end"),
         ),
     )
 

@@ -49,17 +49,13 @@ class KeywordOfOldRelease(LaunchRule):
         Example(
             "of Eloquent",
             {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:32",
-                    "Node has no node_executable; it is executable now",
-                    fix="write executable",
-                ),
-                Report(
-                    "launch/a.launch.py:7:56",
-                    "Node has no node_name; it is name now",
-                    fix="write name",
-                ),
+            Report(
+                "launch/a.launch.py:7:32",
+                "Node has no node_executable; it is executable now",
+                fix="write executable",
+            ),
+            Report(
+                "launch/a.launch.py:7:56", "Node has no node_name; it is name now", fix="write name"
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("executable", "name")},
         ),

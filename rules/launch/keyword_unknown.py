@@ -36,11 +36,9 @@ class KeywordUnknown(LaunchRule):
         Example(
             "of another class",
             {"launch/a.launch.py": _LAUNCH.format("default")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:39",
-                    "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
-                ),
+            Report(
+                "launch/a.launch.py:7:39",
+                "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
             ),
         ),
     )

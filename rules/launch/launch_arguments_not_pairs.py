@@ -34,12 +34,10 @@ class LaunchArgumentsNotPairs(LaunchRule):
         Example(
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': '2'}")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:69",
-                    "launch_arguments is a dictionary; launch takes pairs: add .items()",
-                    fix="add .items()",
-                ),
+            Report(
+                "launch/a.launch.py:7:69",
+                "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                fix="add .items()",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("{'rate': '2'}.items()")},
         ),

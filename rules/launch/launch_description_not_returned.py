@@ -30,18 +30,15 @@ class LaunchDescriptionNotReturned(LaunchRule):
     name = "launch-description-not-returned"
     examples = (
         Example(
-            "returned",
-            {"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
+            "returned", {"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"}
         ),
         Example(
             "made, but not returned",
             {"launch/a.launch.py": _LAUNCH + "    LaunchDescription([node])\n"},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:5",
-                    "the LaunchDescription is made, but generate_launch_description returns None",
-                    fix="return it",
-                ),
+            Report(
+                "launch/a.launch.py:7:5",
+                "the LaunchDescription is made, but generate_launch_description returns None",
+                fix="return it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
         ),
@@ -52,15 +49,13 @@ class LaunchDescriptionNotReturned(LaunchRule):
                 "launch/b.launch.py": _LAUNCH
                 + "    if node:\n        return LaunchDescription([node])\n",
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:5",
-                    "generate_launch_description returns a list, not a LaunchDescription",
-                ),
-                Report(
-                    "launch/b.launch.py:5:5",
-                    "generate_launch_description on some way returns None, not a LaunchDescription",
-                ),
+            Report(
+                "launch/a.launch.py:7:5",
+                "generate_launch_description returns a list, not a LaunchDescription",
+            ),
+            Report(
+                "launch/b.launch.py:5:5",
+                "generate_launch_description on some way returns None, not a LaunchDescription",
             ),
         ),
     )

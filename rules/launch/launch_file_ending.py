@@ -32,12 +32,10 @@ class LaunchFileEnding(Rule):
         Example(
             "neither",
             {"launch/talk.py": _LAUNCH},
-            reports=(
-                Report(
-                    "launch/talk.py:1:1",
-                    "defines generate_launch_description, but `ros2 launch` lists only "
-                    "names that end with launch.py, not talk.py",
-                ),
+            Report(
+                "launch/talk.py:1:1",
+                "defines generate_launch_description, but `ros2 launch` lists only "
+                "names that end with launch.py, not talk.py",
             ),
         ),
     )

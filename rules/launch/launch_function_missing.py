@@ -29,25 +29,19 @@ class LaunchFunctionMissing(Rule):
         Example(
             "misspelt",
             {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:4:5",
-                    "`ros2 launch` calls generate_launch_description, not "
-                    "generate_launch_descriptions",
-                    fix="write generate_launch_description",
-                ),
+            Report(
+                "launch/a.launch.py:4:5",
+                "`ros2 launch` calls generate_launch_description, not generate_launch_descriptions",
+                fix="write generate_launch_description",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
         ),
         Example(
             "not there",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
-            reports=(
-                Report(
-                    "launch/a.launch.py:1:1",
-                    "`ros2 launch` calls generate_launch_description, which this file "
-                    "does not define",
-                ),
+            Report(
+                "launch/a.launch.py:1:1",
+                "`ros2 launch` calls generate_launch_description, which this file does not define",
             ),
         ),
     )

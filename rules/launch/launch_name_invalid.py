@@ -38,13 +38,11 @@ class LaunchNameInvalid(LaunchRule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:56",
-                    "ROS 2 refuses the node name 'my/talker': letters, digits and _ only",
-                ),
-                Report("launch/a.launch.py:7:79", "ROS 2 refuses the namespace 'robot-1'"),
+            Report(
+                "launch/a.launch.py:7:56",
+                "ROS 2 refuses the node name 'my/talker': letters, digits and _ only",
             ),
+            Report("launch/a.launch.py:7:79", "ROS 2 refuses the namespace 'robot-1'"),
         ),
     )
 

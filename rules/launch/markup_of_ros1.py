@@ -44,10 +44,8 @@ class MarkupOfRos1(Rule):
         Example(
             "of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            reports=(
-                Report("launch/a.launch.xml:2:28", "type of <node> is of ROS 1; ROS 2 has exec"),
-                Report("launch/a.launch.xml:2:40", "$(arg ...) is of ROS 1; ROS 2 has $(var name)"),
-            ),
+            Report("launch/a.launch.xml:2:28", "type of <node> is of ROS 1; ROS 2 has exec"),
+            Report("launch/a.launch.xml:2:40", "$(arg ...) is of ROS 1; ROS 2 has $(var name)"),
         ),
     )
 

@@ -45,12 +45,10 @@ class NamespaceNotInFile(Rule):
         Example(
             "the name alone",
             {**_FILES, "config/demo.yaml": _FILE.format("talker")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:74",
-                    "the node runs as /left/talker, but config/demo.yaml:1 is for "
-                    "/talker: it is skipped",
-                ),
+            Report(
+                "launch/a.launch.py:10:74",
+                "the node runs as /left/talker, but config/demo.yaml:1 is for "
+                "/talker: it is skipped",
             ),
         ),
     )

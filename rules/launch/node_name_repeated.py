@@ -46,10 +46,8 @@ class NodeNameRepeated(Rule):
                     ", namespace='left'", "eye", ", namespace='/left'"
                 ),
             },
-            reports=(
-                Report("launch/a.launch.py:8:48", "the node of line 7 is called /eye too"),
-                Report("launch/b.launch.py:8:48", "the node of line 7 is called /left/eye too"),
-            ),
+            Report("launch/a.launch.py:8:48", "the node of line 7 is called /eye too"),
+            Report("launch/b.launch.py:8:48", "the node of line 7 is called /left/eye too"),
         ),
     )
 

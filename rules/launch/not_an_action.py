@@ -47,38 +47,31 @@ class NotAnAction(LaunchRule):
         Example(
             "a list, a substitution, a handler",
             {"launch/a.launch.py": _LAUNCH.format("[node],\n name,\n handler")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:31",
-                    "this is a list, and LaunchDescription takes actions: write * in front of it",
-                ),
-                Report(
-                    "launch/a.launch.py:13:2",
-                    "this is a LaunchConfiguration, and LaunchDescription takes actions",
-                ),
-                Report(
-                    "launch/a.launch.py:14:2",
-                    "this is the handler OnProcessExit, and LaunchDescription takes "
-                    "actions: put it into RegisterEventHandler(...)",
-                ),
+            Report(
+                "launch/a.launch.py:12:31",
+                "this is a list, and LaunchDescription takes actions: write * in front of it",
+            ),
+            Report(
+                "launch/a.launch.py:13:2",
+                "this is a LaunchConfiguration, and LaunchDescription takes actions",
+            ),
+            Report(
+                "launch/a.launch.py:14:2",
+                "this is the handler OnProcessExit, and LaunchDescription takes "
+                "actions: put it into RegisterEventHandler(...)",
             ),
         ),
         Example(
             "a text, a class, None",
             {"launch/a.launch.py": _LAUNCH.format("'node',\n Node,\n None")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:31",
-                    "this is a text, and LaunchDescription takes actions",
-                ),
-                Report(
-                    "launch/a.launch.py:13:2",
-                    "this is a class, and LaunchDescription takes actions: call it",
-                ),
-                Report(
-                    "launch/a.launch.py:14:2", "this is None, and LaunchDescription takes actions"
-                ),
+            Report(
+                "launch/a.launch.py:12:31", "this is a text, and LaunchDescription takes actions"
             ),
+            Report(
+                "launch/a.launch.py:13:2",
+                "this is a class, and LaunchDescription takes actions: call it",
+            ),
+            Report("launch/a.launch.py:14:2", "this is None, and LaunchDescription takes actions"),
         ),
     )
 

@@ -49,41 +49,31 @@ class OpaqueFunctionMisfit(LaunchRule):
         Example(
             "no context",
             _launch("", ""),
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:55",
-                    "set_up takes no arguments; it is given the context: TypeError",
-                ),
+            Report(
+                "launch/a.launch.py:10:55",
+                "set_up takes no arguments; it is given the context: TypeError",
             ),
         ),
         Example(
             "what nothing gives",
             _launch("context, a", ""),
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:55",
-                    "set_up takes 'a', which args=[...] does not give: TypeError",
-                ),
+            Report(
+                "launch/a.launch.py:10:55",
+                "set_up takes 'a', which args=[...] does not give: TypeError",
             ),
         ),
         Example(
             "a text for the list of arguments",
             _launch("context, a", ", args='fast'"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:55",
-                    "set_up gets a text letter by letter: args=... is a list",
-                ),
+            Report(
+                "launch/a.launch.py:10:55",
+                "set_up gets a text letter by letter: args=... is a list",
             ),
         ),
         Example(
             "called",
             _launch("", "()"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:31", "set_up() is called here: pass the function itself"
-                ),
-            ),
+            Report("launch/a.launch.py:10:31", "set_up() is called here: pass the function itself"),
         ),
     )
 

@@ -35,18 +35,14 @@ class OpaqueFunctionReturnsNoList(LaunchRule):
         Example(
             "one action",
             {"launch/a.launch.py": _LAUNCH.format("node")},
-            reports=(
-                Report("launch/a.launch.py:8:5", "set_up returns one Node, not a list: TypeError"),
-            ),
+            Report("launch/a.launch.py:8:5", "set_up returns one Node, not a list: TypeError"),
         ),
         Example(
             "a description",
             {"launch/a.launch.py": _LAUNCH.format("LaunchDescription([node])")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:5",
-                    "set_up returns one LaunchDescription, not a list: TypeError",
-                ),
+            Report(
+                "launch/a.launch.py:8:5",
+                "set_up returns one LaunchDescription, not a list: TypeError",
             ),
         ),
     )

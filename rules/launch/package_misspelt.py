@@ -52,22 +52,20 @@ class PackageMisspelt(Rule):
                 "launch/b.launch.py": _LAUNCH.format("demo", "talk"),
                 "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:22",
-                    "no package 'talker_dmeo' is known; 'talker_demo' is meant: this package",
-                    unsafe_fix="write talker_demo",
-                ),
-                Report(
-                    "launch/b.launch.py:7:22",
-                    "no package 'demo' is known; 'talker_demo' is meant: it has the program 'talk'",
-                    unsafe_fix="write talker_demo",
-                ),
-                Report(
-                    "launch/c.launch.xml:2:14",
-                    "no package 'rivz2' is known; 'rviz2' is meant: a package of ROS",
-                    unsafe_fix="write rviz2",
-                ),
+            Report(
+                "launch/a.launch.py:7:22",
+                "no package 'talker_dmeo' is known; 'talker_demo' is meant: this package",
+                unsafe_fix="write talker_demo",
+            ),
+            Report(
+                "launch/b.launch.py:7:22",
+                "no package 'demo' is known; 'talker_demo' is meant: it has the program 'talk'",
+                unsafe_fix="write talker_demo",
+            ),
+            Report(
+                "launch/c.launch.xml:2:14",
+                "no package 'rivz2' is known; 'rviz2' is meant: a package of ROS",
+                unsafe_fix="write rviz2",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("talker_demo", "listen"),

@@ -47,13 +47,11 @@ class PackageUndeclared(Rule):
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/a.launch.py": _LAUNCH,
             },
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "launch/a.launch.py:8 starts a node of 'rviz2', which no dependency "
-                    "here provides; add <exec_depend>rviz2</exec_depend>",
-                    fix="declare rviz2",
-                ),
+            Report(
+                "package.xml:3:4",
+                "launch/a.launch.py:8 starts a node of 'rviz2', which no dependency "
+                "here provides; add <exec_depend>rviz2</exec_depend>",
+                fix="declare rviz2",
             ),
             fixed={
                 "package.xml": _MANIFEST.format(

@@ -38,27 +38,23 @@ class ParameterRefusedByLaunch(Rule):
         Example(
             "nothing",
             _launch("None"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:61",
-                    "the parameter 'a' is None, which is not a value of a parameter",
-                ),
+            Report(
+                "launch/a.launch.py:7:61",
+                "the parameter 'a' is None, which is not a value of a parameter",
             ),
         ),
         Example(
             "an empty list",
             _launch("[]"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:61",
-                    "the parameter 'a' is an empty list, whose type nobody knows",
-                ),
+            Report(
+                "launch/a.launch.py:7:61",
+                "the parameter 'a' is an empty list, whose type nobody knows",
             ),
         ),
         Example(
             "a mixed list",
             _launch("[1, 'a']"),
-            reports=(Report("launch/a.launch.py:7:61", "the parameter 'a' mixes types in a list"),),
+            Report("launch/a.launch.py:7:61", "the parameter 'a' mixes types in a list"),
         ),
     )
 

@@ -34,12 +34,10 @@ class ParametersNotList(LaunchRule):
         Example(
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': 2.0}")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "parameters is a dictionary; Node takes a list alone",
-                    fix="make it a list",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "parameters is a dictionary; Node takes a list alone",
+                fix="make it a list",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("[{'rate': 2.0}]")},
         ),
@@ -49,17 +47,15 @@ class ParametersNotList(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("'talker.yaml'"),
                 "launch/b.launch.py": _LAUNCH.format("({'rate': 2.0},)"),
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "parameters is a single value; Node takes a list alone",
-                    fix="make it a list",
-                ),
-                Report(
-                    "launch/b.launch.py:7:62",
-                    "parameters is a tuple; Node takes a list alone",
-                    fix="make it a list",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "parameters is a single value; Node takes a list alone",
+                fix="make it a list",
+            ),
+            Report(
+                "launch/b.launch.py:7:62",
+                "parameters is a tuple; Node takes a list alone",
+                fix="make it a list",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("['talker.yaml']"),
@@ -76,10 +72,7 @@ class ParametersNotList(LaunchRule):
                 continue
             start, end = launch.module.span(node)
             star = "*" if what == "a tuple" else ""
-            edits = (
-                Edit(launch.path, start, start, f"[{star}"),
-                Edit(launch.path, end, end, "]"),
-            )
+            edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
             message = f"parameters is {what}; {call.kind} takes a list alone"
             yield self.report(launch.location(node), message, Fix("make it a list", edits))
 

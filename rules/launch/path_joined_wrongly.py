@@ -31,17 +31,14 @@ class PathJoinedWrongly(LaunchRule):
     name = "path-joined-wrongly"
     examples = (
         Example(
-            "joined",
-            {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, 'config')")},
+            "joined", {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, 'config')")}
         ),
         Example(
             "a slash too many",
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:6:28",
-                    "'/config' begins with a slash, which drops all in front of it",
-                ),
+            Report(
+                "launch/a.launch.py:6:28",
+                "'/config' begins with a slash, which drops all in front of it",
             ),
         ),
         Example(
@@ -53,21 +50,17 @@ class PathJoinedWrongly(LaunchRule):
                     "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
                 )
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:46",
-                    "parts are joined as they are: a slash is missing in front of this",
-                ),
+            Report(
+                "launch/a.launch.py:7:46",
+                "parts are joined as they are: a slash is missing in front of this",
             ),
         ),
         Example(
             "no slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:6:8",
-                    "a slash is missing between the share directory and 'config/a.yaml'",
-                ),
+            Report(
+                "launch/a.launch.py:6:8",
+                "a slash is missing between the share directory and 'config/a.yaml'",
             ),
         ),
     )

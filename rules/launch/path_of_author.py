@@ -46,26 +46,23 @@ class PathOfAuthor(Rule):
                 "launch/c.launch.xml": "<launch>\n"
                 '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:63",
-                    "'/home/me/ros2_ws/src/talker/talker.yaml' exists on one machine "
-                    "only; build it from the share directory",
-                ),
-                Report(
-                    "launch/b.launch.py:7:63",
-                    "'/ros2_ws/src/talker/talker.yaml' exists on one machine only; "
-                    "build it from the share directory",
-                ),
-                Report(
-                    "launch/c.launch.xml:2:28",
-                    "'/home/me/map.yaml' exists on one machine only; build it from the "
-                    "share directory",
-                ),
-                Report(
-                    "launch/d.launch.py:7:63",
-                    "'config/talker.yaml' is looked for where `ros2 launch` is started, not here",
-                ),
+            Report(
+                "launch/a.launch.py:7:63",
+                "'/home/me/ros2_ws/src/talker/talker.yaml' exists on one machine "
+                "only; build it from the share directory",
+            ),
+            Report(
+                "launch/b.launch.py:7:63",
+                "'/ros2_ws/src/talker/talker.yaml' exists on one machine only; "
+                "build it from the share directory",
+            ),
+            Report(
+                "launch/c.launch.xml:2:28",
+                "'/home/me/map.yaml' exists on one machine only; build it from the share directory",
+            ),
+            Report(
+                "launch/d.launch.py:7:63",
+                "'config/talker.yaml' is looked for where `ros2 launch` is started, not here",
             ),
         ),
     )

@@ -37,34 +37,28 @@ class RemappingsNotPairs(LaunchRule):
         Example(
             "a dictionary",
             _launch("{'a': 'b'}"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "remappings are a list of pairs, [('from', 'to')], not a dictionary",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "remappings are a list of pairs, [('from', 'to')], not a dictionary",
             ),
         ),
         Example(
             "one pair",
             _launch("('a', 'b')"),
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "this is one pair: remappings are a list of pairs, [('from', 'to')]",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "this is one pair: remappings are a list of pairs, [('from', 'to')]",
             ),
         ),
         Example(
             "texts",
             _launch("['a:=b']"),
-            reports=(Report("launch/a.launch.py:7:62", "'a:=b' is not a pair ('from', 'to')"),),
+            Report("launch/a.launch.py:7:62", "'a:=b' is not a pair ('from', 'to')"),
         ),
         Example(
             "three parts",
             _launch("[('a', 'b', 'c')]"),
-            reports=(
-                Report("launch/a.launch.py:7:62", "a remapping is a pair, and this has 3 parts"),
-            ),
+            Report("launch/a.launch.py:7:62", "a remapping is a pair, and this has 3 parts"),
         ),
     )
 

@@ -42,8 +42,7 @@ class SharePathMissing(Rule):
     name = "share-path-missing"
     examples = (
         Example(
-            "installed",
-            {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")},
+            "installed", {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")}
         ),
         Example(
             "made on each machine, so git leaves it out",
@@ -84,22 +83,20 @@ class SharePathMissing(Rule):
                 "launch/b.launch.py": _LAUNCH.format("'talker.yaml'"),
                 "launch/c.launch.py": _LAUNCH.format("'config', 'other.json'"),
             },
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:26",
-                    "share/talker/config/talk.yaml is not there: talker has no such "
-                    "file; config/talker.yaml is",
-                ),
-                Report(
-                    "launch/b.launch.py:12:26",
-                    "share/talker/talker.yaml is not there: it is installed as "
-                    "share/talker/config/talker.yaml",
-                ),
-                Report(
-                    "launch/c.launch.py:12:26",
-                    "share/talker/config/other.json is not there: setup.py of talker "
-                    "does not install config/other.json",
-                ),
+            Report(
+                "launch/a.launch.py:12:26",
+                "share/talker/config/talk.yaml is not there: talker has no such "
+                "file; config/talker.yaml is",
+            ),
+            Report(
+                "launch/b.launch.py:12:26",
+                "share/talker/talker.yaml is not there: it is installed as "
+                "share/talker/config/talker.yaml",
+            ),
+            Report(
+                "launch/c.launch.py:12:26",
+                "share/talker/config/other.json is not there: setup.py of talker "
+                "does not install config/other.json",
             ),
         ),
     )

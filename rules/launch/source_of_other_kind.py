@@ -42,12 +42,10 @@ class SourceOfOtherKind(LaunchRule):
         Example(
             "XML for Python",
             {"launch/a.launch.py": _LAUNCH.format("b.launch.xml")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:11:34",
-                    "PythonLaunchDescriptionSource cannot read b.launch.xml: write "
-                    "AnyLaunchDescriptionSource",
-                ),
+            Report(
+                "launch/a.launch.py:11:34",
+                "PythonLaunchDescriptionSource cannot read b.launch.xml: write "
+                "AnyLaunchDescriptionSource",
             ),
         ),
     )

@@ -53,43 +53,37 @@ class SubstitutionUsedAsText(LaunchRule):
         Example(
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:30",
-                    "a LaunchConfiguration has no text yet for os.path.join(): it is "
-                    "filled in when actions run",
-                ),
-                Report(
-                    "launch/a.launch.py:12:74",
-                    "a LaunchConfiguration has no text yet to be added to: it is filled "
-                    "in when actions run",
-                ),
+            Report(
+                "launch/a.launch.py:10:30",
+                "a LaunchConfiguration has no text yet for os.path.join(): it is "
+                "filled in when actions run",
+            ),
+            Report(
+                "launch/a.launch.py:12:74",
+                "a LaunchConfiguration has no text yet to be added to: it is filled "
+                "in when actions run",
             ),
         ),
         Example(
             "filled into a text, a choice of Python",
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:21",
-                    "a LaunchConfiguration has no text yet to be filled in: it is "
-                    "filled in when actions run",
-                ),
-                Report(
-                    "launch/a.launch.py:12:81",
-                    "a LaunchConfiguration has no text yet to decide by: it is always true",
-                ),
+            Report(
+                "launch/a.launch.py:10:21",
+                "a LaunchConfiguration has no text yet to be filled in: it is "
+                "filled in when actions run",
+            ),
+            Report(
+                "launch/a.launch.py:12:81",
+                "a LaunchConfiguration has no text yet to decide by: it is always true",
             ),
         ),
         Example(
             "in an f-string",
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:12:74",
-                    "a LaunchConfiguration has no text yet in an f-string: it is filled "
-                    "in when actions run",
-                ),
+            Report(
+                "launch/a.launch.py:12:74",
+                "a LaunchConfiguration has no text yet in an f-string: it is filled "
+                "in when actions run",
             ),
         ),
     )

@@ -43,17 +43,15 @@ class TextTakenForTruth(LaunchRule):
         Example(
             "its truth",
             {"launch/a.launch.py": _LAUNCH.format("use", "false")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:18",
-                    "this is a text such as 'false', which is always true for Python",
-                ),
+            Report(
+                "launch/a.launch.py:8:18",
+                "this is a text such as 'false', which is always true for Python",
             ),
         ),
         Example(
             "compared with a truth value",
             {"launch/a.launch.py": _LAUNCH.format("use == True", "false")},
-            reports=(Report("launch/a.launch.py:8:18", "this is a text, which never equals True"),),
+            Report("launch/a.launch.py:8:18", "this is a text, which never equals True"),
         ),
     )
 

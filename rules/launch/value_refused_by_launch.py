@@ -37,33 +37,25 @@ class ValueRefusedByLaunch(LaunchRule):
     code = "LF055"
     name = "value-refused-by-launch"
     examples = (
-        Example(
-            "taken",
-            {"launch/a.launch.py": _LAUNCH.format("fast", "['ls', '-l']", "1.0")},
-        ),
+        Example("taken", {"launch/a.launch.py": _LAUNCH.format("fast", "['ls', '-l']", "1.0")}),
         Example(
             "refused",
             {"launch/a.launch.py": _LAUNCH.format("fst", "'ls -l'", "1")},
-            reports=(
-                Report("launch/a.launch.py:9:68", "the default 'fst' is none of them"),
-                Report(
-                    "launch/a.launch.py:10:28",
-                    "launch goes through a text letter by letter: write a list of words",
-                ),
-                Report(
-                    "launch/a.launch.py:11:28",
-                    "launch takes no whole number as a period: write 1.0",
-                ),
+            Report("launch/a.launch.py:9:68", "the default 'fst' is none of them"),
+            Report(
+                "launch/a.launch.py:10:28",
+                "launch goes through a text letter by letter: write a list of words",
+            ),
+            Report(
+                "launch/a.launch.py:11:28", "launch takes no whole number as a period: write 1.0"
             ),
         ),
         Example(
             "two words in one",
             {"launch/a.launch.py": _LAUNCH.format("fast", "['ls -l']", "1.0")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:10:28",
-                    "this is one word, so a program 'ls -l' is looked for: write a list of words",
-                ),
+            Report(
+                "launch/a.launch.py:10:28",
+                "this is one word, so a program 'ls -l' is looked for: write a list of words",
             ),
         ),
     )

@@ -45,12 +45,10 @@ class ValueUnusable(LaunchRule):
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:8:53", "a default is text, and this is a float: write '2.0'"
-                ),
-                Report("launch/a.launch.py:9:61", "an argument is text: write '3'"),
+            Report(
+                "launch/a.launch.py:8:53", "a default is text, and this is a float: write '2.0'"
             ),
+            Report("launch/a.launch.py:9:61", "an argument is text: write '3'"),
         ),
     )
 

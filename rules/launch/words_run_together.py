@@ -47,31 +47,25 @@ class WordsRunTogether(LaunchRule):
         Example(
             "a missing comma",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "Python joins this to '--ros-args-r': a comma is missing between the texts",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "Python joins this to '--ros-args-r': a comma is missing between the texts",
             ),
         ),
         Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:85",
-                    "launch joins the parts of a prefix as they are: a space is missing",
-                ),
+            Report(
+                "launch/a.launch.py:7:85",
+                "launch joins the parts of a prefix as they are: a space is missing",
             ),
         ),
         Example(
             "three in one",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
-            reports=(
-                Report(
-                    "launch/a.launch.py:7:62",
-                    "this is one argument with spaces in it: write one text for each word",
-                ),
+            Report(
+                "launch/a.launch.py:7:62",
+                "this is one argument with spaces in it: write one text for each word",
             ),
         ),
     )

@@ -48,21 +48,14 @@ class AssertMethodMisused(TestRule):
         Example(
             "gone",
             {"test/test_text.py": _TEST.format("assertEquals")},
-            reports=(
-                Report(
-                    "test/test_text.py:6:9",
-                    "assertEquals is gone in Python 3.12; use assertEqual",
-                ),
-            ),
+            Report("test/test_text.py:6:9", "assertEquals is gone in Python 3.12; use assertEqual"),
         ),
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
-            reports=(
-                Report(
-                    "test/test_text.py:6:9",
-                    "assertTrue takes one value, the second is a message; compare them",
-                ),
+            Report(
+                "test/test_text.py:6:9",
+                "assertTrue takes one value, the second is a message; compare them",
             ),
         ),
     )

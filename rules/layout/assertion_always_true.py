@@ -32,20 +32,14 @@ class AssertionAlwaysTrue(TestRule):
         Example(
             "a function",
             {"test/test_text.py": _TEST.format("ready")},
-            reports=(
-                Report(
-                    "test/test_text.py:6:5", "ready is a function, which is always true: call it"
-                ),
-            ),
+            Report("test/test_text.py:6:5", "ready is a function, which is always true: call it"),
         ),
         Example(
             "a text next to a comparison",
             {"test/test_text.py": _TEST.format("ready() == 'a' or 'b'")},
-            reports=(
-                Report(
-                    "test/test_text.py:6:5",
-                    "one side of this `or` is always true: compare with it as well",
-                ),
+            Report(
+                "test/test_text.py:6:5",
+                "one side of this `or` is always true: compare with it as well",
             ),
         ),
     )

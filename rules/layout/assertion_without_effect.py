@@ -43,15 +43,12 @@ class AssertionWithoutEffect(TestRule):
                     "    1 == ready()\n    pytest.raises(ValueError)\n"
                 )
             },
-            reports=(
-                Report(
-                    "test/test_text.py:9:5",
-                    "nothing looks at this comparison: write assert in front of it",
-                ),
-                Report(
-                    "test/test_text.py:10:5",
-                    "nothing is called here: write `with pytest.raises(...):`",
-                ),
+            Report(
+                "test/test_text.py:9:5",
+                "nothing looks at this comparison: write assert in front of it",
+            ),
+            Report(
+                "test/test_text.py:10:5", "nothing is called here: write `with pytest.raises(...):`"
             ),
         ),
         Example(
@@ -61,11 +58,9 @@ class AssertionWithoutEffect(TestRule):
                     "    try:\n        assert ready()\n    except Exception:\n        pass\n"
                 )
             },
-            reports=(
-                Report(
-                    "test/test_text.py:11:5",
-                    "this drops the AssertionError: the test passes all the same",
-                ),
+            Report(
+                "test/test_text.py:11:5",
+                "this drops the AssertionError: the test passes all the same",
             ),
         ),
     )

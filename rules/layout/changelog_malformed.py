@@ -37,11 +37,9 @@ class ChangelogMalformed(Rule):
         Example(
             "a word before the version",
             {"CHANGELOG.rst": f"{_TITLE}Release 0.1\n-----------\n* first\n"},
-            reports=(
-                Report(
-                    "CHANGELOG.rst:5:1",
-                    "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
-                ),
+            Report(
+                "CHANGELOG.rst:5:1",
+                "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
             ),
         ),
     )

@@ -31,17 +31,12 @@ class ChangelogOfOtherPackage(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "of the package",
-            {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("talker")},
+            "of the package", {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("talker")}
         ),
         Example(
             "of another one",
             {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
-            reports=(
-                Report(
-                    "CHANGELOG.rst:2:23", "the changelog is of 'other', the package is 'talker'"
-                ),
-            ),
+            Report("CHANGELOG.rst:2:23", "the changelog is of 'other', the package is 'talker'"),
         ),
     )
 

@@ -31,8 +31,7 @@ class ChangelogWithoutVersion(Rule):
     severity = Severity.INFO
     examples = (
         Example(
-            "there",
-            {"package.xml": _MANIFEST.format("0.1.0"), "CHANGELOG.rst": _TITLE + _SECTION},
+            "there", {"package.xml": _MANIFEST.format("0.1.0"), "CHANGELOG.rst": _TITLE + _SECTION}
         ),
         Example(
             "still to come",
@@ -44,11 +43,9 @@ class ChangelogWithoutVersion(Rule):
         Example(
             "raised by hand",
             {"package.xml": _MANIFEST.format("0.2.0"), "CHANGELOG.rst": _TITLE + _SECTION},
-            reports=(
-                Report(
-                    "CHANGELOG.rst:5:1",
-                    "no section for 0.2.0, the version in package.xml, line 2; the newest is 0.1.0",
-                ),
+            Report(
+                "CHANGELOG.rst:5:1",
+                "no section for 0.2.0, the version in package.xml, line 2; the newest is 0.1.0",
             ),
         ),
     )

@@ -36,30 +36,24 @@ class FixtureMadeWrongly(Rule):
         Example(
             "a scope that does not exist",
             {"test/test_text.py": _TEST.format("modul", "")},
-            reports=(
-                Report(
-                    "test/test_text.py:9:2",
-                    "there is no scope 'modul', but function, class, module, package, session",
-                ),
+            Report(
+                "test/test_text.py:9:2",
+                "there is no scope 'modul', but function, class, module, package, session",
             ),
         ),
         Example(
             "a wider scope than that of what it takes",
             {"test/test_text.py": _TEST.format("module", "")},
-            reports=(
-                Report(
-                    "test/test_text.py:9:2",
-                    "the scope is 'module', and it takes word of scope 'function'",
-                ),
+            Report(
+                "test/test_text.py:9:2",
+                "the scope is 'module', and it takes word of scope 'function'",
             ),
         ),
         Example(
             "two values",
             {"test/test_text.py": _TEST.format("function", "    yield 'b'\n")},
-            reports=(
-                Report(
-                    "test/test_text.py:9:2", "the fixture text yields twice: pytest takes one value"
-                ),
+            Report(
+                "test/test_text.py:9:2", "the fixture text yields twice: pytest takes one value"
             ),
         ),
     )

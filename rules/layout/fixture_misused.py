@@ -48,28 +48,20 @@ class FixtureMisused(Rule):
         Example(
             "called",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
-            reports=(
-                Report(
-                    "test/test_text.py:10:12",
-                    "text is a fixture: take it as an argument instead of calling it",
-                ),
+            Report(
+                "test/test_text.py:10:12",
+                "text is a fixture: take it as an argument instead of calling it",
             ),
         ),
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            reports=(
-                Report("test/test_text.py:9:5", "there is no fixture 'txt'; closest: 'text'"),
-            ),
+            Report("test/test_text.py:9:5", "there is no fixture 'txt'; closest: 'text'"),
         ),
         Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
-            reports=(
-                Report(
-                    "test/test_text.py:10:12", "the fixture text returns nothing, so this is None"
-                ),
-            ),
+            Report("test/test_text.py:10:12", "the fixture text returns nothing, so this is None"),
         ),
     )
 

@@ -32,11 +32,9 @@ class IgnoredByColcon(Rule):
         Example(
             "a marker left over from an experiment",
             {"package.xml": "<package/>\n", "COLCON_IGNORE": ""},
-            reports=(
-                Report(
-                    "COLCON_IGNORE:1:1",
-                    "COLCON_IGNORE hides the package from colcon: it is never built",
-                ),
+            Report(
+                "COLCON_IGNORE:1:1",
+                "COLCON_IGNORE hides the package from colcon: it is never built",
             ),
         ),
     )

@@ -48,38 +48,32 @@ class LaunchTestMisused(Rule):
         Example(
             "never ready",
             {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
-            reports=(
-                Report(
-                    "test/test_talker.py:9:5",
-                    "generate_test_description has no ReadyToTest() in its list: "
-                    "launch_testing refuses it",
-                ),
+            Report(
+                "test/test_talker.py:9:5",
+                "generate_test_description has no ReadyToTest() in its list: "
+                "launch_testing refuses it",
             ),
         ),
         Example(
             "no mark",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", *_RIGHT[1:])},
-            reports=(
-                Report(
-                    "test/test_talker.py:8:5",
-                    "@pytest.mark.launch_test is missing: pytest does not start what "
-                    "generate_test_description describes",
-                ),
+            Report(
+                "test/test_talker.py:8:5",
+                "@pytest.mark.launch_test is missing: pytest does not start what "
+                "generate_test_description describes",
             ),
         ),
         Example(
             "nothing returned, no TestCase",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", "", _RIGHT[2], "object")},
-            reports=(
-                Report(
-                    "test/test_talker.py:8:5",
-                    "generate_test_description returns nothing: launch_testing needs a "
-                    "LaunchDescription",
-                ),
-                Report(
-                    "test/test_talker.py:12:7",
-                    "launch_testing does not run TestTalker: it is not a TestCase",
-                ),
+            Report(
+                "test/test_talker.py:8:5",
+                "generate_test_description returns nothing: launch_testing needs a "
+                "LaunchDescription",
+            ),
+            Report(
+                "test/test_talker.py:12:7",
+                "launch_testing does not run TestTalker: it is not a TestCase",
             ),
         ),
     )

@@ -30,7 +30,7 @@ class LicenceFileMissing(Rule):
         Example(
             "nowhere",
             {"package.xml": "<package/>\n", "setup.py": ""},
-            reports=(Report("package.xml:1:1", "there is no LICENSE file here or above"),),
+            Report("package.xml:1:1", "there is no LICENSE file here or above"),
         ),
     )
 

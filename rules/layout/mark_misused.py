@@ -11,8 +11,7 @@ from scaffold.api.tests import keywords, marks, test_functions
 
 _MEANT = {
     **dict.fromkeys(
-        ("parameterize", "parametrise", "parameterise", "parametize", "parametrized"),
-        "parametrize",
+        ("parameterize", "parametrise", "parameterise", "parametize", "parametrized"), "parametrize"
     ),
     **dict.fromkeys(("parameterized", "parameters", "parameter"), "parametrize"),
     **dict.fromkeys(("skip_if", "skipIf", "skif"), "skipif"),
@@ -43,11 +42,8 @@ class MarkMisused(TestRule):
         Example(
             "misspelt",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
-            reports=(
-                Report(
-                    "test/test_text.py:4:2",
-                    "pytest has no mark 'parameterize'; closest: 'parametrize'",
-                ),
+            Report(
+                "test/test_text.py:4:2", "pytest has no mark 'parameterize'; closest: 'parametrize'"
             ),
         ),
         Example(
@@ -56,11 +52,9 @@ class MarkMisused(TestRule):
                 "test/test_text.py": "import pytest\n\n\n@pytest.mark.skipif(True)\n"
                 "def test_one():\n    pass\n"
             },
-            reports=(
-                Report(
-                    "test/test_text.py:4:2",
-                    "a condition that is not a string needs reason='...': pytest stops here",
-                ),
+            Report(
+                "test/test_text.py:4:2",
+                "a condition that is not a string needs reason='...': pytest stops here",
             ),
         ),
     )

@@ -36,11 +36,9 @@ class NestedPackage(Rule):
         Example(
             "a package of messages inside the package that uses them",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
-            reports=(
-                Report(
-                    "robot_msgs/package.xml:1:1",
-                    "lies inside the package 'the package above it': colcon never builds it",
-                ),
+            Report(
+                "robot_msgs/package.xml:1:1",
+                "lies inside the package 'the package above it': colcon never builds it",
             ),
         ),
     )

@@ -42,15 +42,13 @@ class NodeTestMisused(Rule):
         Example(
             "no init, nothing spins",
             {"test/test_node.py": _TEST.format("pass", "pass")},
-            reports=(
-                Report(
-                    "test/test_node.py:8:12",
-                    "nothing calls rclpy.init() before this node is made: NotInitializedException",
-                ),
-                Report(
-                    "test/test_node.py:10:5",
-                    "nothing spins in this test, so the callback is never called",
-                ),
+            Report(
+                "test/test_node.py:8:12",
+                "nothing calls rclpy.init() before this node is made: NotInitializedException",
+            ),
+            Report(
+                "test/test_node.py:10:5",
+                "nothing spins in this test, so the callback is never called",
             ),
         ),
         Example(
@@ -59,11 +57,9 @@ class NodeTestMisused(Rule):
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
                 "def test_two():\n    rclpy.init()\n"
             },
-            reports=(
-                Report(
-                    "test/test_node.py:9:5",
-                    "the test of line 5 calls init() as well, and nothing shuts down",
-                ),
+            Report(
+                "test/test_node.py:9:5",
+                "the test of line 5 calls init() as well, and nothing shuts down",
             ),
         ),
     )

@@ -33,16 +33,12 @@ class ParametrizeValuesDiffer(TestRule):
         Example(
             "one too many",
             {"test/test_text.py": _TEST.format("[('a', 1), ('b', 1, 2)]")},
-            reports=(
-                Report("test/test_text.py:4:2", "there are 2 names, and ('b', 1, 2) has 3 values"),
-            ),
+            Report("test/test_text.py:4:2", "there are 2 names, and ('b', 1, 2) has 3 values"),
         ),
         Example(
             "none",
             {"test/test_text.py": _TEST.format("[]")},
-            reports=(
-                Report("test/test_text.py:4:2", "there are no values: pytest skips the test"),
-            ),
+            Report("test/test_text.py:4:2", "there are no values: pytest skips the test"),
         ),
     )
 

@@ -45,13 +45,11 @@ class SubpackageWithoutInit(Rule):
         Example(
             "without",
             _FILES,
-            reports=(
-                Report(
-                    "talker/text/__init__.py:1:1",
-                    "missing: talker/node.py:1 imports from talker/text/, which is not "
-                    "installed without it",
-                    fix="create talker/text/__init__.py",
-                ),
+            Report(
+                "talker/text/__init__.py:1:1",
+                "missing: talker/node.py:1 imports from talker/text/, which is not "
+                "installed without it",
+                fix="create talker/text/__init__.py",
             ),
             fixed={"talker/text/__init__.py": ""},
         ),

@@ -47,22 +47,18 @@ class TestCaseMisused(TestRule):
         Example(
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
-            reports=(
-                Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
-                Report(
-                    "test/test_text.py:8:9",
-                    "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
-                ),
+            Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
+            Report(
+                "test/test_text.py:8:9",
+                "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
             ),
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
-            reports=(
-                Report(
-                    "test/test_text.py:5:9",
-                    "pytest calls setUp in a TestCase only; here it is setup_method",
-                ),
+            Report(
+                "test/test_text.py:5:9",
+                "pytest calls setUp in a TestCase only; here it is setup_method",
             ),
         ),
     )

@@ -35,11 +35,9 @@ class TestFileNotCollected(Rule):
         Example(
             "a name that pytest passes over",
             {"setup.py": "", "test/talker_tests.py": "def test_talk():\n    pass\n"},
-            reports=(
-                Report(
-                    "test/talker_tests.py:1:1",
-                    "test_talk() never runs: pytest collects test_*.py and *_test.py only",
-                ),
+            Report(
+                "test/talker_tests.py:1:1",
+                "test_talk() never runs: pytest collects test_*.py and *_test.py only",
             ),
         ),
     )

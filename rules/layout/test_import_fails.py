@@ -41,12 +41,9 @@ class TestImportFails(Rule):
                 "test/test_b.py": _TEST.format("from test.helpers import make"),
                 **_HELPER,
             },
-            reports=(
-                Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
-                Report(
-                    "test/test_b.py:1:1",
-                    "test is a package of Python: write `from helpers import ...`",
-                ),
+            Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
+            Report(
+                "test/test_b.py:1:1", "test is a package of Python: write `from helpers import ...`"
             ),
         ),
         Example(
@@ -57,11 +54,7 @@ class TestImportFails(Rule):
                 "test/test_a.py": _TEST.format("from helpers import make"),
                 **_HELPER,
             },
-            reports=(
-                Report(
-                    "test/test_a.py:1:1", "test/ is a package: write `from .helpers import ...`"
-                ),
-            ),
+            Report("test/test_a.py:1:1", "test/ is a package: write `from .helpers import ...`"),
         ),
     )
 

@@ -32,11 +32,8 @@ class TestInTest(TestRule):
         Example(
             "a function that nothing calls",
             {"test/test_text.py": _TEST.format(_MORE)},
-            reports=(
-                Report(
-                    "test/test_text.py:8:5",
-                    "test_more is inside test_text: pytest does not collect it",
-                ),
+            Report(
+                "test/test_text.py:8:5", "test_more is inside test_text: pytest does not collect it"
             ),
         ),
     )

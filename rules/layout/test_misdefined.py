@@ -40,13 +40,10 @@ class TestMisdefined(Rule):
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n    def test_all():\n        assert True\n"
             },
-            reports=(
-                Report(
-                    "test/test_text.py:5:30",
-                    "test_text takes no argument 'number': pytest stops here",
-                ),
-                Report("test/test_text.py:9:9", "test_all is a method without self: TypeError"),
+            Report(
+                "test/test_text.py:5:30", "test_text takes no argument 'number': pytest stops here"
             ),
+            Report("test/test_text.py:9:9", "test_all is a method without self: TypeError"),
         ),
         Example(
             "a name that a fixture takes",
@@ -58,11 +55,9 @@ class TestMisdefined(Rule):
         Example(
             "the section of setup.cfg",
             {"setup.py": "", "setup.cfg": "[pytest]\nxfail_strict = true\n"},
-            reports=(
-                Report(
-                    "setup.cfg:1:2",
-                    "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
-                ),
+            Report(
+                "setup.cfg:1:2",
+                "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
             ),
         ),
     )

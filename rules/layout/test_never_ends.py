@@ -44,22 +44,18 @@ class TestNeverEnds(Rule):
                     "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
                 )
             },
-            reports=(
-                Report(
-                    "test/test_node.py:9:5",
-                    "call() waits for an answer while nothing spins: use call_async, "
-                    "and spin until it is done",
-                ),
+            Report(
+                "test/test_node.py:9:5",
+                "call() waits for an answer while nothing spins: use call_async, "
+                "and spin until it is done",
             ),
         ),
         Example(
             "for ever",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
-            reports=(
-                Report(
-                    "test/test_node.py:8:5",
-                    "nothing ends this: the test waits forever; use spin_once with timeout_sec",
-                ),
+            Report(
+                "test/test_node.py:8:5",
+                "nothing ends this: the test waits forever; use spin_once with timeout_sec",
             ),
         ),
     )

@@ -45,21 +45,17 @@ class TestNeverRun(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format(_CHECK)},
-            reports=(
-                Report(
-                    "test/test_text.py:5:5",
-                    "pytest does not run check: its name does not begin with test",
-                ),
+            Report(
+                "test/test_text.py:5:5",
+                "pytest does not run check: its name does not begin with test",
             ),
         ),
         Example(
             "a class of another name",
             {"test/test_text.py": _TEST.format(_CLASS)},
-            reports=(
-                Report(
-                    "test/test_text.py:5:7",
-                    "pytest does not run TextTests: its name does not begin with Test",
-                ),
+            Report(
+                "test/test_text.py:5:7",
+                "pytest does not run TextTests: its name does not begin with Test",
             ),
         ),
     )

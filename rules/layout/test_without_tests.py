@@ -30,11 +30,9 @@ class TestWithoutTests(Rule):
         Example(
             "another name",
             {"test/test_text.py": "def check_text():\n    assert True\n"},
-            reports=(
-                Report(
-                    "test/test_text.py:1:1",
-                    "pytest collects no test here: names begin with test_ or Test",
-                ),
+            Report(
+                "test/test_text.py:1:1",
+                "pytest collects no test here: names begin with test_ or Test",
             ),
         ),
         Example(
@@ -44,21 +42,14 @@ class TestWithoutTests(Rule):
                 "    def __init__(self):\n        self.n = 1\n\n"
                 "    def test_text(self):\n        assert self.n\n"
             },
-            reports=(
-                Report(
-                    "test/test_text.py:1:7",
-                    "pytest does not collect TestText: it has a constructor",
-                ),
+            Report(
+                "test/test_text.py:1:7", "pytest does not collect TestText: it has a constructor"
             ),
         ),
         Example(
             "a comparison that is returned",
             {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
-            reports=(
-                Report(
-                    "test/test_text.py:2:5", "what a test returns is not looked at: write assert"
-                ),
-            ),
+            Report("test/test_text.py:2:5", "what a test returns is not looked at: write assert"),
         ),
     )
 

@@ -48,17 +48,15 @@ class AnswerNotUnwrapped(MessageRule):
         Example(
             "not unwrapped",
             {"sender.py": _NODE.format("", "")},
-            reports=(
-                Report(
-                    "sender.py:16:21",
-                    "this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
-                    "AttributeError; use .feedback.sequence",
-                ),
-                Report(
-                    "sender.py:24:21",
-                    "this wrapper has only 'result' and 'status', not 'sequence': "
-                    "AttributeError; use .result.sequence",
-                ),
+            Report(
+                "sender.py:16:21",
+                "this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
+                "AttributeError; use .feedback.sequence",
+            ),
+            Report(
+                "sender.py:24:21",
+                "this wrapper has only 'result' and 'status', not 'sequence': "
+                "AttributeError; use .result.sequence",
             ),
         ),
     )

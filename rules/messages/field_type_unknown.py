@@ -40,17 +40,15 @@ class FieldTypeUnknown(Rule):
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
                 "msg/Beat.msg": "Header header\ngeometry_msgs/Pont point\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:1",
-                    "type 'my_msgs/Header': my_msgs has no message 'Header'; did you "
-                    "mean 'std_msgs/Header'?",
-                ),
-                Report(
-                    "msg/Beat.msg:2:1",
-                    "type 'geometry_msgs/Pont': geometry_msgs has no message 'Pont'; "
-                    "did you mean 'Point'?",
-                ),
+            Report(
+                "msg/Beat.msg:1:1",
+                "type 'my_msgs/Header': my_msgs has no message 'Header'; did you "
+                "mean 'std_msgs/Header'?",
+            ),
+            Report(
+                "msg/Beat.msg:2:1",
+                "type 'geometry_msgs/Pont': geometry_msgs has no message 'Pont'; "
+                "did you mean 'Point'?",
             ),
         ),
     )

@@ -41,9 +41,7 @@ class InterfaceInItself(Rule):
                 "msg/Node.msg": "int32 id\nmy_msgs/Node[] children\n",
                 "msg/Tree.msg": "Node root\n",
             },
-            reports=(
-                Report("msg/Node.msg:2:1", "message 'Node' contains itself: the build stops"),
-            ),
+            Report("msg/Node.msg:2:1", "message 'Node' contains itself: the build stops"),
         ),
         Example(
             "each other",
@@ -53,15 +51,13 @@ class InterfaceInItself(Rule):
                 "msg/Node.msg": "Tree tree\n",
                 "msg/Tree.msg": "Node[] nodes\n",
             },
-            reports=(
-                Report(
-                    "msg/Node.msg:1:1",
-                    "message 'Node' contains 'Tree', which contains 'Node': the build stops",
-                ),
-                Report(
-                    "msg/Tree.msg:1:1",
-                    "message 'Tree' contains 'Node', which contains 'Tree': the build stops",
-                ),
+            Report(
+                "msg/Node.msg:1:1",
+                "message 'Node' contains 'Tree', which contains 'Node': the build stops",
+            ),
+            Report(
+                "msg/Tree.msg:1:1",
+                "message 'Tree' contains 'Node', which contains 'Tree': the build stops",
             ),
         ),
     )

@@ -50,29 +50,25 @@ class InterfaceMalformed(Rule):
                 "std_msgs/msg/String text\n",
                 "srv/Add.srv": "int32 a\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:1",
-                    "'int' is neither a primitive type nor an interface name (a capital "
-                    "letter, then letters and digits)",
-                ),
-                Report("msg/Beat.msg:2:13", "'256' is out of range for 'uint8': 0 to 255"),
-                Report(
-                    "msg/Beat.msg:3:3", "indented line: rosidl needs the type in the first column"
-                ),
-                Report(
-                    "msg/Beat.msg:4:1",
-                    "invalid array size in 'int32[0]'; write a positive integer, as in "
-                    "'[3]', or '[<=3]' for at most three elements",
-                ),
-                Report(
-                    "msg/Beat.msg:5:1",
-                    "definitions name this type without 'msg'; write 'std_msgs/String'",
-                ),
-                Report(
-                    "srv/Add.srv:1:1",
-                    "a .srv file needs 1 line '---' between request, response, but this file has 0",
-                ),
+            Report(
+                "msg/Beat.msg:1:1",
+                "'int' is neither a primitive type nor an interface name (a capital "
+                "letter, then letters and digits)",
+            ),
+            Report("msg/Beat.msg:2:13", "'256' is out of range for 'uint8': 0 to 255"),
+            Report("msg/Beat.msg:3:3", "indented line: rosidl needs the type in the first column"),
+            Report(
+                "msg/Beat.msg:4:1",
+                "invalid array size in 'int32[0]'; write a positive integer, as in "
+                "'[3]', or '[<=3]' for at most three elements",
+            ),
+            Report(
+                "msg/Beat.msg:5:1",
+                "definitions name this type without 'msg'; write 'std_msgs/String'",
+            ),
+            Report(
+                "srv/Add.srv:1:1",
+                "a .srv file needs 1 line '---' between request, response, but this file has 0",
             ),
         ),
     )

@@ -39,7 +39,7 @@ class InterfaceUnknown(MessageRule):
                 "talker.py": "from std_msgs.msg import String\n"
                 "from std_srvs.srv import SetBool, SetBool_Request\n"
                 "from unheard_msgs.msg import Thing\n"
-                "try:\n    from std_msgs.msg import Newer\nexcept ImportError:\n    Newer = None\n",
+                "try:\n    from std_msgs.msg import Newer\nexcept ImportError:\n    Newer = None\n"
             },
         ),
         Example(
@@ -50,24 +50,20 @@ class InterfaceUnknown(MessageRule):
                 "from std_msgs.msg import Twist\n"
                 "from std_msgs.srv import Empty\n"
                 "from std_msgs.msgs import Bool\n\n"
-                "message = std_msgs.msg.Sting()\n",
+                "message = std_msgs.msg.Sting()\n"
             },
-            reports=(
-                Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
-                Report(
-                    "talker.py:3:26",
-                    "std_msgs.msg has no 'Twist'; did you mean 'geometry_msgs/msg/Twist'?",
-                ),
-                Report(
-                    "talker.py:4:26",
-                    "std_msgs.srv has no 'Empty'; did you mean 'std_msgs/msg/Empty' or "
-                    "'std_srvs/srv/Empty'?",
-                ),
-                Report(
-                    "talker.py:5:27", "std_msgs has no module 'msgs'; did you mean 'std_msgs.msg'?"
-                ),
-                Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
+            Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
+            Report(
+                "talker.py:3:26",
+                "std_msgs.msg has no 'Twist'; did you mean 'geometry_msgs/msg/Twist'?",
             ),
+            Report(
+                "talker.py:4:26",
+                "std_msgs.srv has no 'Empty'; did you mean 'std_msgs/msg/Empty' or "
+                "'std_srvs/srv/Empty'?",
+            ),
+            Report("talker.py:5:27", "std_msgs has no module 'msgs'; did you mean 'std_msgs.msg'?"),
+            Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
         ),
         Example(
             "imported without the module",
@@ -75,23 +71,19 @@ class InterfaceUnknown(MessageRule):
                 "talker.py": "from sensor_msgs import msg\n"
                 "from std_msgs import Bool, msg as messages\n"
                 "from std_srvs import Trigger\n"
-                "from sensor_msgs_py import point_cloud2\n",
+                "from sensor_msgs_py import point_cloud2\n"
             },
-            reports=(
-                Report(
-                    "talker.py:2:22",
-                    "'Bool' is not in std_msgs: ImportError; it is in std_msgs.msg",
-                ),
-                Report(
-                    "talker.py:3:22",
-                    "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv",
-                ),
+            Report(
+                "talker.py:2:22", "'Bool' is not in std_msgs: ImportError; it is in std_msgs.msg"
+            ),
+            Report(
+                "talker.py:3:22", "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv"
             ),
         ),
         Example(
             "from a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            reports=(Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),),
+            Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",

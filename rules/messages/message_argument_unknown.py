@@ -32,23 +32,19 @@ class MessageArgumentUnknown(MessageRule):
         Example(
             "misspelled",
             {"talker.py": _PREFIX.format("dta='hello'")},
-            reports=(
-                Report(
-                    "talker.py:3:18",
-                    "std_msgs/msg/String has no field 'dta': the value is silently "
-                    "dropped; did you mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 "
-                    "Jazzy)",
-                ),
+            Report(
+                "talker.py:3:18",
+                "std_msgs/msg/String has no field 'dta': the value is silently "
+                "dropped; did you mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 "
+                "Jazzy)",
             ),
         ),
         Example(
             "positional",
             {"talker.py": _PREFIX.format("'hello'")},
-            reports=(
-                Report(
-                    "talker.py:3:18",
-                    "std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
-                ),
+            Report(
+                "talker.py:3:18",
+                "std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
             ),
         ),
     )

@@ -46,26 +46,22 @@ class MessageUsedAsValue(MessageRule):
         Example(
             "as a dict, as a list",
             {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
-            reports=(
-                Report(
-                    "listener.py:12:32",
-                    "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
-                ),
-                Report(
-                    "listener.py:15:16",
-                    "std_msgs/msg/Float32MultiArray has no length: TypeError; use one "
-                    "of its fields",
-                ),
-                Report(
-                    "listener.py:15:26",
-                    "std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use "
-                    "one of its fields",
-                ),
-                Report(
-                    "listener.py:15:34",
-                    "std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use "
-                    "one of its fields",
-                ),
+            Report(
+                "listener.py:12:32",
+                "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
+            ),
+            Report(
+                "listener.py:15:16",
+                "std_msgs/msg/Float32MultiArray has no length: TypeError; use one of its fields",
+            ),
+            Report(
+                "listener.py:15:26",
+                "std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use "
+                "one of its fields",
+            ),
+            Report(
+                "listener.py:15:34",
+                "std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use one of its fields",
             ),
         ),
         Example(
@@ -75,19 +71,14 @@ class MessageUsedAsValue(MessageRule):
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
                 )
             },
-            reports=(
-                Report(
-                    "listener.py:12:32", "msg.data is a str, which has no 'data': AttributeError"
-                ),
-                Report(
-                    "listener.py:15:16",
-                    "msg.layout.data_offset is a field, not a method: TypeError; remove the ()",
-                ),
-                Report(
-                    "listener.py:15:54",
-                    "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one "
-                    "of its fields",
-                ),
+            Report("listener.py:12:32", "msg.data is a str, which has no 'data': AttributeError"),
+            Report(
+                "listener.py:15:16",
+                "msg.layout.data_offset is a field, not a method: TypeError; remove the ()",
+            ),
+            Report(
+                "listener.py:15:54",
+                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
             ),
         ),
         Example(
@@ -97,12 +88,9 @@ class MessageUsedAsValue(MessageRule):
                     "        return", "        for x in msg:\n            print(x)\n        return"
                 )
             },
-            reports=(
-                Report(
-                    "listener.py:15:18",
-                    "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one "
-                    "of its fields",
-                ),
+            Report(
+                "listener.py:15:18",
+                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
             ),
         ),
     )

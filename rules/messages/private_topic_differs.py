@@ -45,12 +45,10 @@ class PrivateTopicDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            reports=(
-                Report(
-                    "b.py:8:42",
-                    "no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ "
-                    "expands to the node name",
-                ),
+            Report(
+                "b.py:8:42",
+                "no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ "
+                "expands to the node name",
             ),
         ),
         Example(
@@ -59,12 +57,10 @@ class PrivateTopicDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
             },
-            reports=(
-                Report(
-                    "b.py:8:42",
-                    "no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ "
-                    "expands to the node name",
-                ),
+            Report(
+                "b.py:8:42",
+                "no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ "
+                "expands to the node name",
             ),
         ),
     )

@@ -48,62 +48,52 @@ class PublishedTypeDiffers(MessageRule):
         Example(
             "another message, the response of a service",
             {"talker.py": _NODE.format("Bool(data=True)", "Trigger.Response()")},
-            reports=(
-                Report(
-                    "talker.py:13:26",
-                    "std_msgs/msg/Bool sent through the publisher of line 9, which "
-                    "takes std_msgs/msg/String: TypeError",
-                ),
-                Report(
-                    "talker.py:14:32",
-                    "std_srvs/srv/Trigger.Response sent through the client of line 10, "
-                    "which takes std_srvs/srv/Trigger.Request: TypeError",
-                ),
+            Report(
+                "talker.py:13:26",
+                "std_msgs/msg/Bool sent through the publisher of line 9, which "
+                "takes std_msgs/msg/String: TypeError",
+            ),
+            Report(
+                "talker.py:14:32",
+                "std_srvs/srv/Trigger.Response sent through the client of line 10, "
+                "which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
         ),
         Example(
             "a str without its message, the class",
             {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
-            reports=(
-                Report(
-                    "talker.py:13:26",
-                    "a str sent through the publisher of line 9, which takes "
-                    "std_msgs/msg/String: TypeError",
-                ),
-                Report(
-                    "talker.py:14:32",
-                    "the class std_srvs/srv/Trigger.Request sent through the client of "
-                    "line 10, which takes std_srvs/srv/Trigger.Request: TypeError",
-                ),
+            Report(
+                "talker.py:13:26",
+                "a str sent through the publisher of line 9, which takes "
+                "std_msgs/msg/String: TypeError",
+            ),
+            Report(
+                "talker.py:14:32",
+                "the class std_srvs/srv/Trigger.Request sent through the client of "
+                "line 10, which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
         ),
         Example(
             "the class of the service",
             {"talker.py": _NODE.format("String()", "Trigger")},
-            reports=(
-                Report(
-                    "talker.py:14:32",
-                    "the class std_srvs/srv/Trigger sent through the client of line 10, "
-                    "which takes std_srvs/srv/Trigger.Request: TypeError",
-                ),
+            Report(
+                "talker.py:14:32",
+                "the class std_srvs/srv/Trigger sent through the client of line 10, "
+                "which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
         ),
         Example(
             "a number, a field of a response",
-            {
-                "talker.py": _NODE.format("1.5", "Trigger.Response().message"),
-            },
-            reports=(
-                Report(
-                    "talker.py:13:26",
-                    "a number sent through the publisher of line 9, which takes "
-                    "std_msgs/msg/String: TypeError",
-                ),
-                Report(
-                    "talker.py:14:32",
-                    "field 'message' sent through the client of line 10, which takes "
-                    "std_srvs/srv/Trigger.Request: TypeError",
-                ),
+            {"talker.py": _NODE.format("1.5", "Trigger.Response().message")},
+            Report(
+                "talker.py:13:26",
+                "a number sent through the publisher of line 9, which takes "
+                "std_msgs/msg/String: TypeError",
+            ),
+            Report(
+                "talker.py:14:32",
+                "field 'message' sent through the client of line 10, which takes "
+                "std_srvs/srv/Trigger.Request: TypeError",
             ),
         ),
     )

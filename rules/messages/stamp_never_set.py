@@ -48,12 +48,10 @@ class StampNeverSet(Rule):
         Example(
             "never set",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "talker.py:11:19",
-                    "sensor_msgs/msg/Temperature is published in line 13 with a zero "
-                    "stamp; set header.stamp",
-                ),
+            Report(
+                "talker.py:11:19",
+                "sensor_msgs/msg/Temperature is published in line 13 with a zero "
+                "stamp; set header.stamp",
             ),
         ),
         Example(

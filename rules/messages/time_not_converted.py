@@ -37,19 +37,17 @@ class TimeNotConverted(MessageRule):
         Example(
             "the time of the clock, for a field and for the header of an unknown message",
             {"talker.py": _CODE.format("", "")},
-            reports=(
-                Report(
-                    "talker.py:8:32",
-                    "stamp is a builtin_interfaces/msg/Time, but this is an rclpy Time: "
-                    "AttributeError when published; append .to_msg()",
-                    fix="append .to_msg()",
-                ),
-                Report(
-                    "talker.py:9:30",
-                    "header.stamp is a builtin_interfaces/msg/Time, but this is an "
-                    "rclpy Time: AttributeError when published; append .to_msg()",
-                    fix="append .to_msg()",
-                ),
+            Report(
+                "talker.py:8:32",
+                "stamp is a builtin_interfaces/msg/Time, but this is an rclpy Time: "
+                "AttributeError when published; append .to_msg()",
+                fix="append .to_msg()",
+            ),
+            Report(
+                "talker.py:9:30",
+                "header.stamp is a builtin_interfaces/msg/Time, but this is an "
+                "rclpy Time: AttributeError when published; append .to_msg()",
+                fix="append .to_msg()",
             ),
             fixed={"talker.py": _CODE.format(".to_msg()", ".to_msg()")},
         ),

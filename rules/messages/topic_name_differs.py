@@ -46,9 +46,7 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
             },
-            reports=(
-                Report("b.py:8:42", "no publisher for 'chater'; did you mean 'chatter' (a.py:8)?"),
-            ),
+            Report("b.py:8:42", "no publisher for 'chater'; did you mean 'chatter' (a.py:8)?"),
         ),
     )
 

@@ -45,17 +45,15 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
             },
-            reports=(
-                Report(
-                    "a.py:9:31",
-                    "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
-                    "in b.py:9: they never connect",
-                ),
-                Report(
-                    "b.py:9:34",
-                    "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
-                    "in a.py:9: they never connect",
-                ),
+            Report(
+                "a.py:9:31",
+                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
+                "in b.py:9: they never connect",
+            ),
+            Report(
+                "b.py:9:34",
+                "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
+                "in a.py:9: they never connect",
             ),
         ),
         Example(
@@ -64,17 +62,15 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
                 "b.py": _NODE.format("client(Empty, 'reset')"),
             },
-            reports=(
-                Report(
-                    "a.py:9:29",
-                    "'reset' has type std_srvs/srv/Trigger here, but std_srvs/srv/Empty "
-                    "in b.py:9: they never connect",
-                ),
-                Report(
-                    "b.py:9:28",
-                    "'reset' has type std_srvs/srv/Empty here, but std_srvs/srv/Trigger "
-                    "in a.py:9: they never connect",
-                ),
+            Report(
+                "a.py:9:29",
+                "'reset' has type std_srvs/srv/Trigger here, but std_srvs/srv/Empty "
+                "in b.py:9: they never connect",
+            ),
+            Report(
+                "b.py:9:28",
+                "'reset' has type std_srvs/srv/Empty here, but std_srvs/srv/Trigger "
+                "in a.py:9: they never connect",
             ),
         ),
     )

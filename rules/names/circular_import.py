@@ -33,17 +33,15 @@ class CircularImport(Rule):
                 "talker/text.py": "from talker.node import NODE\n\nTEXT = ''\n",
                 "talker/node.py": "from talker.text import TEXT\n\nNODE = 1\n",
             },
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "talker/text.py:1 imports from this module in turn: ImportError, "
-                    "whichever comes first",
-                ),
-                Report(
-                    "talker/text.py:1:1",
-                    "talker/node.py:1 imports from this module in turn: ImportError, "
-                    "whichever comes first",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "talker/text.py:1 imports from this module in turn: ImportError, "
+                "whichever comes first",
+            ),
+            Report(
+                "talker/text.py:1:1",
+                "talker/node.py:1 imports from this module in turn: ImportError, "
+                "whichever comes first",
             ),
         ),
     )

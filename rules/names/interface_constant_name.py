@@ -26,10 +26,7 @@ class InterfaceConstantName(Rule):
     examples = (
         Example(
             "capitals, a default",
-            {
-                "CMakeLists.txt": _LISTS,
-                "msg/Beat.msg": "int32 MAX_COUNT=5\nint32 count 1\n",
-            },
+            {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "int32 MAX_COUNT=5\nint32 count 1\n"},
         ),
         Example(
             "small letters, a default with an equals sign, a bound with spaces",
@@ -37,21 +34,19 @@ class InterfaceConstantName(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:7",
-                    "the '=' makes this line a constant, and 'max' is no name of one: "
-                    "rosidl wants capitals, digits and single underscores, a letter "
-                    "first, as in 'MAX'",
-                ),
-                Report(
-                    "msg/Beat.msg:2:7",
-                    "the '=' makes this line a constant, and 'count' is no name of one: "
-                    "rosidl wants capitals, digits and single underscores, a letter "
-                    "first, as in 'COUNT'",
-                ),
-                Report("msg/Beat.msg:3:8", "a bound is written without blanks, as in 'string<=10'"),
+            Report(
+                "msg/Beat.msg:1:7",
+                "the '=' makes this line a constant, and 'max' is no name of one: "
+                "rosidl wants capitals, digits and single underscores, a letter "
+                "first, as in 'MAX'",
             ),
+            Report(
+                "msg/Beat.msg:2:7",
+                "the '=' makes this line a constant, and 'count' is no name of one: "
+                "rosidl wants capitals, digits and single underscores, a letter "
+                "first, as in 'COUNT'",
+            ),
+            Report("msg/Beat.msg:3:8", "a bound is written without blanks, as in 'string<=10'"),
         ),
     )
 

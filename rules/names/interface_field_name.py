@@ -24,30 +24,22 @@ class InterfaceFieldName(Rule):
     code = "NM021"
     name = "interface-field-name"
     examples = (
-        Example(
-            "lower case",
-            {
-                "CMakeLists.txt": _LISTS,
-                "msg/Beat.msg": "float64 max_speed_2\n",
-            },
-        ),
+        Example("lower case", {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "float64 max_speed_2\n"}),
         Example(
             "camel case, a trailing underscore",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:2:9",
-                    "'maxSpeed' is no field name: rosidl wants lower-case letters, "
-                    "digits and single underscores, a letter first, as in 'max_speed'",
-                ),
-                Report(
-                    "msg/Beat.msg:3:7",
-                    "'next_' is no field name: rosidl wants lower-case letters, digits "
-                    "and single underscores, a letter first, as in 'next'",
-                ),
+            Report(
+                "msg/Beat.msg:2:9",
+                "'maxSpeed' is no field name: rosidl wants lower-case letters, "
+                "digits and single underscores, a letter first, as in 'max_speed'",
+            ),
+            Report(
+                "msg/Beat.msg:3:7",
+                "'next_' is no field name: rosidl wants lower-case letters, digits "
+                "and single underscores, a letter first, as in 'next'",
             ),
         ),
     )

@@ -30,39 +30,31 @@ class InterfaceFieldReserved(Rule):
         Example(
             "keywords",
             {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "string class\nint32 from\nbool ok\n"},
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:8",
-                    "'class' is a keyword of C or C++: the generated code does not compile",
-                ),
-                Report(
-                    "msg/Beat.msg:2:7",
-                    "'from' is a keyword of Python: 'message.from' is a SyntaxError",
-                ),
+            Report(
+                "msg/Beat.msg:1:8",
+                "'class' is a keyword of C or C++: the generated code does not compile",
+            ),
+            Report(
+                "msg/Beat.msg:2:7", "'from' is a keyword of Python: 'message.from' is a SyntaxError"
             ),
         ),
         Example(
             "macros",
             {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "int8 NULL=0\nint8 EIO=1\nint8 OK=2\n"},
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:6",
-                    "'NULL' is a macro of C: the generated C++ code does not compile",
-                ),
-                Report(
-                    "msg/Beat.msg:2:6",
-                    "'EIO' is a macro of C: the generated C++ code does not compile",
-                ),
+            Report(
+                "msg/Beat.msg:1:6",
+                "'NULL' is a macro of C: the generated C++ code does not compile",
+            ),
+            Report(
+                "msg/Beat.msg:2:6", "'EIO' is a macro of C: the generated C++ code does not compile"
             ),
         ),
         Example(
             "a type that Python cannot have",
             {"CMakeLists.txt": _LISTS.replace("Beat", "None"), "msg/None.msg": "int8 count\n"},
-            reports=(
-                Report(
-                    "msg/None.msg:1:1",
-                    "'None' is a keyword of Python: the generated module is a SyntaxError",
-                ),
+            Report(
+                "msg/None.msg:1:1",
+                "'None' is a keyword of Python: the generated module is a SyntaxError",
             ),
         ),
     )

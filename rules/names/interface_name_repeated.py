@@ -25,10 +25,7 @@ class InterfaceNameRepeated(Rule):
     examples = (
         Example(
             "the same name in request and response",
-            {
-                "CMakeLists.txt": _LISTS,
-                "srv/Add.srv": "int32 a\n---\nint32 a\n",
-            },
+            {"CMakeLists.txt": _LISTS, "srv/Add.srv": "int32 a\n---\nint32 a\n"},
         ),
         Example(
             "twice in the request",
@@ -36,10 +33,8 @@ class InterfaceNameRepeated(Rule):
                 "CMakeLists.txt": _LISTS,
                 "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n",
             },
-            reports=(
-                Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
-                Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
-            ),
+            Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
+            Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
         ),
     )
 

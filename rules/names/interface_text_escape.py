@@ -39,13 +39,9 @@ class InterfaceTextEscape(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "# C:\\users\nint32 count  # of C:\\data\\\n# all \\\nint8 code\n",
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:1", "rosidl cannot read the comment: truncated \\uXXXX escape"
-                ),
-                Report("msg/Beat.msg:2:14", "rosidl cannot read the comment: \\ at end of string"),
-                Report("msg/Beat.msg:3:1", "rosidl cannot read the comment: \\ at end of string"),
-            ),
+            Report("msg/Beat.msg:1:1", "rosidl cannot read the comment: truncated \\uXXXX escape"),
+            Report("msg/Beat.msg:2:14", "rosidl cannot read the comment: \\ at end of string"),
+            Report("msg/Beat.msg:3:1", "rosidl cannot read the comment: \\ at end of string"),
         ),
         Example(
             "a line end, a constant",
@@ -53,15 +49,11 @@ class InterfaceTextEscape(Rule):
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": 'int8 code  # ends with \\n\nstring HOME="C:\\users"\n',
             },
-            reports=(
-                Report(
-                    "msg/Beat.msg:1:12",
-                    "rosidl cannot read the comment: its \\n ends the line in the middle of a text",
-                ),
-                Report(
-                    "msg/Beat.msg:2:1", "rosidl cannot read the value: truncated \\uXXXX escape"
-                ),
+            Report(
+                "msg/Beat.msg:1:12",
+                "rosidl cannot read the comment: its \\n ends the line in the middle of a text",
             ),
+            Report("msg/Beat.msg:2:1", "rosidl cannot read the value: truncated \\uXXXX escape"),
         ),
     )
 

@@ -26,25 +26,14 @@ class InterfaceTypeName(Rule):
     code = "NM020"
     name = "interface-type-name"
     examples = (
-        Example(
-            "capital first",
-            {
-                "CMakeLists.txt": _LISTS,
-                "msg/Beat.msg": "int32 count\n",
-            },
-        ),
+        Example("capital first", {"CMakeLists.txt": _LISTS, "msg/Beat.msg": "int32 count\n"}),
         Example(
             "small letters and an underscore",
-            {
-                "CMakeLists.txt": _LISTS,
-                "msg/my_beat.msg": "int32 count\n",
-            },
-            reports=(
-                Report(
-                    "msg/my_beat.msg:1:1",
-                    "the file name 'my_beat' is no type name: rosidl wants letters and "
-                    "digits only, a capital first, as in 'MyBeat.msg'",
-                ),
+            {"CMakeLists.txt": _LISTS, "msg/my_beat.msg": "int32 count\n"},
+            Report(
+                "msg/my_beat.msg:1:1",
+                "the file name 'my_beat' is no type name: rosidl wants letters and "
+                "digits only, a capital first, as in 'MyBeat.msg'",
             ),
         ),
     )

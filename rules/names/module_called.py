@@ -35,9 +35,7 @@ class ModuleCalled(PythonRule):
         Example(
             "the module",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
-            reports=(
-                Report("setup.py:3:9", "'glob' is a module here: TypeError; use glob.glob()"),
-            ),
+            Report("setup.py:3:9", "'glob' is a module here: TypeError; use glob.glob()"),
         ),
     )
 

@@ -38,7 +38,7 @@ class ModuleOfRos1Imported(Rule):
         Example(
             "of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
-            reports=(Report("talker/node.py:2:1", "'rospy' is of ROS 1: ROS 2 has rclpy"),),
+            Report("talker/node.py:2:1", "'rospy' is of ROS 1: ROS 2 has rclpy"),
         ),
     )
 

@@ -34,9 +34,7 @@ class NameWithDoubleUnderscore(RclpyRule):
         Example(
             "two",
             {"talker.py": _NODE.format("front__scan")},
-            reports=(
-                Report("talker.py:8:39", "the name 'front__scan' has two underscores in a row"),
-            ),
+            Report("talker.py:8:39", "the name 'front__scan' has two underscores in a row"),
         ),
     )
 

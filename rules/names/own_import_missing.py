@@ -19,11 +19,7 @@ _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
     "    entry_points={'console_scripts': ['node = talker.node:main']},\n)\n"
 )
-_FILES = {
-    "setup.py": _SETUP,
-    "talker/__init__.py": "",
-    "talker/text.py": "def make():\n    pass\n",
-}
+_FILES = {"setup.py": _SETUP, "talker/__init__.py": "", "talker/text.py": "def make():\n    pass\n"}
 
 
 class OwnImportMissing(Rule):
@@ -53,21 +49,16 @@ class OwnImportMissing(Rule):
         Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "the package has no module 'talker.texts'; closest: 'talker.text'",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "the package has no module 'talker.texts'; closest: 'talker.text'",
             ),
         ),
         Example(
             "no such function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:19",
-                    "talker/text.py has no 'makes': ImportError; it has 'make'",
-                ),
+            Report(
+                "talker/node.py:1:19", "talker/text.py has no 'makes': ImportError; it has 'make'"
             ),
         ),
         Example(
@@ -76,16 +67,14 @@ class OwnImportMissing(Rule):
                 **_FILES,
                 "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
             },
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "no module 'text' is installed: ModuleNotFoundError; closest: 'talker.text'",
-                ),
-                Report(
-                    "talker/node.py:2:1",
-                    "no module 'src.talker.text' is installed: ModuleNotFoundError; "
-                    "closest: 'talker.text'",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "no module 'text' is installed: ModuleNotFoundError; closest: 'talker.text'",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "no module 'src.talker.text' is installed: ModuleNotFoundError; "
+                "closest: 'talker.text'",
             ),
         ),
     )

@@ -33,11 +33,9 @@ class RelativeImportInScript(Rule):
         Example(
             "relative",
             {**_FILES, "talker/node.py": "from .text import TEXT\n"},
-            reports=(
-                Report(
-                    "talker/node.py:1:1",
-                    "installed as a program, it has no package to import from: ImportError",
-                ),
+            Report(
+                "talker/node.py:1:1",
+                "installed as a program, it has no package to import from: ImportError",
             ),
         ),
     )

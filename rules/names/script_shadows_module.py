@@ -32,11 +32,9 @@ class ScriptShadowsModule(Rule):
         Example(
             "of the standard library",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:18",
-                    "logging.py hides the module 'logging' from every program next to it",
-                ),
+            Report(
+                "CMakeLists.txt:2:18",
+                "logging.py hides the module 'logging' from every program next to it",
             ),
         ),
     )

@@ -53,18 +53,12 @@ class TopicNameInvalid(RclpyRule):
         Example(
             "a dash",
             {"talker.py": _NODE.format("front-scan")},
-            reports=(
-                Report("talker.py:8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
-            ),
+            Report("talker.py:8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
         ),
         Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
-            reports=(
-                Report(
-                    "talker.py:8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"
-                ),
-            ),
+            Report("talker.py:8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
         ),
     )
 

@@ -50,17 +50,14 @@ class ActionCallbackResult(Rule):
         Example(
             "a bool, nothing",
             {"server.py": _NODE.format("return True", "")},
-            reports=(
-                Report(
-                    "server.py:13:9",
-                    "returns True, not a GoalResponse for the action server of line 9: "
-                    "it counts as a rejection",
-                ),
-                Report(
-                    "server.py:15:9",
-                    "work() does not return the result for the action server of line 9: "
-                    "AssertionError",
-                ),
+            Report(
+                "server.py:13:9",
+                "returns True, not a GoalResponse for the action server of line 9: "
+                "it counts as a rejection",
+            ),
+            Report(
+                "server.py:15:9",
+                "work() does not return the result for the action server of line 9: AssertionError",
             ),
         ),
         Example(
@@ -70,17 +67,15 @@ class ActionCallbackResult(Rule):
                     "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
                 )
             },
-            reports=(
-                Report(
-                    "server.py:13:9",
-                    "returns a CancelResponse, not a GoalResponse for the action server "
-                    "of line 9: it counts as a rejection",
-                ),
-                Report(
-                    "server.py:17:9",
-                    "returns example_interfaces/action/Fibonacci.Feedback, not the "
-                    "result for the action server of line 9: AssertionError",
-                ),
+            Report(
+                "server.py:13:9",
+                "returns a CancelResponse, not a GoalResponse for the action server "
+                "of line 9: it counts as a rejection",
+            ),
+            Report(
+                "server.py:17:9",
+                "returns example_interfaces/action/Fibonacci.Feedback, not the "
+                "result for the action server of line 9: AssertionError",
             ),
         ),
     )

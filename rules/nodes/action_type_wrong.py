@@ -43,17 +43,14 @@ class ActionTypeWrong(MessageRule):
         Example(
             "no node",
             {"sender.py": _NODE.format("Fibonacci", _GOAL)},
-            reports=(
-                Report(
-                    "sender.py:9:36",
-                    "'Fibonacci' is not a node; pass the node first, then the type",
-                ),
+            Report(
+                "sender.py:9:36", "'Fibonacci' is not a node; pass the node first, then the type"
             ),
         ),
         Example(
             "a part of the action",
             {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
-            reports=(Report("sender.py:9:42", "this is only a part of an action; pass Fibonacci"),),
+            Report("sender.py:9:42", "this is only a part of an action; pass Fibonacci"),
         ),
         Example(
             "a number, the class of goals, the result",
@@ -62,24 +59,22 @@ class ActionTypeWrong(MessageRule):
                 + "        self.client.send_goal(Fibonacci.Goal)\n"
                 + "        self.client.send_goal(Fibonacci.Result())\n"
             },
-            reports=(
-                Report(
-                    "sender.py:12:37",
-                    "an int sent through the client of line 9, which takes "
-                    "example_interfaces/action/Fibonacci.Goal: TypeError",
-                ),
-                Report(
-                    "sender.py:13:31",
-                    "the class example_interfaces/action/Fibonacci.Goal sent through "
-                    "the client of line 9, which takes "
-                    "example_interfaces/action/Fibonacci.Goal: TypeError",
-                ),
-                Report(
-                    "sender.py:14:31",
-                    "example_interfaces/action/Fibonacci.Result sent through the client "
-                    "of line 9, which takes example_interfaces/action/Fibonacci.Goal: "
-                    "TypeError",
-                ),
+            Report(
+                "sender.py:12:37",
+                "an int sent through the client of line 9, which takes "
+                "example_interfaces/action/Fibonacci.Goal: TypeError",
+            ),
+            Report(
+                "sender.py:13:31",
+                "the class example_interfaces/action/Fibonacci.Goal sent through "
+                "the client of line 9, which takes "
+                "example_interfaces/action/Fibonacci.Goal: TypeError",
+            ),
+            Report(
+                "sender.py:14:31",
+                "example_interfaces/action/Fibonacci.Result sent through the client "
+                "of line 9, which takes example_interfaces/action/Fibonacci.Goal: "
+                "TypeError",
             ),
         ),
         Example(
@@ -88,13 +83,11 @@ class ActionTypeWrong(MessageRule):
                 "sender.py": "from std_msgs.msg import String\n"
                 + _NODE.format("self, String", _GOAL)
             },
-            reports=(
-                Report("sender.py:10:42", "'String' is not an action type"),
-                Report(
-                    "sender.py:13:37",
-                    "example_interfaces/action/Fibonacci.Goal sent through the client "
-                    "of line 10, which takes std_msgs/msg/String.Goal: TypeError",
-                ),
+            Report("sender.py:10:42", "'String' is not an action type"),
+            Report(
+                "sender.py:13:37",
+                "example_interfaces/action/Fibonacci.Goal sent through the client "
+                "of line 10, which takes std_msgs/msg/String.Goal: TypeError",
             ),
         ),
     )

@@ -42,33 +42,29 @@ class ArgumentUnknown(RclpyRule):
         Example(
             "positional",
             {"server.py": _CODE.format("", "", "", ", 0.1")},
-            reports=(
-                Report(
-                    "server.py:16:16",
-                    "rclpy.init() takes no positional arguments: TypeError; as "
-                    "keywords: args, context, domain_id, signal_handler_options",
-                    fix="pass it as args=",
-                ),
-                Report(
-                    "server.py:17:31",
-                    "rclpy.spin_once() takes at most 1 positional argument: TypeError; "
-                    "as keywords: executor, timeout_sec",
-                    fix="pass it as timeout_sec=",
-                ),
+            Report(
+                "server.py:16:16",
+                "rclpy.init() takes no positional arguments: TypeError; as "
+                "keywords: args, context, domain_id, signal_handler_options",
+                fix="pass it as args=",
+            ),
+            Report(
+                "server.py:17:31",
+                "rclpy.spin_once() takes at most 1 positional argument: TypeError; "
+                "as keywords: executor, timeout_sec",
+                fix="pass it as timeout_sec=",
             ),
             fixed={"server.py": _RIGHT},
         ),
         Example(
             "a depth for a service, and a keyword of ROS 1",
             {"server.py": _CODE.format(", 10", ", oneshot=True", "args=", "")},
-            reports=(
-                Report(
-                    "server.py:11:54",
-                    "create_service() takes at most 3 positional arguments: TypeError; "
-                    "as keywords: callback_group, qos_profile",
-                ),
-                Report("server.py:12:47", "create_timer() has no argument 'oneshot': TypeError"),
+            Report(
+                "server.py:11:54",
+                "create_service() takes at most 3 positional arguments: TypeError; "
+                "as keywords: callback_group, qos_profile",
             ),
+            Report("server.py:12:47", "create_timer() has no argument 'oneshot': TypeError"),
         ),
         Example(
             "a misspelled keyword of a client",
@@ -78,20 +74,16 @@ class ArgumentUnknown(RclpyRule):
                     "self.create_client(Trigger, 'a').wait_for_service(timeout=1.0)",
                 )
             },
-            reports=(
-                Report(
-                    "server.py:12:67",
-                    "wait_for_service() has no argument 'timeout': TypeError; did you "
-                    "mean 'timeout_sec'?",
-                ),
+            Report(
+                "server.py:12:67",
+                "wait_for_service() has no argument 'timeout': TypeError; did you "
+                "mean 'timeout_sec'?",
             ),
         ),
         Example(
             "a message for the getter of the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
-            reports=(
-                Report("server.py:10:25", "get_logger() takes no positional arguments: TypeError"),
-            ),
+            Report("server.py:10:25", "get_logger() takes no positional arguments: TypeError"),
         ),
     )
 

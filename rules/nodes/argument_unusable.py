@@ -8,15 +8,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN, kind_of
-from scaffold.api.rclpy import (
-    Argument,
-    Client,
-    Endpoint,
-    Entity,
-    Parameter,
-    RclpyFile,
-    Service,
-)
+from scaffold.api.rclpy import Argument, Client, Endpoint, Entity, Parameter, RclpyFile, Service
 
 _TYPES = ("msg_type", "srv_type", "action_type")
 _NAMES = ("topic", "srv_name", "action_name")
@@ -71,26 +63,21 @@ class ArgumentUnusable(RclpyRule):
         Example(
             "an object, a str, mixed types",
             {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
-            reports=(
-                Report(
-                    "talker.py:8:31",
-                    "this is an instance, not the message type; remove the parentheses",
-                ),
-                Report(
-                    "talker.py:9:32",
-                    "the callback must be a function, but this is a str: TypeError",
-                ),
-                Report("talker.py:10:41", "a list parameter cannot mix float, int: TypeError"),
+            Report(
+                "talker.py:8:31",
+                "this is an instance, not the message type; remove the parentheses",
             ),
+            Report(
+                "talker.py:9:32", "the callback must be a function, but this is a str: TypeError"
+            ),
+            Report("talker.py:10:41", "a list parameter cannot mix float, int: TypeError"),
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
-            reports=(
-                Report(
-                    "talker.py:10:41",
-                    "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
-                ),
+            Report(
+                "talker.py:10:41",
+                "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
             ),
         ),
         Example(
@@ -99,18 +86,16 @@ class ArgumentUnusable(RclpyRule):
                 "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
                 + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
             },
-            reports=(
-                Report(
-                    "asker.py:10:28", "this is only a part of a service: RuntimeError; pass Trigger"
-                ),
-                Report(
-                    "asker.py:10:70",
-                    "the callback group must be a CallbackGroup, but this is a str: AttributeError",
-                ),
-                Report("asker.py:11:28", "'String' is not a service type: RuntimeError"),
-                Report("asker.py:11:36", "the name must be a str, but this is an int: TypeError"),
-                Report("asker.py:11:54", "this is a class, not a callback group; instantiate it"),
+            Report(
+                "asker.py:10:28", "this is only a part of a service: RuntimeError; pass Trigger"
             ),
+            Report(
+                "asker.py:10:70",
+                "the callback group must be a CallbackGroup, but this is a str: AttributeError",
+            ),
+            Report("asker.py:11:28", "'String' is not a service type: RuntimeError"),
+            Report("asker.py:11:36", "the name must be a str, but this is an int: TypeError"),
+            Report("asker.py:11:54", "this is a class, not a callback group; instantiate it"),
         ),
     )
 

@@ -38,17 +38,15 @@ class ArgumentsSwapped(RclpyRule):
         Example(
             "swapped",
             {"talker.py": _NODE.format("'chatter', String", "self.tick, 0.5")},
-            reports=(
-                Report(
-                    "talker.py:8:31",
-                    "swapped arguments: the type comes first, then the name 'chatter'",
-                    fix="swap the arguments",
-                ),
-                Report(
-                    "talker.py:9:27",
-                    "swapped arguments: create_timer() takes the period first, then the callback",
-                    fix="swap the arguments",
-                ),
+            Report(
+                "talker.py:8:31",
+                "swapped arguments: the type comes first, then the name 'chatter'",
+                fix="swap the arguments",
+            ),
+            Report(
+                "talker.py:9:27",
+                "swapped arguments: create_timer() takes the period first, then the callback",
+                fix="swap the arguments",
             ),
             fixed={"talker.py": _NODE.format("String, 'chatter'", "0.5, self.tick")},
         ),

@@ -39,12 +39,10 @@ class AsyncioInCallback(RclpyRule):
         Example(
             "asyncio",
             {"talker.py": _NODE.format("asyncio.sleep(0.1)")},
-            reports=(
-                Report(
-                    "talker.py:12:9",
-                    "asyncio.sleep() needs an asyncio event loop, which rclpy does not "
-                    "run: RuntimeError",
-                ),
+            Report(
+                "talker.py:12:9",
+                "asyncio.sleep() needs an asyncio event loop, which rclpy does not "
+                "run: RuntimeError",
             ),
         ),
     )

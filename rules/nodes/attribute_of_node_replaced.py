@@ -49,11 +49,8 @@ class AttributeOfNodeReplaced(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format("publishers")},
-            reports=(
-                Report(
-                    "talker.py:7:9",
-                    "'publishers' is an attribute of rclpy's Node; choose another name",
-                ),
+            Report(
+                "talker.py:7:9", "'publishers' is an attribute of rclpy's Node; choose another name"
             ),
         ),
         Example(
@@ -62,15 +59,12 @@ class AttributeOfNodeReplaced(RclpyRule):
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
-            reports=(
-                Report(
-                    "talker.py:7:9",
-                    "'_timers' is an attribute of rclpy's Node; choose another name",
-                ),
-                Report(
-                    "talker.py:9:9",
-                    "'timers' overrides an attribute of rclpy's Node; choose another name",
-                ),
+            Report(
+                "talker.py:7:9", "'_timers' is an attribute of rclpy's Node; choose another name"
+            ),
+            Report(
+                "talker.py:9:9",
+                "'timers' overrides an attribute of rclpy's Node; choose another name",
             ),
         ),
     )

@@ -37,11 +37,7 @@ class AttributeUsedBeforeSet(RclpyRule):
         Example(
             "used first",
             {"talker.py": _NODE.format(_USE + _MAKE)},
-            reports=(
-                Report(
-                    "talker.py:8:9", "self.pub is used before it is set in line 9: AttributeError"
-                ),
-            ),
+            Report("talker.py:8:9", "self.pub is used before it is set in line 9: AttributeError"),
         ),
     )
 

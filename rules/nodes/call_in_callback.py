@@ -52,12 +52,10 @@ class CallInCallback(RclpyRule):
         Example(
             "a call",
             {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
-            reports=(
-                Report(
-                    "caller.py:12:9",
-                    "waits for a service response in callback 'ask': deadlock, no "
-                    "response is processed meanwhile",
-                ),
+            Report(
+                "caller.py:12:9",
+                "waits for a service response in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
             ),
         ),
         Example(
@@ -68,12 +66,10 @@ class CallInCallback(RclpyRule):
                     "        ActionClient(self, Count, 'count').send_goal(Count.Goal())\n"
                 )
             },
-            reports=(
-                Report(
-                    "caller.py:13:9",
-                    "waits for an action result in callback 'ask': deadlock, no "
-                    "response is processed meanwhile",
-                ),
+            Report(
+                "caller.py:13:9",
+                "waits for an action result in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
             ),
         ),
         Example(
@@ -84,12 +80,10 @@ class CallInCallback(RclpyRule):
                     "        while not future.done():\n            pass\n"
                 )
             },
-            reports=(
-                Report(
-                    "caller.py:13:9",
-                    "busy-waits for a future in callback 'ask': deadlock, no response "
-                    "is processed meanwhile",
-                ),
+            Report(
+                "caller.py:13:9",
+                "busy-waits for a future in callback 'ask': deadlock, no response "
+                "is processed meanwhile",
             ),
         ),
     )

@@ -48,33 +48,26 @@ class CallbackBlocks(RclpyRule):
         Example(
             "a sleep",
             {"talker.py": _NODE.format("time.sleep(1.0)")},
-            reports=(
-                Report(
-                    "talker.py:12:9",
-                    "time.sleep(1) blocks callback 'tick', and with it all other "
-                    "callbacks of the node",
-                ),
+            Report(
+                "talker.py:12:9",
+                "time.sleep(1) blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
         Example(
             "a server",
             {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
-            reports=(
-                Report(
-                    "talker.py:13:9",
-                    "requests.get() blocks callback 'tick', and with it all other "
-                    "callbacks of the node",
-                ),
+            Report(
+                "talker.py:13:9",
+                "requests.get() blocks callback 'tick', and with it all other "
+                "callbacks of the node",
             ),
         ),
         Example(
             "user input",
             {"talker.py": _NODE.format("input()")},
-            reports=(
-                Report(
-                    "talker.py:12:9",
-                    "input() blocks callback 'tick', and with it all other callbacks of the node",
-                ),
+            Report(
+                "talker.py:12:9",
+                "input() blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
     )

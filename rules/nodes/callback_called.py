@@ -36,12 +36,10 @@ class CallbackCalled(RclpyRule):
         Example(
             "called",
             {"talker.py": _NODE.format("self.tick()")},
-            reports=(
-                Report(
-                    "talker.py:7:32",
-                    "self.tick() is called here: its return value becomes the callback",
-                    fix="remove the parentheses",
-                ),
+            Report(
+                "talker.py:7:32",
+                "self.tick() is called here: its return value becomes the callback",
+                fix="remove the parentheses",
             ),
             fixed={"talker.py": _NODE.format("self.tick")},
         ),

@@ -39,34 +39,28 @@ class DefaultOutOfRange(RclpyRule):
         Example(
             "too large",
             {"talker.py": _NODE.format("", "5.0")},
-            reports=(
-                Report(
-                    "talker.py:10:40",
-                    "default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
-                    "InvalidParameterValueException",
-                ),
+            Report(
+                "talker.py:10:40",
+                "default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
+                "InvalidParameterValueException",
             ),
         ),
         Example(
             "between two steps",
             {"talker.py": _NODE.format(", step=0.1", "0.25")},
-            reports=(
-                Report(
-                    "talker.py:10:40",
-                    "default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of "
-                    "the descriptor: InvalidParameterValueException",
-                ),
+            Report(
+                "talker.py:10:40",
+                "default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of "
+                "the descriptor: InvalidParameterValueException",
             ),
         ),
         Example(
             "an integer with a range of doubles",
             {"talker.py": _NODE.format("", "1")},
-            reports=(
-                Report(
-                    "talker.py:10:40",
-                    "default 1 is an integer: the double range of the descriptor is "
-                    "ignored; use integer_range",
-                ),
+            Report(
+                "talker.py:10:40",
+                "default 1 is an integer: the double range of the descriptor is "
+                "ignored; use integer_range",
             ),
         ),
     )

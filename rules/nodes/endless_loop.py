@@ -40,16 +40,13 @@ class EndlessLoop(RclpyRule):
         Example(
             "a loop",
             {"talker.py": _NODE.format(_LOOP)},
-            reports=(
-                Report(
-                    "talker.py:8:9",
-                    "endless loop: the constructor of Talker never returns; use a timer",
-                ),
+            Report(
+                "talker.py:8:9",
+                "endless loop: the constructor of Talker never returns; use a timer",
             ),
         ),
         Example(
-            "a loop that ends",
-            {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))},
+            "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}
         ),
     )
 

@@ -49,31 +49,25 @@ class EntitiesTakenForList(RclpyRule):
         Example(
             "appended to",
             _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
-            reports=(
-                Report(
-                    "talker.py:8:9",
-                    "'publishers' is a property of Node that returns a generator: AttributeError",
-                ),
+            Report(
+                "talker.py:8:9",
+                "'publishers' is a property of Node that returns a generator: AttributeError",
             ),
         ),
         Example(
             "indexed",
             _files("self.clients['a'] = None"),
-            reports=(
-                Report(
-                    "talker.py:8:9",
-                    "'clients' is a property of Node that returns a generator: TypeError",
-                ),
+            Report(
+                "talker.py:8:9",
+                "'clients' is a property of Node that returns a generator: TypeError",
             ),
         ),
         Example(
             "its length",
             _files("print(len(self.timers))"),
-            reports=(
-                Report(
-                    "talker.py:8:19",
-                    "'timers' is a property of Node that returns a generator: TypeError",
-                ),
+            Report(
+                "talker.py:8:19",
+                "'timers' is a property of Node that returns a generator: TypeError",
             ),
         ),
     )

@@ -34,11 +34,9 @@ class FieldOfPlainValue(RclpyRule):
         Example(
             "a field of the value",
             {"talker.py": _NODE.format(".value")},
-            reports=(
-                Report(
-                    "talker.py:8:21",
-                    "'.value' is the value itself, without 'double_value': AttributeError",
-                ),
+            Report(
+                "talker.py:8:21",
+                "'.value' is the value itself, without 'double_value': AttributeError",
             ),
         ),
     )

@@ -38,21 +38,17 @@ class FileOfAuthor(Rule):
         Example(
             "in a home directory",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
-            reports=(
-                Report(
-                    "talker.py:5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"
-                ),
+            Report(
+                "talker.py:5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"
             ),
         ),
         Example(
             "a relative path",
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
-            reports=(
-                Report(
-                    "talker.py:5:15",
-                    "'config/words.txt' is relative to the directory of the shell, not "
-                    "the package; use get_package_share_directory()",
-                ),
+            Report(
+                "talker.py:5:15",
+                "'config/words.txt' is relative to the directory of the shell, not "
+                "the package; use get_package_share_directory()",
             ),
         ),
         Example(
@@ -61,12 +57,10 @@ class FileOfAuthor(Rule):
                 "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
                 "config/words.txt": "",
             },
-            reports=(
-                Report(
-                    "talker.py:5:15",
-                    "'words.txt' is relative to the directory of the shell, not the "
-                    "package; use get_package_share_directory()",
-                ),
+            Report(
+                "talker.py:5:15",
+                "'words.txt' is relative to the directory of the shell, not the "
+                "package; use get_package_share_directory()",
             ),
         ),
     )

@@ -43,21 +43,17 @@ class FutureReadTooEarly(RclpyRule):
         Example(
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
-            reports=(
-                Report(
-                    "caller.py:7:16",
-                    "'future' is not done here: result() returns None; use add_done_callback()",
-                ),
+            Report(
+                "caller.py:7:16",
+                "'future' is not done here: result() returns None; use add_done_callback()",
             ),
         ),
         Example(
             "in the callback, called directly",
             {"caller.py": _NODE.format("self.answer(future)")},
-            reports=(
-                Report(
-                    "caller.py:7:9",
-                    "'future' is not done here: result() returns None; use add_done_callback()",
-                ),
+            Report(
+                "caller.py:7:9",
+                "'future' is not done here: result() returns None; use add_done_callback()",
             ),
         ),
     )

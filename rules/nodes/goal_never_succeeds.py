@@ -48,12 +48,10 @@ class GoalNeverSucceeds(Rule):
         Example(
             "sets no state",
             {"server.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "server.py:15:9",
-                    "result returned without succeed(): goals of the action server of "
-                    "line 9 end as aborted",
-                ),
+            Report(
+                "server.py:15:9",
+                "result returned without succeed(): goals of the action server of "
+                "line 9 end as aborted",
             ),
         ),
     )

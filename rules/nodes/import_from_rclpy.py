@@ -26,11 +26,7 @@ class ImportFromRclpy(PythonRule):
         Example(
             "from the package",
             {"talker.py": "from rclpy import Node\n"},
-            reports=(
-                Report(
-                    "talker.py:1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"
-                ),
-            ),
+            Report("talker.py:1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"),
         ),
     )
 

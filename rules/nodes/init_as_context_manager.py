@@ -29,11 +29,9 @@ class InitAsContextManager(RclpyRule):
         Example(
             "a with statement",
             {"talker.py": _WITH},
-            reports=(
-                Report(
-                    "talker.py:5:10",
-                    "rclpy.init() is not a context manager on Jazzy: TypeError at start",
-                ),
+            Report(
+                "talker.py:5:10",
+                "rclpy.init() is not a context manager on Jazzy: TypeError at start",
             ),
         ),
     )

@@ -57,11 +57,9 @@ class InitMissing(Rule):
         Example(
             "never",
             {**_FILES, "demo/talker.py": _NODE.format("    node = Talker()\n" + _SPIN)},
-            reports=(
-                Report(
-                    "demo/talker.py:12:12",
-                    "Talker is constructed without rclpy.init(): NotInitializedException",
-                ),
+            Report(
+                "demo/talker.py:12:12",
+                "Talker is constructed without rclpy.init(): NotInitializedException",
             ),
         ),
         Example(
@@ -70,11 +68,9 @@ class InitMissing(Rule):
                 **_FILES,
                 "demo/talker.py": _NODE.format("    node = Talker()\n    rclpy.init()\n" + _SPIN),
             },
-            reports=(
-                Report(
-                    "demo/talker.py:12:12",
-                    "Talker is constructed before rclpy.init() in line 13: NotInitializedException",
-                ),
+            Report(
+                "demo/talker.py:12:12",
+                "Talker is constructed before rclpy.init() in line 13: NotInitializedException",
             ),
         ),
     )

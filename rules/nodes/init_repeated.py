@@ -33,9 +33,7 @@ class InitRepeated(RclpyRule):
         Example(
             "twice",
             {"talker.py": _MAIN.format("    rclpy.init()\n")},
-            reports=(
-                Report("talker.py:6:5", "rclpy.init() is already called in line 5: RuntimeError"),
-            ),
+            Report("talker.py:6:5", "rclpy.init() is already called in line 5: RuntimeError"),
         ),
         Example(
             "in the constructor of a node",
@@ -47,11 +45,9 @@ class InitRepeated(RclpyRule):
                 "        rclpy.init()\n"
                 "        super().__init__('talker')\n"
             },
-            reports=(
-                Report(
-                    "talker.py:13:9",
-                    "rclpy.init() is called before this node is constructed: RuntimeError",
-                ),
+            Report(
+                "talker.py:13:9",
+                "rclpy.init() is called before this node is constructed: RuntimeError",
             ),
         ),
     )

@@ -29,12 +29,10 @@ class InitWithoutArguments(RclpyRule):
         Example(
             "an empty list",
             {"talker.py": _MAIN.format("args=[]")},
-            reports=(
-                Report(
-                    "talker.py:5:21",
-                    "an empty list replaces the command line: --ros-args have no effect",
-                    fix="pass the arguments on",
-                ),
+            Report(
+                "talker.py:5:21",
+                "an empty list replaces the command line: --ros-args have no effect",
+                fix="pass the arguments on",
             ),
             fixed={"talker.py": _MAIN.format("args=args")},
         ),

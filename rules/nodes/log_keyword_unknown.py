@@ -47,27 +47,21 @@ class LogKeywordUnknown(RclpyRule):
         Example(
             "unknown option",
             {"talker.py": _NODE.format("text, throttle=1.0")},
-            reports=(
-                Report(
-                    "talker.py:6:38",
-                    "a logger has no option 'throttle': TypeError; did you mean "
-                    "'throttle_duration_sec'?",
-                ),
+            Report(
+                "talker.py:6:38",
+                "a logger has no option 'throttle': TypeError; did you mean "
+                "'throttle_duration_sec'?",
             ),
         ),
         Example(
             "a missing f prefix",
             {"talker.py": _NODE.format("'heard {text}'")},
-            reports=(
-                Report("talker.py:6:32", "{text} is logged literally: the string has no f prefix"),
-            ),
+            Report("talker.py:6:32", "{text} is logged literally: the string has no f prefix"),
         ),
         Example(
             "a number added",
             {"talker.py": _NODE.format("'heard ' + 1")},
-            reports=(
-                Report("talker.py:6:32", "a number is added to a str: TypeError; use an f-string"),
-            ),
+            Report("talker.py:6:32", "a number is added to a str: TypeError; use an f-string"),
         ),
     )
 

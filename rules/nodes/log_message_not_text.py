@@ -42,23 +42,15 @@ class LogMessageNotText(RclpyRule):
         Example(
             "a number",
             {"talker.py": _NODE.format("42")},
-            reports=(
-                Report(
-                    "talker.py:6:32",
-                    "log message is not a str: TypeError",
-                    fix="convert it to a str",
-                ),
+            Report(
+                "talker.py:6:32", "log message is not a str: TypeError", fix="convert it to a str"
             ),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
         Example(
             "arguments to format",
             {"talker.py": _NODE.format("'%d', 42")},
-            reports=(
-                Report(
-                    "talker.py:6:38", "loggers do not format arguments: TypeError; use an f-string"
-                ),
-            ),
+            Report("talker.py:6:38", "loggers do not format arguments: TypeError; use an f-string"),
         ),
     )
 

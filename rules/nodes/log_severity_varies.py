@@ -38,11 +38,8 @@ class LogSeverityVaries(RclpyRule):
         Example(
             "a conditional method",
             {"talker.py": _NODE.format(_CHOICE)},
-            reports=(
-                Report(
-                    "talker.py:6:15",
-                    "log statement with two severities: ValueError; write two calls",
-                ),
+            Report(
+                "talker.py:6:15", "log statement with two severities: ValueError; write two calls"
             ),
         ),
     )

@@ -33,19 +33,14 @@ class LoopVariableInLambda(RclpyRule):
     code = "ND035"
     name = "loop-variable-in-lambda"
     examples = (
-        Example(
-            "bound",
-            {"listener.py": _NODE.format("lambda m, name=name: self.hear(m, name)")},
-        ),
+        Example("bound", {"listener.py": _NODE.format("lambda m, name=name: self.hear(m, name)")}),
         Example(
             "not bound",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
-            reports=(
-                Report(
-                    "listener.py:9:52",
-                    "'name' is read when the callback runs: all callbacks get the last "
-                    "value; bind it: name=name",
-                ),
+            Report(
+                "listener.py:9:52",
+                "'name' is read when the callback runs: all callbacks get the last "
+                "value; bind it: name=name",
             ),
         ),
     )

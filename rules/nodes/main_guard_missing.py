@@ -31,12 +31,10 @@ class MainGuardMissing(Rule):
         Example(
             "never called",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _MAIN},
-            reports=(
-                Report(
-                    "talker/node.py:5:5",
-                    "installed as a program, but main() is never called",
-                    fix="call main()",
-                ),
+            Report(
+                "talker/node.py:5:5",
+                "installed as a program, but main() is never called",
+                fix="call main()",
             ),
             fixed={"talker/node.py": _MAIN + _GUARD},
         ),
@@ -47,10 +45,8 @@ class MainGuardMissing(Rule):
                 "talker/node.py": _MAIN + _GUARD.replace("__main__", "main"),
                 "talker/other.py": _MAIN + _GUARD.replace("main()", "main"),
             },
-            reports=(
-                Report("talker/node.py:9:4", "__name__ is never 'main'; did you mean '__main__'?"),
-                Report("talker/other.py:10:5", "'main' is not called here; write main()"),
-            ),
+            Report("talker/node.py:9:4", "__name__ is never 'main'; did you mean '__main__'?"),
+            Report("talker/other.py:10:5", "'main' is not called here; write main()"),
         ),
     )
 

@@ -42,21 +42,17 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "never spun",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "talker.py:16:12",
-                    "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
-                ),
+            Report(
+                "talker.py:16:12",
+                "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
             ),
         ),
         Example(
             "sleeping in a loop",
             {"talker.py": _NODE.format("    time.sleep(9)\n")},
-            reports=(
-                Report(
-                    "talker.py:16:12",
-                    "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
-                ),
+            Report(
+                "talker.py:16:12",
+                "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
             ),
         ),
         Example(
@@ -74,11 +70,8 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "spun once",
             {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
-            reports=(
-                Report(
-                    "talker.py:17:5",
-                    "spin_once() outside a loop runs at most one callback; use spin()",
-                ),
+            Report(
+                "talker.py:17:5", "spin_once() outside a loop runs at most one callback; use spin()"
             ),
         ),
     )

@@ -34,22 +34,17 @@ class NodeWithoutBase(RclpyRule):
     examples = (
         Example("a node", {"talker.py": _NODE.format("(Node)")}),
         Example(
-            "a mixin",
-            {"talker.py": _NODE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
+            "a mixin", {"talker.py": _NODE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"}
         ),
         Example(
             "no base class",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
-            ),
+            Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
         ),
         Example(
             "object as base class",
             {"talker.py": _NODE.format("(object)")},
-            reports=(
-                Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
-            ),
+            Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
         ),
     )
 

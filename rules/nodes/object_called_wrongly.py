@@ -54,23 +54,17 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "four calls",
             {"talker.py": _NODE.format("()", "Trigger()", "self.done()", "")},
-            reports=(
-                Report(
-                    "talker.py:10:55",
-                    "qos_profile_sensor_data is a profile, not a function: TypeError; "
-                    "remove the ()",
-                ),
-                Report(
-                    "talker.py:13:9", "done() is called here; pass the function itself, without ()"
-                ),
-                Report(
-                    "talker.py:13:32",
-                    "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
-                ),
-                Report(
-                    "talker.py:16:9",
-                    "a Publisher is not callable: TypeError; call one of its methods",
-                ),
+            Report(
+                "talker.py:10:55",
+                "qos_profile_sensor_data is a profile, not a function: TypeError; remove the ()",
+            ),
+            Report("talker.py:13:9", "done() is called here; pass the function itself, without ()"),
+            Report(
+                "talker.py:13:32",
+                "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
+            ),
+            Report(
+                "talker.py:16:9", "a Publisher is not callable: TypeError; call one of its methods"
             ),
         ),
         Example(
@@ -84,11 +78,9 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
-            reports=(
-                Report(
-                    "talker.py:12:22",
-                    "'nanoseconds' is a property, not a method: TypeError; remove the ()",
-                ),
+            Report(
+                "talker.py:12:22",
+                "'nanoseconds' is a property, not a method: TypeError; remove the ()",
             ),
         ),
     )

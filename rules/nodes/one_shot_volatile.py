@@ -40,12 +40,10 @@ class OneShotVolatile(RclpyRule):
         Example(
             "volatile",
             {"server.py": _NODE.format("1")},
-            reports=(
-                Report(
-                    "server.py:11:9",
-                    "the only message on 'map' is published in the constructor: later "
-                    "subscribers miss it; use TRANSIENT_LOCAL",
-                ),
+            Report(
+                "server.py:11:9",
+                "the only message on 'map' is published in the constructor: later "
+                "subscribers miss it; use TRANSIENT_LOCAL",
             ),
         ),
     )

@@ -46,29 +46,27 @@ class OwnCallUnfit(Rule):
                 "talker/node.py": "import rclpy\n\nfrom talker.text import make\n\n"
                 "rclpy.init()\nprint(make('a', 1))\nprint(make('a'))\n",
             },
-            reports=(Report("talker/node.py:7:7", "make() is missing 'count': TypeError"),),
+            Report("talker/node.py:7:7", "make() is missing 'count': TypeError"),
         ),
         Example(
             "a constructor",
             {"talker.py": _NODE.format("'a'") + "\n\nTALKER = Talker('talker')\n"},
-            reports=(
-                Report("talker.py:16:10", "Talker() takes no arguments, but gets 1: TypeError"),
-            ),
+            Report("talker.py:16:10", "Talker() takes no arguments, but gets 1: TypeError"),
         ),
         Example(
             "no argument",
             {"talker.py": _NODE.format("")},
-            reports=(Report("talker.py:9:9", "talk() is missing 'text': TypeError"),),
+            Report("talker.py:9:9", "talk() is missing 'text': TypeError"),
         ),
         Example(
             "too many arguments",
             {"talker.py": _NODE.format("'a', 2, 3")},
-            reports=(Report("talker.py:9:9", "talk() takes 2 arguments, but gets 3: TypeError"),),
+            Report("talker.py:9:9", "talk() takes 2 arguments, but gets 3: TypeError"),
         ),
         Example(
             "an unknown keyword",
             {"talker.py": _NODE.format("txt='a'")},
-            reports=(Report("talker.py:9:9", "talk() has no argument 'txt': TypeError"),),
+            Report("talker.py:9:9", "talk() has no argument 'txt': TypeError"),
         ),
         Example(
             "overridden in a subclass, or reassigned",

@@ -7,13 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import returned
-from scaffold.api.rclpy import (
-    CALLBACKS,
-    RESULT,
-    Callback,
-    RclpyFile,
-    callback_arguments,
-)
+from scaffold.api.rclpy import CALLBACKS, RESULT, Callback, RclpyFile, callback_arguments
 
 _OF_ONE = frozenset({"name", "value", "type_", "get_parameter_value"})
 _OF_MAPPINGS = frozenset({"get", "items", "keys", "values"})
@@ -47,21 +41,15 @@ class ParameterCallbackMisused(RclpyRule):
         Example(
             "called",
             {"talker.py": _NODE.format("self.on_set([])", "[0]")},
-            reports=(
-                Report(
-                    "talker.py:9:45",
-                    "self.on_set([]) is called here: TypeError; pass it without ()",
-                ),
+            Report(
+                "talker.py:9:45", "self.on_set([]) is called here: TypeError; pass it without ()"
             ),
         ),
         Example(
             "a str",
             {"talker.py": _NODE.format("'on_set'", "[0]")},
-            reports=(
-                Report(
-                    "talker.py:9:45",
-                    "the callback must be a function, but this is a str: TypeError",
-                ),
+            Report(
+                "talker.py:9:45", "the callback must be a function, but this is a str: TypeError"
             ),
         ),
         Example(
@@ -70,15 +58,13 @@ class ParameterCallbackMisused(RclpyRule):
                 "attribute.py": _NODE.format("self.on_set", ""),
                 "subscript.py": _NODE.format("self.on_set", "['rate']"),
             },
-            reports=(
-                Report(
-                    "attribute.py:12:21",
-                    "'parameters' is a list of parameters, without 'value': AttributeError",
-                ),
-                Report(
-                    "subscript.py:12:21",
-                    "'parameters' is a list of parameters, not a dict: ['rate'] is a TypeError",
-                ),
+            Report(
+                "attribute.py:12:21",
+                "'parameters' is a list of parameters, without 'value': AttributeError",
+            ),
+            Report(
+                "subscript.py:12:21",
+                "'parameters' is a list of parameters, not a dict: ['rate'] is a TypeError",
             ),
         ),
         Example(
@@ -91,15 +77,12 @@ class ParameterCallbackMisused(RclpyRule):
                     "        return",
                 )
             },
-            reports=(
-                Report(
-                    "talker.py:13:22",
-                    "'parameters' is a list of parameters, not a dict: AttributeError",
-                ),
-                Report(
-                    "talker.py:14:28",
-                    "'parameters' is a list of parameters, not of pairs: TypeError",
-                ),
+            Report(
+                "talker.py:13:22",
+                "'parameters' is a list of parameters, not a dict: AttributeError",
+            ),
+            Report(
+                "talker.py:14:28", "'parameters' is a list of parameters, not of pairs: TypeError"
             ),
         ),
     )

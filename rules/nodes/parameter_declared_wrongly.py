@@ -7,13 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN, is_harmless
-from scaffold.api.rclpy import (
-    DESCRIPTOR,
-    Parameter,
-    RclpyFile,
-    is_of_node,
-    message_made,
-)
+from scaffold.api.rclpy import DESCRIPTOR, Parameter, RclpyFile, is_of_node, message_made
 
 _RANGES = ("floating_point_range", "integer_range")
 _NODE = (
@@ -45,12 +39,10 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a str; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
-            reports=(
-                Report("talker.py:8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
-                Report(
-                    "talker.py:9:38",
-                    "expected name, default and descriptor, but this has 4 values: TypeError",
-                ),
+            Report("talker.py:8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
+            Report(
+                "talker.py:9:38",
+                "expected name, default and descriptor, but this has 4 values: TypeError",
             ),
         ),
         Example(
@@ -62,15 +54,12 @@ class ParameterDeclaredWrongly(RclpyRule):
                     ", ParameterDescriptor",
                 )
             },
-            reports=(
-                Report(
-                    "talker.py:8:45",
-                    "floating_point_range must be a list with one range, not a range: TypeError",
-                ),
-                Report(
-                    "talker.py:9:55",
-                    "expected a ParameterDescriptor object, not the class: TypeError",
-                ),
+            Report(
+                "talker.py:8:45",
+                "floating_point_range must be a list with one range, not a range: TypeError",
+            ),
+            Report(
+                "talker.py:9:55", "expected a ParameterDescriptor object, not the class: TypeError"
             ),
         ),
         Example(
@@ -84,9 +73,7 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a number",
             {"talker.py": _NODE.format("1.0", "None", "")},
-            reports=(
-                Report("talker.py:8:32", "the parameter name must be a str, not 1.0: TypeError"),
-            ),
+            Report("talker.py:8:32", "the parameter name must be a str, not 1.0: TypeError"),
         ),
     )
 

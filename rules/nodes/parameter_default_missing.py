@@ -34,21 +34,17 @@ class ParameterDefaultMissing(RclpyRule):
         Example(
             "without a default",
             {"talker.py": _NODE.format("'rate'")},
-            reports=(
-                Report(
-                    "talker.py:7:32",
-                    "parameter 'rate' has no default: its value is None until it is set",
-                ),
+            Report(
+                "talker.py:7:32",
+                "parameter 'rate' has no default: its value is None until it is set",
             ),
         ),
         Example(
             "an empty list",
             {"talker.py": _NODE.format("'names', []")},
-            reports=(
-                Report(
-                    "talker.py:7:32",
-                    "parameter 'names' becomes a byte array: the default is an empty list",
-                ),
+            Report(
+                "talker.py:7:32",
+                "parameter 'names' becomes a byte array: the default is an empty list",
             ),
         ),
     )

@@ -45,29 +45,23 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "no default",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
-            reports=(
-                Report(
-                    "talker.py:9:40",
-                    "parameter 'rate' needs a default or a Parameter.Type: ValueError",
-                ),
-                Report(
-                    "talker.py:10:47",
-                    "parameter 'mode' needs a default or a Parameter.Type: ValueError",
-                ),
+            Report(
+                "talker.py:9:40", "parameter 'rate' needs a default or a Parameter.Type: ValueError"
+            ),
+            Report(
+                "talker.py:10:47",
+                "parameter 'mode' needs a default or a Parameter.Type: ValueError",
             ),
         ),
         Example(
             "a class; a constant of ParameterType",
             {"talker.py": _NODE.format("float", "", "ParameterType.PARAMETER_STRING")},
-            reports=(
-                Report(
-                    "talker.py:9:40",
-                    "expected Parameter.Type.DOUBLE, not the class 'float': TypeError",
-                ),
-                Report(
-                    "talker.py:10:47",
-                    "this constant makes the parameter an integer; expected Parameter.Type.STRING",
-                ),
+            Report(
+                "talker.py:9:40", "expected Parameter.Type.DOUBLE, not the class 'float': TypeError"
+            ),
+            Report(
+                "talker.py:10:47",
+                "this constant makes the parameter an integer; expected Parameter.Type.STRING",
             ),
         ),
         Example(
@@ -78,14 +72,10 @@ class ParameterDefaultUnusable(RclpyRule):
                     "Parameter.Type.DOUBLE", "dynamic_typing=True", "Parameter.Type.NOT_SET"
                 ),
             },
-            reports=(
-                Report("a.py:9:40", "expected the default itself, not a Parameter: TypeError"),
-                Report("a.py:10:47", "a parameter cannot hold a set: TypeError"),
-                Report(
-                    "b.py:9:40", "a type and dynamic_typing=True exclude each other: ValueError"
-                ),
-                Report("b.py:10:47", "a parameter of type NOT_SET cannot be declared: ValueError"),
-            ),
+            Report("a.py:9:40", "expected the default itself, not a Parameter: TypeError"),
+            Report("a.py:10:47", "a parameter cannot hold a set: TypeError"),
+            Report("b.py:9:40", "a type and dynamic_typing=True exclude each other: ValueError"),
+            Report("b.py:10:47", "a parameter of type NOT_SET cannot be declared: ValueError"),
         ),
     )
 

@@ -64,26 +64,20 @@ class ParameterFieldDiffers(Rule):
         Example(
             "another field",
             {"talker.py": _NODE.format("integer_value")},
-            reports=(
-                Report(
-                    "talker.py:8:23",
-                    "'period' is declared as double: integer_value is always empty; use "
-                    "double_value",
-                    unsafe_fix="read the field of the declared type",
-                ),
+            Report(
+                "talker.py:8:23",
+                "'period' is declared as double: integer_value is always empty; use double_value",
+                unsafe_fix="read the field of the declared type",
             ),
             fixed={"talker.py": _NODE.format("double_value")},
         ),
         Example(
             "through variables",
             {"talker.py": _VARIABLES.format("string_value")},
-            reports=(
-                Report(
-                    "talker.py:9:23",
-                    "'period' is declared as double: string_value is always empty; use "
-                    "double_value",
-                    unsafe_fix="read the field of the declared type",
-                ),
+            Report(
+                "talker.py:9:23",
+                "'period' is declared as double: string_value is always empty; use double_value",
+                unsafe_fix="read the field of the declared type",
             ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
         ),

@@ -49,10 +49,8 @@ class ParameterMadeWrongly(RclpyRule):
         Example(
             "no pairs, a type without a value",
             {"talker.py": _NODE.format("'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]")},
-            reports=(
-                Report("talker.py:8:38", "expected a pair ('name', default): TypeError"),
-                Report("talker.py:9:45", "type without a value: ValueError"),
-            ),
+            Report("talker.py:8:38", "expected a pair ('name', default): TypeError"),
+            Report("talker.py:9:45", "type without a value: ValueError"),
         ),
         Example(
             "a value in place of the type, another type",
@@ -62,14 +60,10 @@ class ParameterMadeWrongly(RclpyRule):
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
                 )
             },
-            reports=(
-                Report(
-                    "talker.py:9:48", "the second argument is the type: TypeError; write value=..."
-                ),
-                Report(
-                    "talker.py:9:95",
-                    "type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
-                ),
+            Report("talker.py:9:48", "the second argument is the type: TypeError; write value=..."),
+            Report(
+                "talker.py:9:95",
+                "type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
             ),
         ),
     )
@@ -112,7 +106,4 @@ def _made(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
         return
     if type(known) is not kind and not isinstance(known, tuple):
         word = type(known).__name__
-        yield (
-            value,
-            f"type is {facts.module.text(type_)}, but the value is a {word}: ValueError",
-        )
+        yield (value, f"type is {facts.module.text(type_)}, but the value is a {word}: ValueError")

@@ -38,31 +38,25 @@ class ParameterMessageUsed(RclpyRule):
         Example(
             "used in arithmetic",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "talker.py:8:24",
-                    "get_parameter_value() returns a message, not the value; use .value",
-                ),
+            Report(
+                "talker.py:8:24",
+                "get_parameter_value() returns a message, not the value; use .value",
             ),
         ),
         Example(
             "compared",
             {"talker.py": _NODE.format(" > 1.0").replace("1.0 / ", "")},
-            reports=(
-                Report(
-                    "talker.py:8:18",
-                    "get_parameter_value() returns a message, not the value; use .value",
-                ),
+            Report(
+                "talker.py:8:18",
+                "get_parameter_value() returns a message, not the value; use .value",
             ),
         ),
         Example(
             "used as a period",
             {"talker.py": _NODE.format("").replace("1.0 / ", "")},
-            reports=(
-                Report(
-                    "talker.py:9:27",
-                    "get_parameter_value() returns a message, not the value; use .value",
-                ),
+            Report(
+                "talker.py:9:27",
+                "get_parameter_value() returns a message, not the value; use .value",
             ),
         ),
     )

@@ -50,19 +50,15 @@ class ParameterNeverMatched(Rule):
         Example(
             "another name",
             {"talker.py": _NODE.format("rates", "DOUBLE")},
-            reports=(
-                Report(
-                    "talker.py:14:28",
-                    "never true: the node declares no parameter 'rates'; did you mean 'rate'?",
-                ),
+            Report(
+                "talker.py:14:28",
+                "never true: the node declares no parameter 'rates'; did you mean 'rate'?",
             ),
         ),
         Example(
             "another type",
             {"talker.py": _NODE.format("rate", "INTEGER")},
-            reports=(
-                Report("talker.py:14:52", "never true: 'rate' is declared as double, not INTEGER"),
-            ),
+            Report("talker.py:14:52", "never true: 'rate' is declared as double, not INTEGER"),
         ),
     )
 

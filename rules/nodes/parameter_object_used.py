@@ -45,34 +45,30 @@ class ParameterObjectUsed(RclpyRule):
         Example(
             "the object",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "talker.py:8:16",
-                    "this is the Parameter (used in line 9), not its value; append .value",
-                    fix="append .value",
-                ),
+            Report(
+                "talker.py:8:16",
+                "this is the Parameter (used in line 9), not its value; append .value",
+                fix="append .value",
             ),
             fixed={"talker.py": _NODE.format(".value")},
         ),
         Example(
             "a condition, a comparison, a name",
             {"talker.py": _OTHERS.format("", "", "")},
-            reports=(
-                Report(
-                    "talker.py:7:17",
-                    "this is the Parameter (used in line 10), not its value; append .value",
-                    fix="append .value",
-                ),
-                Report(
-                    "talker.py:8:12",
-                    "this is the Parameter, not its value; append .value",
-                    fix="append .value",
-                ),
-                Report(
-                    "talker.py:9:27",
-                    "this is the Parameter, not its value; append .value",
-                    fix="append .value",
-                ),
+            Report(
+                "talker.py:7:17",
+                "this is the Parameter (used in line 10), not its value; append .value",
+                fix="append .value",
+            ),
+            Report(
+                "talker.py:8:12",
+                "this is the Parameter, not its value; append .value",
+                fix="append .value",
+            ),
+            Report(
+                "talker.py:9:27",
+                "this is the Parameter, not its value; append .value",
+                fix="append .value",
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),

@@ -40,8 +40,7 @@ class ParameterReadUndeclared(Rule):
     examples = (
         Example("declared", {"talker.py": _NODE.format(_DECLARED, "")}),
         Example(
-            "declared by the caller",
-            {"talker.py": _NODE.format("        declare_all(self)\n", "")},
+            "declared by the caller", {"talker.py": _NODE.format("        declare_all(self)\n", "")}
         ),
         Example(
             "declared through a variable",
@@ -54,39 +53,33 @@ class ParameterReadUndeclared(Rule):
         Example(
             "another parameter declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
-            reports=(
-                Report(
-                    "talker.py:8:21",
-                    "parameter 'rate' is not declared: ParameterNotDeclaredException; "
-                    "did you mean 'rates'?",
-                ),
+            Report(
+                "talker.py:8:21",
+                "parameter 'rate' is not declared: ParameterNotDeclaredException; "
+                "did you mean 'rates'?",
             ),
         ),
         Example(
             "read in a list, undeclared",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
-            reports=(
-                Report(
-                    "talker.py:9:46",
-                    "parameter 'rats' is not declared: ParameterNotDeclaredException; "
-                    "did you mean 'rate'?",
-                ),
-                Report(
-                    "talker.py:10:34",
-                    "parameter 'rates' is not declared: ParameterNotDeclaredException; "
-                    "did you mean 'rate'?",
-                ),
+            Report(
+                "talker.py:9:46",
+                "parameter 'rats' is not declared: ParameterNotDeclaredException; "
+                "did you mean 'rate'?",
+            ),
+            Report(
+                "talker.py:10:34",
+                "parameter 'rates' is not declared: ParameterNotDeclaredException; "
+                "did you mean 'rate'?",
             ),
         ),
         Example(
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
-            reports=(
-                Report(
-                    "talker.py:7:21",
-                    "parameter 'rate' is read before it is declared in line 8: "
-                    "ParameterNotDeclaredException",
-                ),
+            Report(
+                "talker.py:7:21",
+                "parameter 'rate' is read before it is declared in line 8: "
+                "ParameterNotDeclaredException",
             ),
         ),
     )

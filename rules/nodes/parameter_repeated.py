@@ -34,23 +34,17 @@ class ParameterRepeated(RclpyRule):
         Example(
             "one parameter twice",
             {"talker.py": _NODE.format("rate")},
-            reports=(
-                Report(
-                    "talker.py:8:32",
-                    "parameter 'rate' is already declared in line 7: "
-                    "ParameterAlreadyDeclaredException",
-                ),
+            Report(
+                "talker.py:8:32",
+                "parameter 'rate' is already declared in line 7: ParameterAlreadyDeclaredException",
             ),
         ),
         Example(
             "a parameter of every node",
             {"talker.py": _NODE.format("use_sim_time")},
-            reports=(
-                Report(
-                    "talker.py:8:32",
-                    "'use_sim_time' is already declared by rclpy: "
-                    "ParameterAlreadyDeclaredException",
-                ),
+            Report(
+                "talker.py:8:32",
+                "'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
             ),
         ),
     )

@@ -52,48 +52,39 @@ class ParameterResultMissing(RclpyRule):
             "set afterwards",
             {
                 "talker.py": _NODE.format(
-                    "parameters",
-                    _VARIABLE.format("        result.successful = True\n"),
+                    "parameters", _VARIABLE.format("        result.successful = True\n")
                 )
             },
         ),
         Example(
             "nothing, a bool, a rejection",
             {"talker.py": _NODE.format("parameters", _MIXED)},
-            reports=(
-                Report(
-                    "talker.py:10:9", "on_set() does not return a SetParametersResult on every path"
-                ),
-                Report(
-                    "talker.py:12:13",
-                    "returns True, not a SetParametersResult: every change is rejected",
-                ),
-                Report(
-                    "talker.py:14:13",
-                    "returns a SetParametersResult without successful=True: every "
-                    "change is rejected",
-                ),
+            Report(
+                "talker.py:10:9", "on_set() does not return a SetParametersResult on every path"
+            ),
+            Report(
+                "talker.py:12:13",
+                "returns True, not a SetParametersResult: every change is rejected",
+            ),
+            Report(
+                "talker.py:14:13",
+                "returns a SetParametersResult without successful=True: every change is rejected",
             ),
         ),
         Example(
             "never set",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
-            reports=(
-                Report(
-                    "talker.py:12:9",
-                    "returns a SetParametersResult without successful=True: every "
-                    "change is rejected",
-                ),
+            Report(
+                "talker.py:12:9",
+                "returns a SetParametersResult without successful=True: every change is rejected",
             ),
         ),
         Example(
             "no argument",
             {"talker.py": _NODE.format("", _RIGHT)},
-            reports=(
-                Report(
-                    "talker.py:10:9",
-                    "on_set() takes 0 arguments, but gets 1, the parameters: TypeError",
-                ),
+            Report(
+                "talker.py:10:9",
+                "on_set() takes 0 arguments, but gets 1, the parameters: TypeError",
             ),
         ),
         Example(
@@ -105,19 +96,16 @@ class ParameterResultMissing(RclpyRule):
                 "waiting.py": _NODE.replace("def on", "async def on").format("parameters", _RIGHT),
                 "yielding.py": _NODE.format("parameters", _RIGHT.replace("return", "yield")),
             },
-            reports=(
-                Report(
-                    "quick.py:8:64",
-                    "returns True, not a SetParametersResult: every change is rejected",
-                ),
-                Report(
-                    "waiting.py:10:15",
-                    "on_set() is a coroutine: it does not return a SetParametersResult",
-                ),
-                Report(
-                    "yielding.py:10:9",
-                    "on_set() is a generator: it does not return a SetParametersResult",
-                ),
+            Report(
+                "quick.py:8:64", "returns True, not a SetParametersResult: every change is rejected"
+            ),
+            Report(
+                "waiting.py:10:15",
+                "on_set() is a coroutine: it does not return a SetParametersResult",
+            ),
+            Report(
+                "yielding.py:10:9",
+                "on_set() is a generator: it does not return a SetParametersResult",
             ),
         ),
     )

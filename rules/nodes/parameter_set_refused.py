@@ -42,30 +42,24 @@ class ParameterSetRefused(Rule):
         Example(
             "another type",
             {"talker.py": _NODE.format("", "value=2")},
-            reports=(
-                Report(
-                    "talker.py:12:30",
-                    "'rate' (talker.py:9) is declared as double, but this is an "
-                    "integer: it keeps its value",
-                ),
+            Report(
+                "talker.py:12:30",
+                "'rate' (talker.py:9) is declared as double, but this is an "
+                "integer: it keeps its value",
             ),
         ),
         Example(
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
-            reports=(
-                Report("talker.py:12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
-            ),
+            Report("talker.py:12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
         ),
         Example(
             "no value",
             {"talker.py": _NODE.format("", "")},
-            reports=(
-                Report(
-                    "talker.py:12:30",
-                    "'rate' (talker.py:9) is declared as double, but this has no value: "
-                    "it keeps its value",
-                ),
+            Report(
+                "talker.py:12:30",
+                "'rate' (talker.py:9) is declared as double, but this has no value: "
+                "it keeps its value",
             ),
         ),
         Example(
@@ -75,16 +69,12 @@ class ParameterSetRefused(Rule):
                 "fixed.py": _NODE.format(_FIXED, "value=1.0")
                 + "        self.undeclare_parameter('rate')\n",
             },
-            reports=(
-                Report(
-                    "far.py:12:30",
-                    "20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps its value",
-                ),
-                Report("fixed.py:12:30", "'rate' (fixed.py:9) is read-only: it keeps its value"),
-                Report(
-                    "fixed.py:13:9", "parameter 'rate' is read-only: ParameterImmutableException"
-                ),
+            Report(
+                "far.py:12:30",
+                "20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps its value",
             ),
+            Report("fixed.py:12:30", "'rate' (fixed.py:9) is read-only: it keeps its value"),
+            Report("fixed.py:13:9", "parameter 'rate' is read-only: ParameterImmutableException"),
         ),
     )
 

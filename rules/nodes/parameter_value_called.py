@@ -35,21 +35,17 @@ class ParameterValueCalled(RclpyRule):
         Example(
             "called",
             {"talker.py": _NODE.format("value()")},
-            reports=(
-                Report(
-                    "talker.py:8:21",
-                    "'value' is a property of Parameter, not a method: TypeError; remove the ()",
-                ),
+            Report(
+                "talker.py:8:21",
+                "'value' is a property of Parameter, not a method: TypeError; remove the ()",
             ),
         ),
         Example(
             "a field of the message",
             {"talker.py": _NODE.format("get_parameter_value().double_value()")},
-            reports=(
-                Report(
-                    "talker.py:8:21",
-                    "'double_value' is a field, not a method: TypeError; remove the ()",
-                ),
+            Report(
+                "talker.py:8:21",
+                "'double_value' is a field, not a method: TypeError; remove the ()",
             ),
         ),
     )

@@ -49,11 +49,8 @@ class ParameterValueUnfit(Rule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'2.0'")},
-            reports=(
-                Report(
-                    "talker.py:11:27",
-                    "'rate' is declared as string, but 1.0 is a number: TypeError",
-                ),
+            Report(
+                "talker.py:11:27", "'rate' is declared as string, but 1.0 is a number: TypeError"
             ),
         ),
         Example(
@@ -62,15 +59,12 @@ class ParameterValueUnfit(Rule):
                 "talker.py": _NODE.format("2.0")
                 + "        for _ in range(self.rate):\n            print('Hz: ' + self.rate)\n"
             },
-            reports=(
-                Report(
-                    "talker.py:15:24",
-                    "'rate' is declared as double, but range() takes integers: TypeError",
-                ),
-                Report(
-                    "talker.py:16:19",
-                    "'rate' is declared as double, but 'Hz: ' is a str: TypeError",
-                ),
+            Report(
+                "talker.py:15:24",
+                "'rate' is declared as double, but range() takes integers: TypeError",
+            ),
+            Report(
+                "talker.py:16:19", "'rate' is declared as double, but 'Hz: ' is a str: TypeError"
             ),
         ),
     )

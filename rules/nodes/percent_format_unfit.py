@@ -42,19 +42,15 @@ class PercentFormatUnfit(MessageRule):
         Example(
             "two placeholders",
             {"listener.py": _NODE.format("%d: %s")},
-            reports=(
-                Report(
-                    "listener.py:11:32", "format string with 2 placeholders gets 1 value: TypeError"
-                ),
+            Report(
+                "listener.py:11:32", "format string with 2 placeholders gets 1 value: TypeError"
             ),
         ),
         Example(
             "no placeholder",
             {"listener.py": _NODE.format("heard 5 %%")},
-            reports=(
-                Report(
-                    "listener.py:11:32", "format string with no placeholder gets 1 value: TypeError"
-                ),
+            Report(
+                "listener.py:11:32", "format string with no placeholder gets 1 value: TypeError"
             ),
         ),
     )

@@ -40,14 +40,9 @@ class PrintInNode(RclpyRule):
         Example(
             "a print",
             {"talker.py": _NODE.format("print")},
-            reports=(
-                Report("talker.py:6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
-            ),
+            Report("talker.py:6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
         ),
-        Example(
-            "a command line tool",
-            {"talker.py": "import argparse\n" + _NODE.format("print")},
-        ),
+        Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:

@@ -47,11 +47,8 @@ class PublisherNeverUsed(Rule):
         Example(
             "never used",
             {"talker.py": _NODE.format("pass")},
-            reports=(
-                Report(
-                    "talker.py:9:28",
-                    "publisher 'chatter_pub' is never used: no messages on 'chatter'",
-                ),
+            Report(
+                "talker.py:9:28", "publisher 'chatter_pub' is never used: no messages on 'chatter'"
             ),
         ),
     )

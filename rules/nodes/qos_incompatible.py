@@ -49,17 +49,15 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            reports=(
-                Report(
-                    "a.py:9:50",
-                    "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
-                    "requests RELIABLE: nothing arrives",
-                ),
-                Report(
-                    "b.py:9:60",
-                    "subscription 'chatter' requests RELIABLE, but the publisher in "
-                    "a.py:9 is BEST_EFFORT: nothing arrives",
-                ),
+            Report(
+                "a.py:9:50",
+                "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
+                "requests RELIABLE: nothing arrives",
+            ),
+            Report(
+                "b.py:9:60",
+                "subscription 'chatter' requests RELIABLE, but the publisher in "
+                "a.py:9 is BEST_EFFORT: nothing arrives",
             ),
         ),
         Example(
@@ -68,17 +66,15 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format(f"subscription(String, 'chatter', print, {_LATCHED})"),
             },
-            reports=(
-                Report(
-                    "a.py:9:50",
-                    "publisher 'chatter' is VOLATILE, but the subscription in b.py:9 "
-                    "requests TRANSIENT_LOCAL: nothing arrives",
-                ),
-                Report(
-                    "b.py:9:60",
-                    "subscription 'chatter' requests TRANSIENT_LOCAL, but the publisher "
-                    "in a.py:9 is VOLATILE: nothing arrives",
-                ),
+            Report(
+                "a.py:9:50",
+                "publisher 'chatter' is VOLATILE, but the subscription in b.py:9 "
+                "requests TRANSIENT_LOCAL: nothing arrives",
+            ),
+            Report(
+                "b.py:9:60",
+                "subscription 'chatter' requests TRANSIENT_LOCAL, but the publisher "
+                "in a.py:9 is VOLATILE: nothing arrives",
             ),
         ),
     )

@@ -35,19 +35,14 @@ class QosMissing(RclpyRule):
         Example(
             "no argument",
             {"talker.py": _NODE.format("", "")},
-            reports=(
-                Report(
-                    "talker.py:8:9",
-                    "create_publisher() is missing a depth or a QoS profile: TypeError",
-                ),
+            Report(
+                "talker.py:8:9", "create_publisher() is missing a depth or a QoS profile: TypeError"
             ),
         ),
         Example(
             "a profile without a depth",
             {"talker.py": _NODE.format(_QOS, ", QoSProfile()")},
-            reports=(
-                Report("talker.py:9:9", "QoS profile without a depth: InvalidQoSProfileException"),
-            ),
+            Report("talker.py:9:9", "QoS profile without a depth: InvalidQoSProfileException"),
         ),
     )
 

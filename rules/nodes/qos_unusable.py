@@ -52,26 +52,20 @@ class QosUnusable(RclpyRule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'10'")},
-            reports=(
-                Report("talker.py:9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
-            ),
+            Report("talker.py:9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
         ),
         Example(
             "a negative depth",
             {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
-            reports=(
-                Report("talker.py:9:67", "the depth is -1, but must not be negative: ValueError"),
-            ),
+            Report("talker.py:9:67", "the depth is -1, but must not be negative: ValueError"),
         ),
         Example(
             "only a policy",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
-            reports=(
-                Report(
-                    "talker.py:9:50",
-                    "DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the "
-                    "depth; write QoSProfile(depth=10, ...)",
-                ),
+            Report(
+                "talker.py:9:50",
+                "DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the "
+                "depth; write QoSProfile(depth=10, ...)",
             ),
         ),
         Example(
@@ -81,12 +75,10 @@ class QosUnusable(RclpyRule):
                     "QoSProfile(depth=1, reliability=DurabilityPolicy.TRANSIENT_LOCAL)"
                 )
             },
-            reports=(
-                Report(
-                    "talker.py:9:82",
-                    "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
-                    "another policy takes effect",
-                ),
+            Report(
+                "talker.py:9:82",
+                "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
+                "another policy takes effect",
             ),
         ),
         Example(
@@ -97,27 +89,22 @@ class QosUnusable(RclpyRule):
                 "function.py": _NODE.format("profile")
                 + "\n\ndef profile():\n    return QoSProfile(depth=10)\n",
             },
-            reports=(
-                Report(
-                    "class.py:9:50",
-                    "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)",
-                ),
-                Report(
-                    "function.py:9:50",
-                    "expected a depth or a QoSProfile, not a function: TypeError",
-                ),
-                Report("negative.py:9:50", "the depth is -1, but must not be negative: ValueError"),
+            Report(
+                "class.py:9:50",
+                "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)",
             ),
+            Report(
+                "function.py:9:50", "expected a depth or a QoSProfile, not a function: TypeError"
+            ),
+            Report("negative.py:9:50", "the depth is -1, but must not be negative: ValueError"),
         ),
         Example(
             "str values in a profile",
             {"talker.py": _NODE.format("QoSProfile(depth='10', reliability='reliable')")},
-            reports=(
-                Report("talker.py:9:67", "the depth must be an int, not a str: AssertionError"),
-                Report(
-                    "talker.py:9:85",
-                    "reliability must be a ReliabilityPolicy, not a str: AssertionError",
-                ),
+            Report("talker.py:9:67", "the depth must be an int, not a str: AssertionError"),
+            Report(
+                "talker.py:9:85",
+                "reliability must be a ReliabilityPolicy, not a str: AssertionError",
             ),
         ),
     )

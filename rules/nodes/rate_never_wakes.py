@@ -47,11 +47,9 @@ class RateNeverWakes(Rule):
         Example(
             "never spun",
             {**_FILES, "demo/talker.py": _ALONE},
-            reports=(
-                Report(
-                    "demo/talker.py:9:9",
-                    "sleep() never returns: the thread that would wake it is blocked in this call",
-                ),
+            Report(
+                "demo/talker.py:9:9",
+                "sleep() never returns: the thread that would wake it is blocked in this call",
             ),
         ),
     )

@@ -40,11 +40,9 @@ class ResponseNotReturned(Rule):
         Example(
             "nothing",
             {"server.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "server.py:10:9",
-                    "report() does not return the response (service of line 8): TypeError",
-                ),
+            Report(
+                "server.py:10:9",
+                "report() does not return the response (service of line 8): TypeError",
             ),
         ),
         Example(
@@ -55,38 +53,31 @@ class ResponseNotReturned(Rule):
                     "        for _ in range(3):\n            return response\n"
                 )
             },
-            reports=(
-                Report(
-                    "server.py:10:9",
-                    "report() does not return the response on every path (service of "
-                    "line 8): TypeError",
-                ),
-                Report(
-                    "server.py:13:13",
-                    "returns a bool, not the response (service of line 8): TypeError",
-                ),
+            Report(
+                "server.py:10:9",
+                "report() does not return the response on every path (service of "
+                "line 8): TypeError",
+            ),
+            Report(
+                "server.py:13:13", "returns a bool, not the response (service of line 8): TypeError"
             ),
         ),
         Example(
             "a field of the response",
             {"server.py": _NODE.format("        return response.success\n")},
-            reports=(
-                Report(
-                    "server.py:12:9",
-                    "returns the field response.success, not the response (service of "
-                    "line 8): TypeError",
-                ),
+            Report(
+                "server.py:12:9",
+                "returns the field response.success, not the response (service of "
+                "line 8): TypeError",
             ),
         ),
         Example(
             "the request",
             {"server.py": _NODE.format("        return Trigger.Request()\n")},
-            reports=(
-                Report(
-                    "server.py:12:9",
-                    "returns std_srvs/srv/Trigger.Request, not the response (service of "
-                    "line 8): TypeError",
-                ),
+            Report(
+                "server.py:12:9",
+                "returns std_srvs/srv/Trigger.Request, not the response (service of "
+                "line 8): TypeError",
             ),
         ),
         Example(
@@ -96,22 +87,17 @@ class ResponseNotReturned(Rule):
                     "        response = Trigger.Response\n        return response\n"
                 )
             },
-            reports=(
-                Report(
-                    "server.py:13:9",
-                    "returns the class std_srvs/srv/Trigger.Response, not the response "
-                    "(service of line 8): TypeError",
-                ),
+            Report(
+                "server.py:13:9",
+                "returns the class std_srvs/srv/Trigger.Response, not the response "
+                "(service of line 8): TypeError",
             ),
         ),
         Example(
             "a dict",
             {"server.py": _NODE.format("        return {'success': True}\n")},
-            reports=(
-                Report(
-                    "server.py:12:9",
-                    "returns a dict, not the response (service of line 8): TypeError",
-                ),
+            Report(
+                "server.py:12:9", "returns a dict, not the response (service of line 8): TypeError"
             ),
         ),
     )

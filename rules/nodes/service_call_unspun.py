@@ -48,12 +48,10 @@ class ServiceCallUnspun(Rule):
         Example(
             "never spun",
             {**_FILES, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
-            reports=(
-                Report(
-                    "demo/caller.py:10:5",
-                    "call() never returns: the thread that would receive the response "
-                    "is blocked in this call",
-                ),
+            Report(
+                "demo/caller.py:10:5",
+                "call() never returns: the thread that would receive the response "
+                "is blocked in this call",
             ),
         ),
     )

@@ -49,12 +49,10 @@ class ShareOfMisspeltPackage(Rule):
         Example(
             "a missing letter",
             {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("taker_py")},
-            reports=(
-                Report(
-                    "talker_py/node.py:8:53",
-                    "no package 'taker_py': PackageNotFoundError; did you mean "
-                    "'talker_py' (this package)?",
-                ),
+            Report(
+                "talker_py/node.py:8:53",
+                "no package 'taker_py': PackageNotFoundError; did you mean "
+                "'talker_py' (this package)?",
             ),
         ),
     )

@@ -33,12 +33,10 @@ class ShutdownRepeated(RclpyRule):
         Example(
             "shutdown",
             {"talker.py": _MAIN.format("shutdown")},
-            reports=(
-                Report(
-                    "talker.py:12:9",
-                    "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
-                    fix="use try_shutdown()",
-                ),
+            Report(
+                "talker.py:12:9",
+                "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
+                fix="use try_shutdown()",
             ),
             fixed={"talker.py": _MAIN.format("try_shutdown")},
         ),

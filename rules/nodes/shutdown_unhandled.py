@@ -45,12 +45,10 @@ class ShutdownUnhandled(RclpyRule):
         Example(
             "none caught",
             {"talker.py": _IMPORTS + _BARE},
-            reports=(
-                Report(
-                    "talker.py:8:5",
-                    "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
-                    "catch KeyboardInterrupt and ExternalShutdownException",
-                ),
+            Report(
+                "talker.py:8:5",
+                "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
+                "catch KeyboardInterrupt and ExternalShutdownException",
             ),
         ),
         Example(
@@ -65,12 +63,10 @@ class ShutdownUnhandled(RclpyRule):
         Example(
             "SIGTERM not caught",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
-            reports=(
-                Report(
-                    "talker.py:9:9",
-                    "SIGTERM ends this with a traceback and exit code 1; catch "
-                    "ExternalShutdownException",
-                ),
+            Report(
+                "talker.py:9:9",
+                "SIGTERM ends this with a traceback and exit code 1; catch "
+                "ExternalShutdownException",
             ),
         ),
     )

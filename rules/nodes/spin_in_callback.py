@@ -43,12 +43,10 @@ class SpinInCallback(RclpyRule):
         Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
-            reports=(
-                Report(
-                    "caller.py:12:9",
-                    "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
-                    "the same node: no callback runs after that",
-                ),
+            Report(
+                "caller.py:12:9",
+                "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
+                "the same node: no callback runs after that",
             ),
         ),
     )

@@ -44,11 +44,9 @@ class StampComputedWith(RclpyRule):
         Example(
             "not converted",
             {"viewer.py": _NODE.format("msg.header.stamp")},
-            reports=(
-                Report(
-                    "viewer.py:12:15",
-                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
-                ),
+            Report(
+                "viewer.py:12:15",
+                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
             ),
         ),
         Example(
@@ -58,15 +56,13 @@ class StampComputedWith(RclpyRule):
                 "        stamp = msg.header.stamp\n"
                 "        return stamp < other.header.stamp or stamp - 0.1\n"
             },
-            reports=(
-                Report(
-                    "viewer.py:17:16",
-                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
-                ),
-                Report(
-                    "viewer.py:17:46",
-                    "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
-                ),
+            Report(
+                "viewer.py:17:16",
+                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+            ),
+            Report(
+                "viewer.py:17:46",
+                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
             ),
         ),
         Example(

@@ -46,9 +46,7 @@ class SubmoduleNotImported(PythonRule):
         Example(
             "not imported",
             {"talker.py": _NODE.format("")},
-            reports=(
-                Report("talker.py:4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
-            ),
+            Report("talker.py:4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
         ),
     )
 

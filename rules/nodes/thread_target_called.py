@@ -58,22 +58,17 @@ class ThreadTargetCalled(RclpyRule):
         Example(
             "called, zero, not awaited",
             {"talker.py": _NODE.format("()", "0.0", "")},
-            reports=(
-                Report(
-                    "talker.py:9:33", "work() is called here, not in the thread; pass it without ()"
-                ),
-                Report("talker.py:10:27", "timer with period 0 uses all CPU time"),
-                Report("talker.py:19:9", "coroutine ask() is not awaited: it never runs"),
+            Report(
+                "talker.py:9:33", "work() is called here, not in the thread; pass it without ()"
             ),
+            Report("talker.py:10:27", "timer with period 0 uses all CPU time"),
+            Report("talker.py:19:9", "coroutine ask() is not awaited: it never runs"),
         ),
         Example(
             "an argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
-            reports=(
-                Report(
-                    "talker.py:9:50",
-                    "(self) is not a tuple: TypeError in the thread; write (self,)",
-                ),
+            Report(
+                "talker.py:9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"
             ),
         ),
         Example(
@@ -82,11 +77,9 @@ class ThreadTargetCalled(RclpyRule):
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
             },
-            reports=(
-                Report(
-                    "talker.py:10:33",
-                    "spins here, not in the thread; write target=rclpy.spin, args=(node,)",
-                ),
+            Report(
+                "talker.py:10:33",
+                "spins here, not in the thread; write target=rclpy.spin, args=(node,)",
             ),
         ),
     )

@@ -46,27 +46,22 @@ class TransitionResult(RclpyRule):
         Example(
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
-            reports=(
-                Report(
-                    "talker.py:10:9",
-                    "on_configure() returns nothing, not a TransitionCallbackReturn: "
-                    "AttributeError at the transition",
-                ),
+            Report(
+                "talker.py:10:9",
+                "on_configure() returns nothing, not a TransitionCallbackReturn: "
+                "AttributeError at the transition",
             ),
         ),
         Example(
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
-            reports=(
-                Report(
-                    "talker.py:10:9",
-                    "on_configure() takes 0 arguments, but gets the state: the transition fails",
-                ),
-                Report(
-                    "talker.py:11:9",
-                    "returns True, not a TransitionCallbackReturn: AttributeError at "
-                    "the transition",
-                ),
+            Report(
+                "talker.py:10:9",
+                "on_configure() takes 0 arguments, but gets the state: the transition fails",
+            ),
+            Report(
+                "talker.py:11:9",
+                "returns True, not a TransitionCallbackReturn: AttributeError at the transition",
             ),
         ),
         Example(
@@ -76,22 +71,16 @@ class TransitionResult(RclpyRule):
                     "on_activate(self, state)", "return TransitionCallbackReturn.SUCCESS"
                 )
             },
-            reports=(
-                Report(
-                    "talker.py:10:9",
-                    "super().on_activate(state) is not called: the publisher of line 8 "
-                    "stays inactive",
-                ),
+            Report(
+                "talker.py:10:9",
+                "super().on_activate(state) is not called: the publisher of line 8 stays inactive",
             ),
         ),
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            reports=(
-                Report(
-                    "talker.py:10:9",
-                    "rclpy never calls 'on_activated'; did you mean 'on_activate'?",
-                ),
+            Report(
+                "talker.py:10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"
             ),
         ),
     )

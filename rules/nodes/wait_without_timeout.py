@@ -39,12 +39,10 @@ class WaitWithoutTimeout(RclpyRule):
         Example(
             "without a timeout",
             {"caller.py": _NODE.format("")},
-            reports=(
-                Report(
-                    "caller.py:9:9",
-                    "wait_for_service() without timeout_sec blocks the constructor of "
-                    "Caller until the server is available",
-                ),
+            Report(
+                "caller.py:9:9",
+                "wait_for_service() without timeout_sec blocks the constructor of "
+                "Caller until the server is available",
             ),
         ),
     )

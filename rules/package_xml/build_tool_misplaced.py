@@ -30,10 +30,8 @@ class BuildToolMisplaced(Rule):
         Example(
             "needed to run",
             {"package.xml": _MANIFEST.format("depend")},
-            reports=(
-                Report(
-                    "package.xml:2:11", "'ament_cmake' builds the package: write <buildtool_depend>"
-                ),
+            Report(
+                "package.xml:2:11", "'ament_cmake' builds the package: write <buildtool_depend>"
             ),
         ),
     )

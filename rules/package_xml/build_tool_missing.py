@@ -33,12 +33,10 @@ class BuildToolMissing(Rule):
         Example(
             "forgotten",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS},
-            reports=(
-                Report(
-                    "package.xml:1:2",
-                    "nothing declares ament_cmake, which CMakeLists.txt finds",
-                    fix="declare it",
-                ),
+            Report(
+                "package.xml:1:2",
+                "nothing declares ament_cmake, which CMakeLists.txt finds",
+                fix="declare it",
             ),
             fixed={"package.xml": _MANIFEST.format(_DEPEND)},
         ),

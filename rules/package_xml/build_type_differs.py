@@ -38,13 +38,11 @@ class BuildTypeDiffers(Rule):
                 "</export></package>\n",
                 "setup.py": "",
             },
-            reports=(
-                Report(
-                    "package.xml:2:15",
-                    "build type ament_cmake needs a CMakeLists.txt, which the package "
-                    "does not have; its setup.py belongs to ament_python",
-                    fix="write ament_python",
-                ),
+            Report(
+                "package.xml:2:15",
+                "build type ament_cmake needs a CMakeLists.txt, which the package "
+                "does not have; its setup.py belongs to ament_python",
+                fix="write ament_python",
             ),
             fixed={
                 "package.xml": "<package><export>\n"

@@ -35,13 +35,11 @@ class BuildTypeMissing(Rule):
         Example(
             "a setup.py, and no build type",
             {"package.xml": "<package>\n  <name>talker</name>\n</package>\n", "setup.py": ""},
-            reports=(
-                Report(
-                    "package.xml:1:2",
-                    "no <build_type>: colcon takes the package for catkin; write "
-                    "<build_type>ament_python</build_type> in <export>",
-                    fix="declare ament_python",
-                ),
+            Report(
+                "package.xml:1:2",
+                "no <build_type>: colcon takes the package for catkin; write "
+                "<build_type>ament_python</build_type> in <export>",
+                fix="declare ament_python",
             ),
             fixed={
                 "package.xml": "<package>\n"
@@ -58,13 +56,11 @@ class BuildTypeMissing(Rule):
                 "package.xml": "<package>\n  <export>\n    <other/>\n  </export>\n</package>\n",
                 "CMakeLists.txt": _CMAKE_PACKAGE,
             },
-            reports=(
-                Report(
-                    "package.xml:2:4",
-                    "no <build_type>: colcon takes the package for catkin; write "
-                    "<build_type>ament_cmake</build_type> in <export>",
-                    fix="declare ament_cmake",
-                ),
+            Report(
+                "package.xml:2:4",
+                "no <build_type>: colcon takes the package for catkin; write "
+                "<build_type>ament_cmake</build_type> in <export>",
+                fix="declare ament_cmake",
             ),
             fixed={
                 "package.xml": "<package>\n  <export>\n"

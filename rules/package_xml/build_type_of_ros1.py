@@ -32,12 +32,10 @@ class BuildTypeOfRos1(Rule):
         Example(
             "catkin",
             {"package.xml": _MANIFEST.format("catkin"), **_SETUP},
-            reports=(
-                Report(
-                    "package.xml:4:5",
-                    "build type catkin, but the files are those of ament_python",
-                    fix="write ament_python",
-                ),
+            Report(
+                "package.xml:4:5",
+                "build type catkin, but the files are those of ament_python",
+                fix="write ament_python",
             ),
             fixed={"package.xml": _MANIFEST.format("ament_python")},
         ),

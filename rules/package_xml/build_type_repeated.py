@@ -32,11 +32,8 @@ class BuildTypeRepeated(Rule):
         Example(
             "two",
             {"package.xml": _MANIFEST.format("")},
-            reports=(
-                Report(
-                    "package.xml:4:5",
-                    "another build type stands in line 3: colcon ignores the package",
-                ),
+            Report(
+                "package.xml:4:5", "another build type stands in line 3: colcon ignores the package"
             ),
         ),
     )

@@ -34,12 +34,10 @@ class BuildTypeUnknown(Rule):
                 "  <build_type>ament_pyton</build_type>\n"
                 "</export></package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:2:15",
-                    "colcon knows no build type 'ament_pyton'; closest: 'ament_python'",
-                    fix="write ament_python",
-                ),
+            Report(
+                "package.xml:2:15",
+                "colcon knows no build type 'ament_pyton'; closest: 'ament_python'",
+                fix="write ament_python",
             ),
             fixed={
                 "package.xml": "<package><export>\n"

@@ -31,10 +31,10 @@ class DependencyCycle(Rule):
         Example(
             "both ways",
             {"package.xml": _TALKER},
+            Report("package.xml:3:11", "a circle: talker needs listener needs talker"),
             neighbours={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },
-            reports=(Report("package.xml:3:11", "a circle: talker needs listener needs talker"),),
         ),
     )
 

@@ -24,7 +24,7 @@ class DependencyEmpty(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
-            reports=(Report("package.xml:2:3", "<depend> names no package", fix="remove it"),),
+            Report("package.xml:2:3", "<depend> names no package", fix="remove it"),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
     )

@@ -28,12 +28,10 @@ class DependencyIsIndexName(Rule):
         Example(
             "the name for pip",
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:16",
-                    "rosdep has no rule for 'numpy'; its key is 'python3-numpy'",
-                    fix="write python3-numpy",
-                ),
+            Report(
+                "package.xml:2:16",
+                "rosdep has no rule for 'numpy'; its key is 'python3-numpy'",
+                fix="write python3-numpy",
             ),
             fixed={
                 "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"

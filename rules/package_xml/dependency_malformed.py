@@ -46,40 +46,31 @@ class DependencyMalformed(Rule):
         Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
-            reports=(
-                Report("package.xml:3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
-            ),
+            Report("package.xml:3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
         ),
         Example(
             "a version",
             {"package.xml": _MANIFEST.format("numpy&gt;=1.2")},
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "'numpy>=1.2' holds a version: rosdep takes all for the name; use "
-                    "version_gte='...'",
-                ),
+            Report(
+                "package.xml:3:16",
+                "'numpy>=1.2' holds a version: rosdep takes all for the name; use "
+                "version_gte='...'",
             ),
         ),
         Example(
             "a package of Debian",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "'ros-jazzy-std-msgs' is a package of Debian; rosdep knows it as 'std_msgs'",
-                ),
+            Report(
+                "package.xml:3:16",
+                "'ros-jazzy-std-msgs' is a package of Debian; rosdep knows it as 'std_msgs'",
             ),
         ),
         Example(
             "a build type",
             {"package.xml": _MANIFEST.format("ament_python")},
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "'ament_python' is a build type, no package: rosdep cannot resolve "
-                    "it; remove it",
-                ),
+            Report(
+                "package.xml:3:16",
+                "'ament_python' is a build type, no package: rosdep cannot resolve it; remove it",
             ),
         ),
     )

@@ -31,12 +31,10 @@ class DependencyMisspelt(Rule):
         Example(
             "a letter is missing",
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:11",
-                    "no package 'std_msg' is known; closest: 'std_msgs'",
-                    fix="write std_msgs",
-                ),
+            Report(
+                "package.xml:2:11",
+                "no package 'std_msg' is known; closest: 'std_msgs'",
+                fix="write std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),

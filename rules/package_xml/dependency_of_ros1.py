@@ -50,10 +50,8 @@ class DependencyOfRos1(Rule):
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            reports=(
-                Report("package.xml:2:21", "'catkin' is of ROS 1; ROS 2 has ament_cmake instead"),
-                Report("package.xml:3:11", "'rospy' is of ROS 1; ROS 2 has rclpy instead"),
-            ),
+            Report("package.xml:2:21", "'catkin' is of ROS 1; ROS 2 has ament_cmake instead"),
+            Report("package.xml:3:11", "'rospy' is of ROS 1; ROS 2 has rclpy instead"),
         ),
     )
 

@@ -42,13 +42,10 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n"
                 "</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon "
-                    "refuses both",
-                    fix="remove it",
-                ),
+            Report(
+                "package.xml:3:16",
+                "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon refuses both",
+                fix="remove it",
             ),
             fixed={
                 "package.xml": '<package format="3">\n  <depend>std_msgs</depend>\n</package>\n'
@@ -62,13 +59,11 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n"
                 "</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "<exec_depend> 'std_msgs' stands in line 2 already",
-                    fix="remove it",
-                    severity=Severity.WARNING,
-                ),
+            Report(
+                "package.xml:3:16",
+                "<exec_depend> 'std_msgs' stands in line 2 already",
+                fix="remove it",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": '<package format="3">\n'

@@ -60,12 +60,10 @@ class DependencyUnresolvable(Rule):
         Example(
             "neither",
             {"package.xml": _MANIFEST.format("pyserial-3")},
-            reports=(
-                Report(
-                    "package.xml:3:11",
-                    "rosdep's cache has no rule for 'pyserial-3', and no package of the "
-                    "workspace or of AMENT_PREFIX_PATH has the name",
-                ),
+            Report(
+                "package.xml:3:11",
+                "rosdep's cache has no rule for 'pyserial-3', and no package of the "
+                "workspace or of AMENT_PREFIX_PATH has the name",
             ),
             rosdep_keys=_KEYS,
         ),

@@ -22,19 +22,14 @@ class DependsOnItself(Rule):
     code = "PX008"
     name = "depends-on-itself"
     examples = (
-        Example(
-            "on another",
-            {"package.xml": _MANIFEST.format("  <depend>rclpy</depend>\n")},
-        ),
+        Example("on another", {"package.xml": _MANIFEST.format("  <depend>rclpy</depend>\n")}),
         Example(
             "on itself",
             {"package.xml": _MANIFEST.format("  <exec_depend>talker</exec_depend>\n")},
-            reports=(
-                Report(
-                    "package.xml:3:16",
-                    "<exec_depend> 'talker': a package cannot need itself",
-                    fix="remove it",
-                ),
+            Report(
+                "package.xml:3:16",
+                "<exec_depend> 'talker': a package cannot need itself",
+                fix="remove it",
             ),
             fixed={"package.xml": _MANIFEST.format("")},
         ),

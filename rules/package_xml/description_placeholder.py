@@ -23,8 +23,7 @@ class DescriptionPlaceholder(Rule):
     name = "description-placeholder"
     examples = (
         Example(
-            "a sentence",
-            {"package.xml": "<package><description>Talks.</description></package>\n"},
+            "a sentence", {"package.xml": "<package><description>Talks.</description></package>\n"}
         ),
         Example(
             "as written by ros2 pkg create",
@@ -33,19 +32,14 @@ class DescriptionPlaceholder(Rule):
                 "  <description>TODO: Package description</description>\n"
                 "</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:2:3",
-                    "the description is a placeholder, 'TODO: Package description'",
-                ),
+            Report(
+                "package.xml:2:3", "the description is a placeholder, 'TODO: Package description'"
             ),
         ),
         Example(
             "nothing",
             {"package.xml": "<package>\n  <description> </description>\n</package>\n"},
-            reports=(
-                Report("package.xml:2:3", "the description is empty: colcon refuses the package"),
-            ),
+            Report("package.xml:2:3", "the description is empty: colcon refuses the package"),
         ),
     )
 

@@ -29,9 +29,7 @@ class GroupRepeated(Rule):
         Example(
             "one group",
             {"package.xml": _MANIFEST.format("drivers")},
-            reports=(
-                Report("package.xml:3:3", "member of the group 'drivers' that line 2 depends on"),
-            ),
+            Report("package.xml:3:3", "member of the group 'drivers' that line 2 depends on"),
         ),
     )
 

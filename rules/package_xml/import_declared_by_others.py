@@ -10,10 +10,7 @@ from scaffold.api.manifest import declared, needs
 
 _INTERFACES = ("_msgs", "_srvs")
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
-_FILES = {
-    "talker/__init__.py": "",
-    "talker/node.py": "import rclpy\n",
-}
+_FILES = {"talker/__init__.py": "", "talker/node.py": "import rclpy\n"}
 _LAUNCH = "  <exec_depend>launch_ros</exec_depend>\n"
 _RCLPY = "  <exec_depend>rclpy</exec_depend>\n"
 
@@ -37,13 +34,11 @@ class ImportDeclaredByOthers(Rule):
         Example(
             "brought along by launch_ros",
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "talker/node.py:1 imports 'rclpy', which only launch_ros brings "
-                    "along; add <exec_depend>rclpy</exec_depend>",
-                    fix="declare rclpy",
-                ),
+            Report(
+                "package.xml:3:4",
+                "talker/node.py:1 imports 'rclpy', which only launch_ros brings "
+                "along; add <exec_depend>rclpy</exec_depend>",
+                fix="declare rclpy",
             ),
             fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
         ),

@@ -87,19 +87,17 @@ class ImportUndeclared(Rule):
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
                 "test/test_node.py": "import numpy\n",
             },
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "talker/node.py:2 imports 'std_msgs', which no dependency here "
-                    "provides; add <exec_depend>std_msgs</exec_depend>",
-                    fix="declare std_msgs",
-                ),
-                Report(
-                    "package.xml:3:4",
-                    "test/test_node.py:1 imports 'numpy', which no dependency here "
-                    "provides; add <test_depend>python3-numpy</test_depend>",
-                    fix="declare python3-numpy",
-                ),
+            Report(
+                "package.xml:3:4",
+                "talker/node.py:2 imports 'std_msgs', which no dependency here "
+                "provides; add <exec_depend>std_msgs</exec_depend>",
+                fix="declare std_msgs",
+            ),
+            Report(
+                "package.xml:3:4",
+                "test/test_node.py:1 imports 'numpy', which no dependency here "
+                "provides; add <test_depend>python3-numpy</test_depend>",
+                fix="declare python3-numpy",
             ),
             fixed={
                 "package.xml": '<package format="3">\n'

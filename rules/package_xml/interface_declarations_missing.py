@@ -49,13 +49,11 @@ class InterfaceDeclarationsMissing(Rule):
         Example(
             "without the group",
             {"package.xml": _manifest(_BUILD + _RUN), **_FILES},
-            reports=(
-                Report(
-                    "package.xml:4:4",
-                    "CMakeLists.txt:2 generates interfaces, but there is no "
-                    "<member_of_group> rosidl_interface_packages: CMake stops",
-                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
-                ),
+            Report(
+                "package.xml:4:4",
+                "CMakeLists.txt:2 generates interfaces, but there is no "
+                "<member_of_group> rosidl_interface_packages: CMake stops",
+                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
         ),
@@ -65,14 +63,12 @@ class InterfaceDeclarationsMissing(Rule):
                 "package.xml": _manifest(_BUILD + "  <depend>std_msgs</depend>\n" + _MEMBER),
                 **_FILES,
             },
-            reports=(
-                Report(
-                    "package.xml:4:4",
-                    "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
-                    "rosidl_default_runtime",
-                    fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
-                    severity=Severity.WARNING,
-                ),
+            Report(
+                "package.xml:4:4",
+                "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
+                "rosidl_default_runtime",
+                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": _manifest(_BUILD + _RUN + "  <depend>std_msgs</depend>\n" + _MEMBER)
@@ -81,42 +77,35 @@ class InterfaceDeclarationsMissing(Rule):
         Example(
             "without anything",
             {"package.xml": _manifest(""), **_FILES},
-            reports=(
-                Report(
-                    "package.xml:1:2",
-                    "CMakeLists.txt:2 generates interfaces, but no <buildtool_depend> "
-                    "rosidl_default_generators",
-                    fix="add <buildtool_depend>rosidl_default_generators</buildtool_depend>",
-                ),
-                Report(
-                    "package.xml:1:2",
-                    "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
-                    "rosidl_default_runtime",
-                    fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
-                ),
-                Report(
-                    "package.xml:1:2",
-                    "CMakeLists.txt:2 generates interfaces, but there is no "
-                    "<member_of_group> rosidl_interface_packages: CMake stops",
-                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
-                ),
+            Report(
+                "package.xml:1:2",
+                "CMakeLists.txt:2 generates interfaces, but no <buildtool_depend> "
+                "rosidl_default_generators",
+                fix="add <buildtool_depend>rosidl_default_generators</buildtool_depend>",
+            ),
+            Report(
+                "package.xml:1:2",
+                "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
+                "rosidl_default_runtime",
+                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+            ),
+            Report(
+                "package.xml:1:2",
+                "CMakeLists.txt:2 generates interfaces, but there is no "
+                "<member_of_group> rosidl_interface_packages: CMake stops",
+                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
             "groups came with format 3",
-            {
-                "package.xml": _manifest(_BUILD + _RUN).replace('"3"', '"2"'),
-                **_FILES,
-            },
-            reports=(
-                Report(
-                    "package.xml:4:4",
-                    "CMakeLists.txt:2 generates interfaces, but there is no "
-                    "<member_of_group> rosidl_interface_packages: CMake stops; groups "
-                    "need package format 3",
-                    fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
-                ),
+            {"package.xml": _manifest(_BUILD + _RUN).replace('"3"', '"2"'), **_FILES},
+            Report(
+                "package.xml:4:4",
+                "CMakeLists.txt:2 generates interfaces, but there is no "
+                "<member_of_group> rosidl_interface_packages: CMake stops; groups "
+                "need package format 3",
+                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
         ),

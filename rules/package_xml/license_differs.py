@@ -44,10 +44,8 @@ class LicenseDiffers(Rule):
         Example(
             "another",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
-            reports=(
-                Report(
-                    "package.xml:3:3", "'MIT' is declared, but LICENSE holds the Apache License 2.0"
-                ),
+            Report(
+                "package.xml:3:3", "'MIT' is declared, but LICENSE holds the Apache License 2.0"
             ),
         ),
     )

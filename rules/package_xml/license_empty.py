@@ -24,9 +24,7 @@ class LicenseEmpty(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <license> </license>\n</package>\n"},
-            reports=(
-                Report("package.xml:2:3", "the licence is empty: colcon refuses the package"),
-            ),
+            Report("package.xml:2:3", "the licence is empty: colcon refuses the package"),
         ),
     )
 

@@ -26,7 +26,7 @@ class LicenseFileMissing(Rule):
         Example(
             "not there",
             {"package.xml": _MANIFEST.format("LICENCE"), "LICENSE": "..."},
-            reports=(Report("package.xml:2:18", "there is no file 'LICENCE' next to package.xml"),),
+            Report("package.xml:2:18", "there is no file 'LICENCE' next to package.xml"),
         ),
     )
 

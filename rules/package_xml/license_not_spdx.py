@@ -31,19 +31,17 @@ class LicenseNotSpdx(Rule):
         Example(
             "another spelling",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:12",
-                    "the SPDX identifier of 'GPLv3' is GPL-3.0-only",
-                    fix="write GPL-3.0-only",
-                ),
+            Report(
+                "package.xml:2:12",
+                "the SPDX identifier of 'GPLv3' is GPL-3.0-only",
+                fix="write GPL-3.0-only",
             ),
             fixed={"package.xml": "<package>\n  <license>GPL-3.0-only</license>\n</package>\n"},
         ),
         Example(
             "which BSD?",
             {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
-            reports=(Report("package.xml:2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),),
+            Report("package.xml:2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),
         ),
     )
 

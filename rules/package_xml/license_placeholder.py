@@ -30,12 +30,10 @@ class LicensePlaceholder(Rule):
                 "  <license>TODO: License declaration</license>\n"
                 "</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:2:12",
-                    "the licence is a placeholder, 'TODO: License declaration': nobody "
-                    "may use the package",
-                ),
+            Report(
+                "package.xml:2:12",
+                "the licence is a placeholder, 'TODO: License declaration': nobody "
+                "may use the package",
             ),
         ),
     )

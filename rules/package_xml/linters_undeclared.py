@@ -57,13 +57,11 @@ class LintersUndeclared(Rule):
         Example(
             "none",
             {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "CMakeLists.txt:5 runs the linters that <test_depend> names, and "
-                    "none is named; add <test_depend>ament_lint_common</test_depend>",
-                    fix="declare ament_lint_common",
-                ),
+            Report(
+                "package.xml:3:4",
+                "CMakeLists.txt:5 runs the linters that <test_depend> names, and "
+                "none is named; add <test_depend>ament_lint_common</test_depend>",
+                fix="declare ament_lint_common",
             ),
             fixed={
                 "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n")

@@ -36,9 +36,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="root@todo.todo">root</maintainer>\n'
                 "</package>\n"
             },
-            reports=(
-                Report("package.xml:2:22", "'root@todo.todo' of <maintainer> reaches nobody"),
-            ),
+            Report("package.xml:2:22", "'root@todo.todo' of <maintainer> reaches nobody"),
         ),
         Example(
             "no name",
@@ -47,7 +45,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com"></maintainer>\n'
                 "</package>\n"
             },
-            reports=(Report("package.xml:2:3", "<maintainer> has no name"),),
+            Report("package.xml:2:3", "<maintainer> has no name"),
         ),
     )
 

@@ -30,13 +30,11 @@ class NameDiffersFromFiles(Rule):
         Example(
             "renamed here alone",
             {**_FILES, "package.xml": _MANIFEST.format("robot_talker")},
-            reports=(
-                Report(
-                    "package.xml:2:9",
-                    "the name is 'robot_talker', but 'talker' in CMakeLists.txt and the "
-                    "files around it",
-                    unsafe_fix="write talker",
-                ),
+            Report(
+                "package.xml:2:9",
+                "the name is 'robot_talker', but 'talker' in CMakeLists.txt and the "
+                "files around it",
+                unsafe_fix="write talker",
             ),
             fixed={"package.xml": _MANIFEST.format("talker")},
         ),

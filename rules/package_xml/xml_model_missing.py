@@ -34,12 +34,10 @@ class XmlModelMissing(Rule):
         Example(
             "without",
             {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
-            reports=(
-                Report(
-                    "package.xml:2:2",
-                    "no <?xml-model ...?> line: no tool validates this manifest",
-                    fix="name the schema",
-                ),
+            Report(
+                "package.xml:2:2",
+                "no <?xml-model ...?> line: no tool validates this manifest",
+                fix="name the schema",
             ),
             fixed={
                 "package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'

@@ -46,23 +46,19 @@ class DefaultTooNarrow(Rule):
         Example(
             "an integer",
             _files("1", "2.5"),
-            reports=(
-                Report(
-                    "talker.py:7:9",
-                    "default is an integer, but a.yaml:3 sets a double: "
-                    "InvalidParameterTypeException; declare a double",
-                ),
+            Report(
+                "talker.py:7:9",
+                "default is an integer, but a.yaml:3 sets a double: "
+                "InvalidParameterTypeException; declare a double",
             ),
         ),
         Example(
             "a quoted number",
             _files("'1'", "2"),
-            reports=(
-                Report(
-                    "talker.py:7:9",
-                    "default is a string, but a.yaml:3 sets an integer: "
-                    "InvalidParameterTypeException; declare an integer",
-                ),
+            Report(
+                "talker.py:7:9",
+                "default is a string, but a.yaml:3 sets an integer: "
+                "InvalidParameterTypeException; declare an integer",
             ),
         ),
     )

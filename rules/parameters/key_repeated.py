@@ -30,12 +30,9 @@ class KeyRepeated(Rule):
         Example(
             "twice",
             {"a.yaml": _FILE.format("rate")},
-            reports=(
-                Report(
-                    "a.yaml:4:5",
-                    "'rate' is already set in line 3: the first value is ignored; "
-                    "remove one of them",
-                ),
+            Report(
+                "a.yaml:4:5",
+                "'rate' is already set in line 3: the first value is ignored; remove one of them",
             ),
         ),
     )

@@ -40,20 +40,15 @@ class ListEmpty(Rule):
         ),
         Example(
             "empty, and a node that handles it",
-            {
-                "talker.py": _NODE.format("get_parameter_or('names')"),
-                "a.yaml": _FILE.format("[]"),
-            },
+            {"talker.py": _NODE.format("get_parameter_or('names')"), "a.yaml": _FILE.format("[]")},
         ),
         Example(
             "empty",
             {"talker.py": _NODE.format("get_parameter('names')"), "a.yaml": _FILE.format("[]")},
-            reports=(
-                Report(
-                    "a.yaml:3:12",
-                    "empty list leaves 'names' unset, and talker.py:8 reads it: "
-                    "ParameterUninitializedException",
-                ),
+            Report(
+                "a.yaml:3:12",
+                "empty list leaves 'names' unset, and talker.py:8 reads it: "
+                "ParameterUninitializedException",
             ),
         ),
     )

@@ -29,23 +29,19 @@ class ListMixesTypes(Rule):
         Example(
             "integers among doubles",
             {"config/a.yaml": _FILE.format("[1, 2.5, -3]")},
-            reports=(
-                Report(
-                    "config/a.yaml:3:16",
-                    "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
-                    fix="write all as doubles",
-                ),
+            Report(
+                "config/a.yaml:3:16",
+                "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
+                fix="write all as doubles",
             ),
             fixed={"config/a.yaml": _FILE.format("[1.0, 2.5, -3.0]")},
         ),
         Example(
             "a word that YAML reads as a boolean",
             {"config/a.yaml": _FILE.format("[left, right, off]")},
-            reports=(
-                Report(
-                    "config/a.yaml:3:26",
-                    "list 'gains' mixes string (left) and bool (off): rcl rejects the file",
-                ),
+            Report(
+                "config/a.yaml:3:26",
+                "list 'gains' mixes string (left) and bool (off): rcl rejects the file",
             ),
         ),
     )

@@ -68,28 +68,23 @@ class MarkupParameterDiffers(Rule):
                 "launch/a.launch.xml": _LAUNCH.format("rate", "2"),
                 "launch/b.launch.yaml": _YAML.format("2"),
             },
-            reports=(
-                Report(
-                    "launch/a.launch.xml:3:31",
-                    "'rate' is declared as double (demo/talk.py:7), but this is an "
-                    "integer: InvalidParameterTypeException",
-                ),
-                Report(
-                    "launch/b.launch.yaml:7:14",
-                    "'rate' is declared as double (demo/talk.py:7), but this is an "
-                    "integer: InvalidParameterTypeException",
-                ),
+            Report(
+                "launch/a.launch.xml:3:31",
+                "'rate' is declared as double (demo/talk.py:7), but this is an "
+                "integer: InvalidParameterTypeException",
+            ),
+            Report(
+                "launch/b.launch.yaml:7:14",
+                "'rate' is declared as double (demo/talk.py:7), but this is an "
+                "integer: InvalidParameterTypeException",
             ),
         ),
         Example(
             "another name",
             {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rates", "2.0")},
-            reports=(
-                Report(
-                    "launch/a.launch.xml:3:18",
-                    "node declares no parameter 'rates': the value is ignored; did you "
-                    "mean 'rate'?",
-                ),
+            Report(
+                "launch/a.launch.xml:3:18",
+                "node declares no parameter 'rates': the value is ignored; did you mean 'rate'?",
             ),
         ),
     )

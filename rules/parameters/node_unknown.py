@@ -51,11 +51,9 @@ class NodeUnknown(Rule):
         Example(
             "the name of the executable",
             {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
-            reports=(
-                Report(
-                    "config/a.yaml:1:1",
-                    "no node of this package is named 'talker_node'; did you mean 'talker'?",
-                ),
+            Report(
+                "config/a.yaml:1:1",
+                "no node of this package is named 'talker_node'; did you mean 'talker'?",
             ),
         ),
         Example(
@@ -73,12 +71,10 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH,
                 "config/demo.yaml": _FILE.format("eye"),
             },
-            reports=(
-                Report(
-                    "config/demo.yaml:1:1",
-                    "no node is named 'eye': the section is ignored; "
-                    "launch/a.launch.py:10 starts camera",
-                ),
+            Report(
+                "config/demo.yaml:1:1",
+                "no node is named 'eye': the section is ignored; "
+                "launch/a.launch.py:10 starts camera",
             ),
         ),
     )

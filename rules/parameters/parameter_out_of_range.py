@@ -45,22 +45,16 @@ class ParameterOutOfRange(Rule):
         Example("at the upper bound", {"talker.py": _NODE, "a.yaml": _FILE.format("1.0")}),
         Example(
             "too large; between two steps",
-            {
-                "talker.py": _NODE,
-                "a.yaml": _FILE.format("1.5"),
-                "b.yaml": _FILE.format("0.25"),
-            },
-            reports=(
-                Report(
-                    "a.yaml:3:11",
-                    "1.5 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
-                    "(talker.py:10): InvalidParameterValueException",
-                ),
-                Report(
-                    "b.yaml:3:11",
-                    "0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
-                    "(talker.py:10): InvalidParameterValueException",
-                ),
+            {"talker.py": _NODE, "a.yaml": _FILE.format("1.5"), "b.yaml": _FILE.format("0.25")},
+            Report(
+                "a.yaml:3:11",
+                "1.5 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+                "(talker.py:10): InvalidParameterValueException",
+            ),
+            Report(
+                "b.yaml:3:11",
+                "0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+                "(talker.py:10): InvalidParameterValueException",
             ),
         ),
     )

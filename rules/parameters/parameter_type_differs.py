@@ -52,43 +52,41 @@ class ParameterTypeDiffers(Rule):
     code = "PF006"
     name = "parameter-type-differs"
     examples = (
-        Example(
-            "a double, a string",
-            {"talker.py": _NODE, "a.yaml": _FILE.format("2.0", "fast")},
-        ),
+        Example("a double, a string", {"talker.py": _NODE, "a.yaml": _FILE.format("2.0", "fast")}),
         Example(
             "an integer for a double, a boolean for a string",
             {"talker.py": _NODE, "a.yaml": _FILE.format("2", "on")},
-            reports=(
-                Report(
-                    "a.yaml:3:11",
-                    "'rate' (talker.py:7) is a double, but this is an integer: "
-                    "InvalidParameterTypeException",
-                    fix="write it as a double",
-                ),
-                Report(
-                    "a.yaml:4:11",
-                    "'mode' (talker.py:8) is a string, but this is a bool: "
-                    "InvalidParameterTypeException",
-                    unsafe_fix="quote it",
-                ),
+            Report(
+                "a.yaml:3:11",
+                "'rate' (talker.py:7) is a double, but this is an integer: "
+                "InvalidParameterTypeException",
+                fix="write it as a double",
+            ),
+            Report(
+                "a.yaml:4:11",
+                "'mode' (talker.py:8) is a string, but this is a bool: "
+                "InvalidParameterTypeException",
+                unsafe_fix="quote it",
             ),
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
         Example(
             "a string for a double",
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
-            reports=(
-                Report(
-                    "a.yaml:3:11",
-                    "'rate' (talker.py:7) is a double, but this is a string: "
-                    "InvalidParameterTypeException",
-                ),
+            Report(
+                "a.yaml:3:11",
+                "'rate' (talker.py:7) is a double, but this is a string: "
+                "InvalidParameterTypeException",
             ),
         ),
         Example(
             "for a node of another package of the workspace",
             {"package.xml": _MANIFEST.format("demo_bringup"), "launch/demo.launch.py": _LAUNCH},
+            Report(
+                "launch/demo.launch.py:8:22",
+                "'rate' (demo/talker.py:7 of demo) is a double, but 2 is an "
+                "integer: InvalidParameterTypeException",
+            ),
             neighbours={
                 "demo": {
                     "package.xml": _MANIFEST.format("demo"),
@@ -97,23 +95,14 @@ class ParameterTypeDiffers(Rule):
                     "demo/talker.py": _NODE,
                 }
             },
-            reports=(
-                Report(
-                    "launch/demo.launch.py:8:22",
-                    "'rate' (demo/talker.py:7 of demo) is a double, but 2 is an "
-                    "integer: InvalidParameterTypeException",
-                ),
-            ),
         ),
         Example(
             "a string for a parameter of every node",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
-            reports=(
-                Report(
-                    "a.yaml:3:19",
-                    "'use_sim_time' (declared by rclpy) is a bool, but this is a "
-                    "string: InvalidParameterTypeException",
-                ),
+            Report(
+                "a.yaml:3:19",
+                "'use_sim_time' (declared by rclpy) is a bool, but this is a "
+                "string: InvalidParameterTypeException",
             ),
         ),
     )

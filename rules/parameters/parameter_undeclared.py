@@ -32,8 +32,7 @@ class ParameterUndeclared(Rule):
     name = "parameter-undeclared"
     examples = (
         Example(
-            "declared",
-            {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")},
+            "declared", {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")}
         ),
         Example(
             "a node that accepts undeclared parameters",
@@ -58,17 +57,15 @@ class ParameterUndeclared(Rule):
                 "talker.py": _NODE.format(""),
                 "a.yaml": _FILE.format("limits:\n      hihg: 4\n    text: hello"),
             },
-            reports=(
-                Report(
-                    "a.yaml:6:7",
-                    "node 'talker' declares no parameter 'limits.hihg': the value is "
-                    "ignored; did you mean 'limits.high'?",
-                ),
-                Report(
-                    "a.yaml:7:5",
-                    "node 'talker' declares no parameter 'text': the value is ignored; "
-                    "it has limits.high, rate",
-                ),
+            Report(
+                "a.yaml:6:7",
+                "node 'talker' declares no parameter 'limits.hihg': the value is "
+                "ignored; did you mean 'limits.high'?",
+            ),
+            Report(
+                "a.yaml:7:5",
+                "node 'talker' declares no parameter 'text': the value is ignored; "
+                "it has limits.high, rate",
             ),
         ),
     )

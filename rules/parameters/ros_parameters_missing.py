@@ -37,19 +37,17 @@ class RosParametersMissing(Rule):
                 "config/a.yaml": _FILE.format("ros_parameters"),
                 "config/b.yaml": _FILE.format("ros__parameter"),
             },
-            reports=(
-                Report(
-                    "config/a.yaml:2:3",
-                    "unknown key 'ros_parameters': rcl rejects the file; did you mean "
-                    "'ros__parameters'?",
-                    fix="rename it to 'ros__parameters'",
-                ),
-                Report(
-                    "config/b.yaml:2:3",
-                    "unknown key 'ros__parameter': rcl rejects the file; did you mean "
-                    "'ros__parameters'?",
-                    fix="rename it to 'ros__parameters'",
-                ),
+            Report(
+                "config/a.yaml:2:3",
+                "unknown key 'ros_parameters': rcl rejects the file; did you mean "
+                "'ros__parameters'?",
+                fix="rename it to 'ros__parameters'",
+            ),
+            Report(
+                "config/b.yaml:2:3",
+                "unknown key 'ros__parameter': rcl rejects the file; did you mean "
+                "'ros__parameters'?",
+                fix="rename it to 'ros__parameters'",
             ),
             fixed={
                 "config/a.yaml": _FILE.format("ros__parameters"),
@@ -59,11 +57,8 @@ class RosParametersMissing(Rule):
         Example(
             "missing for one of two nodes",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
-            reports=(
-                Report(
-                    "config/a.yaml:5:3",
-                    "'rate' is not under 'ros__parameters': rcl rejects the file",
-                ),
+            Report(
+                "config/a.yaml:5:3", "'rate' is not under 'ros__parameters': rcl rejects the file"
             ),
         ),
     )

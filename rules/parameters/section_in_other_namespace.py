@@ -47,12 +47,9 @@ class SectionInOtherNamespace(Rule):
         Example(
             "another namespace",
             _files("/front/camera"),
-            reports=(
-                Report(
-                    "config/demo.yaml:1:1",
-                    "section for '/front/camera' is ignored: launch/a.launch.py:10 "
-                    "starts '/camera'",
-                ),
+            Report(
+                "config/demo.yaml:1:1",
+                "section for '/front/camera' is ignored: launch/a.launch.py:10 starts '/camera'",
             ),
         ),
     )

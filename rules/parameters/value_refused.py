@@ -33,19 +33,14 @@ class ValueRefused(Rule):
                 "b.yaml": _FILE.format("&rate 2.0\n    more: *rate"),
                 "c.yaml": _FILE.format("[[1.0, 2.0], [3.0]]"),
             },
-            reports=(
-                Report(
-                    "a.yaml:3:5",
-                    "'rate' has no value: rcl rejects the file; write '' for an empty string",
-                ),
-                Report(
-                    "b.yaml:4:11",
-                    "'more' is the alias *rate: rcl rejects the file; write the value",
-                ),
-                Report(
-                    "c.yaml:3:12", "'rate' is a list of lists: rcl rejects the file; flatten it"
-                ),
+            Report(
+                "a.yaml:3:5",
+                "'rate' has no value: rcl rejects the file; write '' for an empty string",
             ),
+            Report(
+                "b.yaml:4:11", "'more' is the alias *rate: rcl rejects the file; write the value"
+            ),
+            Report("c.yaml:3:12", "'rate' is a list of lists: rcl rejects the file; flatten it"),
         ),
         Example(
             "no node; no parameters",
@@ -53,10 +48,8 @@ class ValueRefused(Rule):
                 "a.yaml": "ros__parameters:\n  rate: 2.0\n",
                 "b.yaml": "talker:\n  ros__parameters:\n",
             },
-            reports=(
-                Report("a.yaml:1:1", "no node name above 'ros__parameters': rcl rejects the file"),
-                Report("b.yaml:2:3", "no parameters under 'ros__parameters': rcl rejects the file"),
-            ),
+            Report("a.yaml:1:1", "no node name above 'ros__parameters': rcl rejects the file"),
+            Report("b.yaml:2:3", "no parameters under 'ros__parameters': rcl rejects the file"),
         ),
     )
 

@@ -32,16 +32,12 @@ class YamlMalformed(Rule):
                 "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
                 "config/c.yaml": _FILE.format("    rate: 2.0: 3\n"),
             },
-            reports=(
-                Report("config/a.yaml:3:1", "line is indented with a tab; YAML allows only spaces"),
-                Report(
-                    "config/b.yaml:4:1",
-                    "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
-                ),
-                Report(
-                    "config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"
-                ),
+            Report("config/a.yaml:3:1", "line is indented with a tab; YAML allows only spaces"),
+            Report(
+                "config/b.yaml:4:1",
+                "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
             ),
+            Report("config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"),
         ),
     )
 

@@ -42,31 +42,24 @@ class DataDestinationDiffers(Rule):
         Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
-            reports=(
-                Report(
-                    "setup.py:6:10",
-                    "installs launch/talk.launch.py to share/launch; it is looked for "
-                    "in share/talker/",
-                ),
+            Report(
+                "setup.py:6:10",
+                "installs launch/talk.launch.py to share/launch; it is looked for in share/talker/",
             ),
         ),
         Example(
             "absolute",
             {**_FILES, "setup.py": _SETUP.format("'/share/talker/launch'", _GLOB)},
-            reports=(
-                Report(
-                    "setup.py:6:10",
-                    "installs to /share/talker/launch: an absolute path leaves the "
-                    "workspace; write share/talker/...",
-                ),
+            Report(
+                "setup.py:6:10",
+                "installs to /share/talker/launch: an absolute path leaves the "
+                "workspace; write share/talker/...",
             ),
         ),
         Example(
             "no list",
             {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
-            reports=(
-                Report("setup.py:6:9", "the files are a string, not a list: the build stops"),
-            ),
+            Report("setup.py:6:9", "the files are a string, not a list: the build stops"),
         ),
         Example(
             "no comma",
@@ -76,11 +69,7 @@ class DataDestinationDiffers(Rule):
                     "]),", f"])\n        ('share/talker/launch', {_GLOB}),"
                 ),
             },
-            reports=(
-                Report(
-                    "setup.py:6:9", "a comma is missing after this: 'tuple' object is not callable"
-                ),
-            ),
+            Report("setup.py:6:9", "a comma is missing after this: 'tuple' object is not callable"),
         ),
     )
 

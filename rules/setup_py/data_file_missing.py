@@ -61,13 +61,10 @@ class DataFileMissing(Rule):
                 "package.xml": "<package/>\n",
                 "launch/talk.launch.py": "",
             },
-            reports=(
-                Report("setup.py:8:42", "data_files names LICENCE, which is not there"),
-                Report(
-                    "setup.py:9:33",
-                    "the pattern launch/*_launch.py matches no file; "
-                    "launch/talk.launch.py is there",
-                ),
+            Report("setup.py:8:42", "data_files names LICENCE, which is not there"),
+            Report(
+                "setup.py:9:33",
+                "the pattern launch/*_launch.py matches no file; launch/talk.launch.py is there",
             ),
         ),
     )

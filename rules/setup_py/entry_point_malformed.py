@@ -35,22 +35,18 @@ class EntryPointMalformed(Rule):
                     "        'listener = listener.node:main',\n"
                 )
             },
-            reports=(
-                Report(
-                    "setup.py:5:9",
-                    "a comma is missing after this console script: it is joined to the next",
-                ),
+            Report(
+                "setup.py:5:9",
+                "a comma is missing after this console script: it is joined to the next",
             ),
         ),
         Example(
             "no function",
             {"setup.py": _SETUP.format("        'talker = talker.node',\n")},
-            reports=(
-                Report(
-                    "setup.py:5:9",
-                    "console script 'talker = talker.node': no function is named: name "
-                    "= module:function",
-                ),
+            Report(
+                "setup.py:5:9",
+                "console script 'talker = talker.node': no function is named: name "
+                "= module:function",
             ),
         ),
     )

@@ -45,13 +45,10 @@ class EntryPointMissing(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            reports=(
-                Report("setup.py:5:9", "talker/node.py has no 'run': `ros2 run` of 'talker' fails"),
-                Report(
-                    "setup.py:6:9",
-                    "there is no talker/nodes.py; talker/node.py is near: `ros2 run` of "
-                    "'other' fails",
-                ),
+            Report("setup.py:5:9", "talker/node.py has no 'run': `ros2 run` of 'talker' fails"),
+            Report(
+                "setup.py:6:9",
+                "there is no talker/nodes.py; talker/node.py is near: `ros2 run` of 'other' fails",
             ),
         ),
     )

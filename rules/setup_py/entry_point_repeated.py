@@ -33,11 +33,7 @@ class EntryPointRepeated(Rule):
         Example(
             "one name",
             {"setup.py": _SETUP.format("talker")},
-            reports=(
-                Report(
-                    "setup.py:8:9", "'talker' is the name of another entry point: only one is made"
-                ),
-            ),
+            Report("setup.py:8:9", "'talker' is the name of another entry point: only one is made"),
         ),
     )
 

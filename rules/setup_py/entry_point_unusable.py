@@ -34,18 +34,13 @@ class EntryPointUnusable(Rule):
         Example(
             "without the package",
             {"setup.py": _SETUP.format("node"), **_FILES},
-            reports=(
-                Report("setup.py:6:39", "no module 'node' is installed; closest: 'talker.node'"),
-            ),
+            Report("setup.py:6:39", "no module 'node' is installed; closest: 'talker.node'"),
         ),
         Example(
             "another package",
             {"setup.py": _SETUP.format("my_package.node"), **_FILES},
-            reports=(
-                Report(
-                    "setup.py:6:39",
-                    "no module 'my_package.node' is installed; closest: 'talker.node'",
-                ),
+            Report(
+                "setup.py:6:39", "no module 'my_package.node' is installed; closest: 'talker.node'"
             ),
         ),
         Example(
@@ -55,12 +50,10 @@ class EntryPointUnusable(Rule):
                 **_FILES,
                 "talker/node.py": "def main(args):\n    pass\n",
             },
-            reports=(
-                Report(
-                    "talker/node.py:1:5",
-                    "the entry point 'node' of setup.py calls main() without arguments: "
-                    "TypeError; give args a default",
-                ),
+            Report(
+                "talker/node.py:1:5",
+                "the entry point 'node' of setup.py calls main() without arguments: "
+                "TypeError; give args a default",
             ),
         ),
     )

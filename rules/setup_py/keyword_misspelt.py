@@ -48,21 +48,17 @@ class KeywordMisspelt(Rule):
         Example(
             "the keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
-            reports=(
-                Report(
-                    "setup.py:6:5",
-                    "setup() has no 'entry_point': nobody reads it; closest: 'entry_points'",
-                ),
+            Report(
+                "setup.py:6:5",
+                "setup() has no 'entry_point': nobody reads it; closest: 'entry_points'",
             ),
         ),
         Example(
             "the group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
-            reports=(
-                Report(
-                    "setup.py:7:9",
-                    "nobody reads the group 'console_script': 'console_scripts' makes executables",
-                ),
+            Report(
+                "setup.py:7:9",
+                "nobody reads the group 'console_script': 'console_scripts' makes executables",
             ),
         ),
     )

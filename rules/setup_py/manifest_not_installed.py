@@ -37,12 +37,10 @@ class ManifestNotInstalled(Rule):
         Example(
             "forgotten",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_MARKER)},
-            reports=(
-                Report(
-                    "setup.py:5:16",
-                    "data_files does not install package.xml to share/talker",
-                    fix="install package.xml",
-                ),
+            Report(
+                "setup.py:5:16",
+                "data_files does not install package.xml to share/talker",
+                fix="install package.xml",
             ),
             fixed={"setup.py": _SETUP.format(_LINE + _MARKER)},
         ),

@@ -32,21 +32,15 @@ class MarkerMissing(Rule):
     examples = (
         Example(
             "there and installed",
-            {
-                "package.xml": _MANIFEST,
-                "setup.py": _SETUP.format(_BOTH),
-                "resource/talker": "",
-            },
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH), "resource/talker": ""},
         ),
         Example(
             "the file is missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH)},
-            reports=(
-                Report(
-                    "setup.py:5:64",
-                    "data_files names resource/talker, which does not exist: the build stops",
-                    fix="create resource/talker",
-                ),
+            Report(
+                "setup.py:5:64",
+                "data_files names resource/talker, which does not exist: the build stops",
+                fix="create resource/talker",
             ),
             fixed={"resource/talker": ""},
         ),

@@ -52,12 +52,8 @@ class MetadataDiffers(Rule):
         Example(
             "another version and another license",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
-            reports=(
-                Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
-                Report(
-                    "setup.py:9:13", "license is 'MIT', but 'Apache-2.0' in package.xml, line 6"
-                ),
-            ),
+            Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
+            Report("setup.py:9:13", "license is 'MIT', but 'Apache-2.0' in package.xml, line 6"),
         ),
     )
 

@@ -40,11 +40,7 @@ class ModuleNotPacked(Rule):
         Example(
             "none",
             {"setup.py": _SETUP.format(""), **_FILES},
-            reports=(
-                Report(
-                    "setup.py:3:1", "packages leaves out 'talker', which the entry points start"
-                ),
-            ),
+            Report("setup.py:3:1", "packages leaves out 'talker', which the entry points start"),
         ),
         Example(
             "left out",
@@ -52,24 +48,17 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
                 **_FILES,
             },
-            reports=(
-                Report(
-                    "setup.py:5:14",
-                    "find_packages leaves out 'talker', which the entry points start",
-                ),
+            Report(
+                "setup.py:5:14", "find_packages leaves out 'talker', which the entry points start"
             ),
         ),
         Example(
             "another name",
             {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
-            reports=(
-                Report(
-                    "setup.py:5:14", "packages leaves out 'talker', which the entry points start"
-                ),
-                Report(
-                    "setup.py:5:14",
-                    "packages names 'demo', but there is no such directory: the build stops",
-                ),
+            Report("setup.py:5:14", "packages leaves out 'talker', which the entry points start"),
+            Report(
+                "setup.py:5:14",
+                "packages names 'demo', but there is no such directory: the build stops",
             ),
         ),
         Example(
@@ -78,11 +67,9 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(),\n"),
                 "talker/node.py": "def main():\n    pass\n",
             },
-            reports=(
-                Report(
-                    "talker/__init__.py:1:1",
-                    "missing: find_packages does not install talker/ without it",
-                ),
+            Report(
+                "talker/__init__.py:1:1",
+                "missing: find_packages does not install talker/ without it",
             ),
         ),
     )

@@ -37,24 +37,16 @@ class ModulePlaceDiffers(Rule):
         Example(
             "not there",
             {"setup.py": _SETUP.format("    package_dir={'': 'lib'},\n"), **_FILES},
-            reports=(
-                Report(
-                    "setup.py:5:17",
-                    "package_dir names lib/, which does not exist: nothing is installed",
-                ),
+            Report(
+                "setup.py:5:17",
+                "package_dir names lib/, which does not exist: nothing is installed",
             ),
         ),
         Example(
             "a package",
-            {
-                "setup.py": _SETUP.format("    py_modules=['talker'],\n"),
-                "talker/__init__.py": "",
-            },
-            reports=(
-                Report(
-                    "setup.py:5:16",
-                    "talker/ is a package: it belongs in packages, not in py_modules",
-                ),
+            {"setup.py": _SETUP.format("    py_modules=['talker'],\n"), "talker/__init__.py": ""},
+            Report(
+                "setup.py:5:16", "talker/ is a package: it belongs in packages, not in py_modules"
             ),
         ),
     )

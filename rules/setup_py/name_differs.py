@@ -38,12 +38,10 @@ class NameDiffers(Rule):
                 "package.xml": _MANIFEST,
                 "setup.py": "from setuptools import setup\n\nsetup(name='listener')\n",
             },
-            reports=(
-                Report(
-                    "setup.py:3:12",
-                    "the name is 'listener', but 'talker' in package.xml, line 1",
-                    unsafe_fix="write talker",
-                ),
+            Report(
+                "setup.py:3:12",
+                "the name is 'listener', but 'talker' in package.xml, line 1",
+                unsafe_fix="write talker",
             ),
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
         ),

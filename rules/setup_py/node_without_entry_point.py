@@ -55,12 +55,10 @@ class NodeWithoutEntryPoint(Rule):
         Example(
             "one is not",
             {"setup.py": _SETUP.format(""), **_FILES},
-            reports=(
-                Report(
-                    "setup.py:6:18",
-                    "talker/other.py is a node with a main, but no entry point starts "
-                    "it; add 'other = talker.other:main'",
-                ),
+            Report(
+                "setup.py:6:18",
+                "talker/other.py is a node with a main, but no entry point starts "
+                "it; add 'other = talker.other:main'",
             ),
         ),
     )

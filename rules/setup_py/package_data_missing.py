@@ -42,12 +42,10 @@ class PackageDataMissing(Rule):
         Example(
             "left out",
             {**_FILES, "setup.py": _SETUP.format("")},
-            reports=(
-                Report(
-                    "setup.py:5:14",
-                    "talker/text.py:3 reads talker/words.txt, which is not installed; "
-                    "add package_data={'talker': ['words.txt']}",
-                ),
+            Report(
+                "setup.py:5:14",
+                "talker/text.py:3 reads talker/words.txt, which is not installed; "
+                "add package_data={'talker': ['words.txt']}",
             ),
         ),
         Example(
@@ -58,12 +56,10 @@ class PackageDataMissing(Rule):
                 "WORDS = files('talker').joinpath('words.txt').read_text()\n",
                 "setup.py": _SETUP.format("    package_data={'talker': ['*.json']},\n"),
             },
-            reports=(
-                Report(
-                    "setup.py:6:18",
-                    "talker/text.py:3 reads talker/words.txt, which is not installed; "
-                    "add package_data={'talker': ['words.txt']}",
-                ),
+            Report(
+                "setup.py:6:18",
+                "talker/text.py:3 reads talker/words.txt, which is not installed; "
+                "add package_data={'talker': ['words.txt']}",
             ),
         ),
     )

@@ -28,21 +28,15 @@ class ReadFileMissing(Rule):
         Example(
             "missing",
             {"setup.py": _SETUP.format(_READ)},
-            reports=(
-                Report(
-                    "setup.py:5:27",
-                    "setup.py opens README.md, which does not exist: the build stops",
-                ),
+            Report(
+                "setup.py:5:27", "setup.py opens README.md, which does not exist: the build stops"
             ),
         ),
         Example(
             "a script",
             {"setup.py": _SETUP.format("scripts=['scripts/talk']")},
-            reports=(
-                Report(
-                    "setup.py:5:13",
-                    "scripts names scripts/talk, which does not exist: the build stops",
-                ),
+            Report(
+                "setup.py:5:13", "scripts names scripts/talk, which does not exist: the build stops"
             ),
         ),
     )

@@ -54,13 +54,10 @@ class ScriptDirectoryDiffers(Rule):
                 "setup.py": _SETUP,
                 "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/other"),
             },
-            reports=(
-                Report(
-                    "setup.cfg:4:17",
-                    "install_scripts is '$base/lib/other'; `ros2 run talker` looks in "
-                    "$base/lib/talker",
-                    fix="write $base/lib/talker",
-                ),
+            Report(
+                "setup.cfg:4:17",
+                "install_scripts is '$base/lib/other'; `ros2 run talker` looks in $base/lib/talker",
+                fix="write $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
         ),
@@ -72,12 +69,10 @@ class ScriptDirectoryDiffers(Rule):
                 "setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n",
                 "talker/node.py": "import rclpy\n",
             },
-            reports=(
-                Report(
-                    "setup.cfg:1:1",
-                    "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
-                    fix="write $base/lib/talker",
-                ),
+            Report(
+                "setup.cfg:1:1",
+                "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
+                fix="write $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
         ),

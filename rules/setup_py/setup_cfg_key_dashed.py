@@ -28,17 +28,15 @@ class SetupCfgKeyDashed(Rule):
         Example(
             "dashes",
             {"setup.py": "", "setup.cfg": _CFG.format("-")},
-            reports=(
-                Report(
-                    "setup.cfg:2:1",
-                    "setuptools wants 'script_dir' instead of 'script-dir'",
-                    fix="write script_dir",
-                ),
-                Report(
-                    "setup.cfg:4:1",
-                    "setuptools wants 'install_scripts' instead of 'install-scripts'",
-                    fix="write install_scripts",
-                ),
+            Report(
+                "setup.cfg:2:1",
+                "setuptools wants 'script_dir' instead of 'script-dir'",
+                fix="write script_dir",
+            ),
+            Report(
+                "setup.cfg:4:1",
+                "setuptools wants 'install_scripts' instead of 'install-scripts'",
+                fix="write install_scripts",
             ),
             fixed={"setup.cfg": _CFG.format("_")},
         ),

@@ -50,13 +50,10 @@ class SetupCfgMissing(Rule):
         Example(
             "missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
-            reports=(
-                Report(
-                    "setup.cfg:1:1",
-                    "no setup.cfg: 'talker' of setup.py lands in bin/, where `ros2 run` "
-                    "does not look",
-                    fix="write setup.cfg",
-                ),
+            Report(
+                "setup.cfg:1:1",
+                "no setup.cfg: 'talker' of setup.py lands in bin/, where `ros2 run` does not look",
+                fix="write setup.cfg",
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),

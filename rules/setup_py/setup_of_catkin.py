@@ -31,10 +31,7 @@ class SetupOfCatkin(Rule):
     code = "SP060"
     name = "setup-of-catkin"
     examples = (
-        Example(
-            "for catkin",
-            {"package.xml": _MANIFEST.format("ament_cmake"), "setup.py": _SETUP},
-        ),
+        Example("for catkin", {"package.xml": _MANIFEST.format("ament_cmake"), "setup.py": _SETUP}),
         Example(
             "for both",
             {
@@ -46,13 +43,11 @@ class SetupOfCatkin(Rule):
         Example(
             "for ament_python",
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
-            reports=(
-                Report(
-                    "setup.py:2:1",
-                    "generate_distutils_setup() is of catkin: package.xml, build type "
-                    "ament_python, needs a setup() of its own with data_files and "
-                    "entry_points",
-                ),
+            Report(
+                "setup.py:2:1",
+                "generate_distutils_setup() is of catkin: package.xml, build type "
+                "ament_python, needs a setup() of its own with data_files and "
+                "entry_points",
             ),
         ),
     )

@@ -53,17 +53,14 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "config/talker.yaml": "",
             },
-            reports=(
-                Report(
-                    "setup.py:7:16",
-                    "data_files does not install launch/talk.launch.py: `ros2 launch` "
-                    "does not find it",
-                ),
-                Report(
-                    "setup.py:7:16",
-                    "data_files installs nothing of config/, for instance config/talker.yaml",
-                    severity=Severity.WARNING,
-                ),
+            Report(
+                "setup.py:7:16",
+                "data_files does not install launch/talk.launch.py: `ros2 launch` does not find it",
+            ),
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of config/, for instance config/talker.yaml",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -76,12 +73,9 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "launch/talk_all.py": _LAUNCH,
             },
-            reports=(
-                Report(
-                    "setup.py:7:16",
-                    "data_files does not install launch/talk_all.py: `ros2 launch` does "
-                    "not find it",
-                ),
+            Report(
+                "setup.py:7:16",
+                "data_files does not install launch/talk_all.py: `ros2 launch` does not find it",
             ),
         ),
     )

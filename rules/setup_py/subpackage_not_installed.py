@@ -9,11 +9,7 @@ from scaffold.api.python import Unknown
 from scaffold.api.setup_py import FindPackages
 
 _SETUP = "from setuptools import {}\n\nsetup(\n    name='talker',\n    packages={},\n)\n"
-_FILES = {
-    "talker/__init__.py": "",
-    "talker/text/__init__.py": "",
-    "test/__init__.py": "",
-}
+_FILES = {"talker/__init__.py": "", "talker/text/__init__.py": "", "test/__init__.py": ""}
 _BY_CMAKE = (
     "<package><name>talker</name><export><build_type>ament_cmake</build_type></export></package>\n"
 )
@@ -37,11 +33,7 @@ class SubpackageNotInstalled(Rule):
         Example("found", {**_FILES, "setup.py": _SETUP.format("find_packages, setup", _FIND)}),
         Example(
             "installed by CMake",
-            {
-                **_FILES,
-                "package.xml": _BY_CMAKE,
-                "setup.py": _SETUP.format("setup", "['talker']"),
-            },
+            {**_FILES, "package.xml": _BY_CMAKE, "setup.py": _SETUP.format("setup", "['talker']")},
         ),
         Example(
             "listed by their directories",
@@ -50,13 +42,11 @@ class SubpackageNotInstalled(Rule):
         Example(
             "one listed",
             {**_FILES, "setup.py": _SETUP.format("find_packages, setup", "['talker']")},
-            reports=(
-                Report(
-                    "setup.py:5:14",
-                    "packages leaves out talker.text: it is not installed; write "
-                    "find_packages(exclude=['test'])",
-                    fix="write find_packages(exclude=['test'])",
-                ),
+            Report(
+                "setup.py:5:14",
+                "packages leaves out talker.text: it is not installed; write "
+                "find_packages(exclude=['test'])",
+                fix="write find_packages(exclude=['test'])",
             ),
             fixed={"setup.py": _SETUP.format("find_packages, setup", _FIND)},
         ),

@@ -32,13 +32,11 @@ class TestsNotRun(Rule):
         Example(
             "not said",
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
-            reports=(
-                Report(
-                    "setup.py:3:1",
-                    "nothing says that test/test_talker.py needs pytest: colcon runs 0 "
-                    "tests; add extras_require={'test': ['pytest']}",
-                    fix="add extras_require={'test': ['pytest']}",
-                ),
+            Report(
+                "setup.py:3:1",
+                "nothing says that test/test_talker.py needs pytest: colcon runs 0 "
+                "tests; add extras_require={'test': ['pytest']}",
+                fix="add extras_require={'test': ['pytest']}",
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),

@@ -30,13 +30,11 @@ class TestsRequireIgnored(Rule):
         Example(
             "the old way",
             {"setup.py": _SETUP.format("tests_require=['pytest']")},
-            reports=(
-                Report(
-                    "setup.py:5:19",
-                    "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
-                    "write extras_require={'test': ['pytest']}",
-                    fix="write extras_require={'test': ['pytest']}",
-                ),
+            Report(
+                "setup.py:5:19",
+                "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
+                "write extras_require={'test': ['pytest']}",
+                fix="write extras_require={'test': ['pytest']}",
             ),
             fixed={"setup.py": _SETUP.format(_NEW)},
         ),

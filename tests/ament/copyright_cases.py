@@ -87,27 +87,23 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "without",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": TEST},
-            reports=(
-                Report(
-                    "a/one.py:1:1",
-                    "no copyright notice in the first comment of this file: ament_copyright fails",
-                ),
-                Report(
-                    "a/two.py:1:1",
-                    "no copyright notice in the first comment of this file: ament_copyright fails",
-                ),
+            Report(
+                "a/one.py:1:1",
+                "no copyright notice in the first comment of this file: ament_copyright fails",
+            ),
+            Report(
+                "a/two.py:1:1",
+                "no copyright notice in the first comment of this file: ament_copyright fails",
             ),
         ),
         Example(
             "without, where nobody looks: advice, once",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": SKIPPED},
-            reports=(
-                Report(
-                    "a/one.py:1:1",
-                    "no copyright notice here and in 1 more: ament_copyright would "
-                    "fail, but test/test_copyright.py is skipped",
-                    severity=Severity.INFO,
-                ),
+            Report(
+                "a/one.py:1:1",
+                "no copyright notice here and in 1 more: ament_copyright would "
+                "fail, but test/test_copyright.py is skipped",
+                severity=Severity.INFO,
             ),
         ),
     ),
@@ -119,12 +115,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "a/talker.py": MIT.replace("license", "licence"),
                 "test/test_copyright.py": MIT_TEST,
             },
-            reports=(
-                Report(
-                    "a/talker.py:1:3",
-                    '"Use of this source code …" begins the header of no licence that '
-                    "is known: ament_copyright fails",
-                ),
+            Report(
+                "a/talker.py:1:3",
+                '"Use of this source code …" begins the header of no licence that '
+                "is known: ament_copyright fails",
             ),
         ),
         Example(
@@ -133,25 +127,21 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "a/talker.py": f"#!/usr/bin/env python3\n{SPDX}",
                 "test/test_copyright.py": MIT_TEST,
             },
-            reports=(
-                Report(
-                    "a/talker.py:2:3",
-                    "an SPDX line below the notice is not the header of a license: "
-                    "ament_copyright fails",
-                ),
+            Report(
+                "a/talker.py:2:3",
+                "an SPDX line below the notice is not the header of a license: "
+                "ament_copyright fails",
             ),
         ),
         Example(
             "nobody looks",
             {"a/one.py": SPDX, "a/two.py": SPDX},
-            reports=(
-                Report(
-                    "a/one.py:1:3",
-                    "an SPDX line below the notice is not the header of a license "
-                    "(and 1 more files have no known header): ament_copyright would "
-                    "fail, but no test of this package runs it",
-                    severity=Severity.INFO,
-                ),
+            Report(
+                "a/one.py:1:3",
+                "an SPDX line below the notice is not the header of a license "
+                "(and 1 more files have no known header): ament_copyright would "
+                "fail, but no test of this package runs it",
+                severity=Severity.INFO,
             ),
         ),
     ),
@@ -167,41 +157,35 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "none",
             FILES,
-            reports=(
-                Report(
-                    "CONTRIBUTING.md:1:1",
-                    "the repository has no CONTRIBUTING.md: ament_copyright fails",
-                ),
-                Report("LICENSE:1:1", "the repository has no LICENSE: ament_copyright fails"),
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "the repository has no CONTRIBUTING.md: ament_copyright fails",
             ),
+            Report("LICENSE:1:1", "the repository has no LICENSE: ament_copyright fails"),
         ),
         Example(
             "none, and no test that looks for them",
             {path: text for path, text in FILES.items() if path != "test/test_copyright.py"},
-            reports=(
-                Report(
-                    "CONTRIBUTING.md:1:1",
-                    "the repository has no CONTRIBUTING.md: ament_copyright would fail, "
-                    "but no test of this package runs it",
-                    severity=Severity.INFO,
-                ),
-                Report(
-                    "LICENSE:1:1",
-                    "the repository has no LICENSE: ament_copyright would fail, but no "
-                    "test of this package runs it",
-                    severity=Severity.INFO,
-                ),
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "the repository has no CONTRIBUTING.md: ament_copyright would fail, "
+                "but no test of this package runs it",
+                severity=Severity.INFO,
+            ),
+            Report(
+                "LICENSE:1:1",
+                "the repository has no LICENSE: ament_copyright would fail, but no "
+                "test of this package runs it",
+                severity=Severity.INFO,
             ),
         ),
         Example(
             "words of one's own",
             {**FILES, "LICENSE": MIT_TEXT, "CONTRIBUTING.md": "Please do.\n"},
-            reports=(
-                Report(
-                    "CONTRIBUTING.md:1:1",
-                    "CONTRIBUTING.md is not, word for word, the text that goes with a "
-                    "known licence: ament_copyright fails",
-                ),
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "CONTRIBUTING.md is not, word for word, the text that goes with a "
+                "known licence: ament_copyright fails",
             ),
         ),
     ),

@@ -24,16 +24,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "too long",
             {"CMakeLists.txt": LONG},
-            reports=(
-                Report("CMakeLists.txt:1:141", "145 characters: ament_lint_cmake allows 140"),
-            ),
+            Report("CMakeLists.txt:1:141", "145 characters: ament_lint_cmake allows 140"),
         ),
         Example(
             "a message can be broken",
             {"cmake/say.cmake": f'message(\n  "{"x" * 150}"\n)\n'},
-            reports=(
-                Report("cmake/say.cmake:2:141", "154 characters: ament_lint_cmake allows 140"),
-            ),
+            Report("cmake/say.cmake:2:141", "154 characters: ament_lint_cmake allows 140"),
         ),
     ),
     "CM071": (
@@ -41,12 +37,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "after if",
             {"CMakeLists.txt": "if (A)\nendif()\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:3",
-                    "space between `if` and `(`",
-                    fix="remove the space",
-                ),
+            Report(
+                "CMakeLists.txt:1:3",
+                "space between `if` and `(`",
+                fix="remove the space",
             ),
             fixed={"CMakeLists.txt": "if(A)\nendif()\n"},
         ),
@@ -59,40 +53,34 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "one side only",
             {"CMakeLists.txt": "if(A)\n  set( B 1)\nendif()\nset(C 1 )\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:6",
-                    'spaces after the "(" of set and before the ")" in line 2 differ',
-                    fix="make the spaces equal",
-                ),
-                Report(
-                    "CMakeLists.txt:4:4",
-                    'spaces after the "(" of set and before the ")" in line 4 differ',
-                    fix="make the spaces equal",
-                ),
+            Report(
+                "CMakeLists.txt:2:6",
+                'spaces after the "(" of set and before the ")" in line 2 differ',
+                fix="make the spaces equal",
+            ),
+            Report(
+                "CMakeLists.txt:4:4",
+                'spaces after the "(" of set and before the ")" in line 4 differ',
+                fix="make the spaces equal",
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\nset(C 1)\n"},
         ),
         Example(
             "indented like nothing else",
             {"CMakeLists.txt": "set(\n  B\n  1\n    )\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:4",
-                    'spaces after the "(" of set and before the ")" in line 4 differ',
-                    fix="make the spaces equal",
-                ),
+            Report(
+                "CMakeLists.txt:1:4",
+                'spaces after the "(" of set and before the ")" in line 4 differ',
+                fix="make the spaces equal",
             ),
             fixed={"CMakeLists.txt": "set(\n  B\n  1\n)\n"},
         ),
         Example(
             "the first parenthesis is in a string: mend it by hand",
             {"CMakeLists.txt": 'message("so ) " )\n'},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:8",
-                    'spaces after the "(" of message and before the ")" in line 1 differ',
-                ),
+            Report(
+                "CMakeLists.txt:1:8",
+                'spaces after the "(" of message and before the ")" in line 1 differ',
             ),
         ),
     ),
@@ -101,21 +89,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "tabs",
             {"CMakeLists.txt": "if(A)\n\tset(B\t1)\nendif()\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "tab in the line: ament_lint_cmake requires spaces",
-                    fix="replace the tab with spaces",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "tab in the line: ament_lint_cmake requires spaces",
+                fix="replace the tab with spaces",
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\n"},
         ),
         Example(
             "in a string: write \\t",
             {"CMakeLists.txt": 'set(B "a\tb")\n'},
-            reports=(
-                Report("CMakeLists.txt:1:9", "tab in the line: ament_lint_cmake requires spaces"),
-            ),
+            Report("CMakeLists.txt:1:9", "tab in the line: ament_lint_cmake requires spaces"),
         ),
     ),
     "CM074": (
@@ -123,29 +107,27 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "behind a command, a comment, and alone",
             {"CMakeLists.txt": "project(talker) \n  \n# A talker.\t\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:16",
-                    "trailing whitespace",
-                    fix="remove the trailing whitespace",
-                ),
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "trailing whitespace",
-                    fix="remove the trailing whitespace",
-                ),
-                Report(
-                    "CMakeLists.txt:3:12",
-                    "trailing whitespace",
-                    fix="remove the trailing whitespace",
-                ),
+            Report(
+                "CMakeLists.txt:1:16",
+                "trailing whitespace",
+                fix="remove the trailing whitespace",
+            ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "trailing whitespace",
+                fix="remove the trailing whitespace",
+            ),
+            Report(
+                "CMakeLists.txt:3:12",
+                "trailing whitespace",
+                fix="remove the trailing whitespace",
             ),
             fixed={"CMakeLists.txt": "project(talker)\n\n# A talker.\n"},
         ),
         Example(
             "in a string",
             {"cmake/text.cmake": 'set(TEXT "one \ntwo")\n'},
-            reports=(Report("cmake/text.cmake:1:14", "trailing whitespace"),),
+            Report("cmake/text.cmake:1:14", "trailing whitespace"),
         ),
     ),
     "CM075": (
@@ -153,11 +135,9 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "aligned with the word behind a parenthesis",
             {"CMakeLists.txt": "install(TARGETS a\n        DESTINATION lib)\nset(BEE a\n   b)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:4:1",
-                    "indented by 3 spaces: ament_lint_cmake requires multiples of two",
-                ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "indented by 3 spaces: ament_lint_cmake requires multiples of two",
             ),
         ),
         Example(
@@ -170,24 +150,20 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "one in upper case",
             {"CMakeLists.txt": "project(talker)\nIF(A)\nendif()\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    '"IF" in a file whose first command is in lower case',
-                    fix="write the commands in lower case",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                '"IF" in a file whose first command is in lower case',
+                fix="write the commands in lower case",
             ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\nendif()\n"},
         ),
         Example(
             "the first in upper case: the others are reported",
             {"CMakeLists.txt": "PROJECT(talker)\nif(A)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    '"if" in a file whose first command is in upper case',
-                    fix="write the commands in lower case",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                '"if" in a file whose first command is in upper case',
+                fix="write the commands in lower case",
             ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\n"},
         ),
@@ -197,19 +173,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "as the documentation of a module spells it",
             {"CMakeLists.txt": "FetchContent_Declare(json)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:1",
-                    '"FetchContent_Declare" mixes cases: write "fetchcontent_declare"',
-                    fix="write fetchcontent_declare",
-                ),
+            Report(
+                "CMakeLists.txt:1:1",
+                '"FetchContent_Declare" mixes cases: write "fetchcontent_declare"',
+                fix="write fetchcontent_declare",
             ),
             fixed={"CMakeLists.txt": "fetchcontent_declare(json)\n"},
         ),
         Example(
             "looks like a command, is an argument",
             {"CMakeLists.txt": "set(WORDS\n  Word(s)\n)\n"},
-            reports=(Report("CMakeLists.txt:2:3", '"Word" mixes cases: write "word"'),),
+            Report("CMakeLists.txt:2:3", '"Word" mixes cases: write "word"'),
         ),
     ),
     "CM078": (
@@ -217,28 +191,24 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "repeated",
             {"CMakeLists.txt": "if(TALKER)\nelse(TALKER)\nendif(TALKER)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "else() repeats what opens its block; CMake ignores the words",
-                    fix="leave the parentheses empty",
-                ),
-                Report(
-                    "CMakeLists.txt:3:1",
-                    "endif() repeats what opens its block; CMake ignores the words",
-                    fix="leave the parentheses empty",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "else() repeats what opens its block; CMake ignores the words",
+                fix="leave the parentheses empty",
+            ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "endif() repeats what opens its block; CMake ignores the words",
+                fix="leave the parentheses empty",
             ),
             fixed={"CMakeLists.txt": "if(TALKER)\nelse()\nendif()\n"},
         ),
         Example(
             "two commands on one line",
             {"CMakeLists.txt": "if(TALKER)\nendif() set(LISTENER 1)\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "endif() repeats what opens its block; CMake ignores the words",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "endif() repeats what opens its block; CMake ignores the words",
             ),
         ),
     ),
@@ -247,18 +217,14 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "CMakelists.txt",
             {"CMakelists.txt": "project(talker)\n"},
-            reports=(
-                Report("CMakelists.txt:1:1", "CMake looks for CMakeLists.txt, spelt exactly so"),
-            ),
+            Report("CMakelists.txt:1:1", "CMake looks for CMakeLists.txt, spelt exactly so"),
         ),
         Example(
             "FindFoo.cmake",
             {"cmake/FindFoo.cmake": MODULE},
-            reports=(
-                Report(
-                    "cmake/FindFoo.cmake:1:1",
-                    "ament_lint_cmake requires upper case in names of find modules: FindFOO.cmake",
-                ),
+            Report(
+                "cmake/FindFoo.cmake:1:1",
+                "ament_lint_cmake requires upper case in names of find modules: FindFOO.cmake",
             ),
         ),
     ),
@@ -267,21 +233,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "not included",
             {"cmake/FindFOO.cmake": CALL},
-            reports=(
-                Report(
-                    "cmake/FindFOO.cmake:1:1",
-                    "this find module never includes FindPackageHandleStandardArgs",
-                ),
+            Report(
+                "cmake/FindFOO.cmake:1:1",
+                "this find module never includes FindPackageHandleStandardArgs",
             ),
         ),
         Example(
             "not called",
             {"cmake/FindFOO.cmake": INCLUDE + "set(FOO_FOUND TRUE)\n"},
-            reports=(
-                Report(
-                    "cmake/FindFOO.cmake:1:1",
-                    "this find module never calls find_package_handle_standard_args",
-                ),
+            Report(
+                "cmake/FindFOO.cmake:1:1",
+                "this find module never calls find_package_handle_standard_args",
             ),
         ),
     ),
@@ -293,11 +255,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "another name",
             {"cmake/FindFOO.cmake": INCLUDE + "find_package_handle_standard_args(BAR BAR_LIB)\n"},
-            reports=(
-                Report(
-                    "cmake/FindFOO.cmake:2:1", "BAR is handed over in FindFOO.cmake: expected FOO"
-                ),
-            ),
+            Report("cmake/FindFOO.cmake:2:1", "BAR is handed over in FindFOO.cmake: expected FOO"),
         ),
     ),
     "CM083": (
@@ -305,12 +263,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "open",
             {"cmake/talker.cmake": "set(TALKER\n  1\n"},
-            reports=(Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),),
+            Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),
         ),
         Example(
             "hidden from the linter",
             {"cmake/talker.cmake": 'set(COLOUR "#fff")\n'},
-            reports=(Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),),
+            Report("cmake/talker.cmake:1:1", 'no ")" follows the "(" of set'),
         ),
     ),
     "CM084": (
@@ -318,21 +276,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "no sign",
             {"CMakeLists.txt": "# lint_cmake: linelength\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:1:1",
-                    "'linelength' is not a filter with - or +: ament_lint_cmake crashes on it",
-                ),
+            Report(
+                "CMakeLists.txt:1:1",
+                "'linelength' is not a filter with - or +: ament_lint_cmake crashes on it",
             ),
         ),
         Example(
             "misspelt",
             {"CMakeLists.txt": "project(talker)\n# lint_cmake: -linelenght\n"},
-            reports=(
-                Report(
-                    "CMakeLists.txt:2:1",
-                    "'-linelenght' is not a filter with - or +: ament_lint_cmake crashes on it",
-                ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "'-linelenght' is not a filter with - or +: ament_lint_cmake crashes on it",
             ),
         ),
     ),

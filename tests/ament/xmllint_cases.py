@@ -80,16 +80,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "an element is not closed",
             {"launch/talker.launch.xml": "<launch>\n  <node>\n</launch>\n"},
-            reports=(
-                Report(
-                    "launch/talker.launch.xml:3:1",
-                    "</node> expected, <node> opened at line 2 is not closed",
-                ),
+            Report(
+                "launch/talker.launch.xml:3:1",
+                "</node> expected, <node> opened at line 2 is not closed",
             ),
         ),
-        Example(
-            "empty", {"plugins.xml": ""}, reports=(Report("plugins.xml:1:1", "the file is empty"),)
-        ),
+        Example("empty", {"plugins.xml": ""}, Report("plugins.xml:1:1", "the file is empty")),
         Example("not linted", {"AMENT_IGNORE": "", "broken.xml": "<a>"}),
     ),
     "PX051": (
@@ -98,20 +94,16 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "does not fit",
             {"a.xsd": SCHEMA, "a.launch.xml": f"{USE}  <nod/>\n</launch>\n"},
-            reports=(
-                Report(
-                    "a.launch.xml:3:1",
-                    "does not fit a.xsd: Element 'nod': This element is not expected. "
-                    "Expected is ( node )",
-                ),
+            Report(
+                "a.launch.xml:3:1",
+                "does not fit a.xsd: Element 'nod': This element is not expected. "
+                "Expected is ( node )",
             ),
         ),
         Example(
             "no such schema",
             {"a.launch.xml": f"{USE}</launch>\n"},
-            reports=(
-                Report("a.launch.xml:1:1", "names the schema a.xsd, but there is no file a.xsd"),
-            ),
+            Report("a.launch.xml:1:1", "names the schema a.xsd, but there is no file a.xsd"),
         ),
     ),
     "PX052": (
@@ -119,22 +111,18 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "a schema that includes another",
             {"a.xsd": INCLUDES, "b.xsd": FITS, "a.launch.xml": _uses("a.xsd")},
-            reports=(
-                Report(
-                    "a.launch.xml:1:1",
-                    "names the schema 'a.xsd', which is not looked at: it names other files",
-                ),
+            Report(
+                "a.launch.xml:1:1",
+                "names the schema 'a.xsd', which is not looked at: it names other files",
             ),
         ),
         Example(
             "on the network",
             {"a.xml": _uses("https://ros.example.org/launch.xsd")},
-            reports=(
-                Report(
-                    "a.xml:1:1",
-                    "names the schema 'https://ros.example.org/launch.xsd', which is not looked "
-                    "at: it is on the network",
-                ),
+            Report(
+                "a.xml:1:1",
+                "names the schema 'https://ros.example.org/launch.xsd', which is not looked "
+                "at: it is on the network",
             ),
         ),
     ),
@@ -143,24 +131,20 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "<author> before <license>",
             {"package.xml": EARLY},
-            reports=(
-                Report(
-                    "package.xml:6:4",
-                    "<author> must come after <license> in line 7 and before <depend> in line 8",
-                    fix="put the elements in order",
-                ),
+            Report(
+                "package.xml:6:4",
+                "<author> must come after <license> in line 7 and before <depend> in line 8",
+                fix="put the elements in order",
             ),
             fixed={"package.xml": RIGHT},
         ),
         Example(
             "<export> before a dependency",
             {"package.xml": LATE},
-            reports=(
-                Report(
-                    "package.xml:9:4",
-                    "<export> must come after <exec_depend> in line 10",
-                    fix="put the elements in order",
-                ),
+            Report(
+                "package.xml:9:4",
+                "<export> must come after <exec_depend> in line 10",
+                fix="put the elements in order",
             ),
             fixed={
                 "package.xml": RIGHT.replace(
@@ -183,12 +167,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": MANIFEST_HEAD.format(3)
                 + "  <run_depend>rclpy</run_depend>\n</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "<run_depend> is of format 1: in format 3 it is <exec_depend>",
-                    unsafe_fix="write <exec_depend>",
-                ),
+            Report(
+                "package.xml:3:4",
+                "<run_depend> is of format 1: in format 3 it is <exec_depend>",
+                unsafe_fix="write <exec_depend>",
             ),
             fixed={
                 "package.xml": MANIFEST_HEAD.format(3)
@@ -201,22 +183,18 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": MANIFEST_HEAD.format(2)
                 + "  <group_depend>a</group_depend>\n</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "<group_depend> needs format 3, but this manifest has format 2",
-                ),
+            Report(
+                "package.xml:3:4",
+                "<group_depend> needs format 3, but this manifest has format 2",
             ),
         ),
         Example(
             "misspelt",
             {"package.xml": MANIFEST_HEAD.format(2) + "  <licence>MIT</licence>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "<licence> is not known in format 2: <license> is",
-                    unsafe_fix="write <license>",
-                ),
+            Report(
+                "package.xml:3:4",
+                "<licence> is not known in format 2: <license> is",
+                unsafe_fix="write <license>",
             ),
             fixed={
                 "package.xml": MANIFEST_HEAD.format(2) + "  <license>MIT</license>\n</package>\n"
@@ -234,14 +212,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                     if "maintainer" not in line and "license" not in line
                 )
             },
-            reports=(
-                Report(
-                    "package.xml:1:2", "no <license>: every manifest has one, after <maintainer>"
-                ),
-                Report(
-                    "package.xml:1:2",
-                    "no <maintainer>: every manifest has one, after <description>",
-                ),
+            Report("package.xml:1:2", "no <license>: every manifest has one, after <maintainer>"),
+            Report(
+                "package.xml:1:2",
+                "no <maintainer>: every manifest has one, after <description>",
             ),
         ),
         Example(
@@ -254,19 +228,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "the same again",
             {"package.xml": f"{ONE}  <name>talker</name>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:3:4",
-                    "a second <name>: the first is in line 2",
-                    fix="remove the second one",
-                ),
+            Report(
+                "package.xml:3:4",
+                "a second <name>: the first is in line 2",
+                fix="remove the second one",
             ),
             fixed={"package.xml": f"{ONE}</package>\n"},
         ),
         Example(
             "another one",
             {"package.xml": f"{ONE}  <name>listener</name>\n</package>\n"},
-            reports=(Report("package.xml:3:4", "a second <name>: the first is in line 2"),),
+            Report("package.xml:3:4", "a second <name>: the first is in line 2"),
         ),
     ),
     "PX064": (
@@ -285,19 +257,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 '  <license file="LICENSE">MIT</license>\n'
                 '  <depend version_get="1.2">rclpy</depend>\n</package>\n'
             },
-            reports=(
-                Report(
-                    "package.xml:2:12",
-                    "<version compatibility> is in REP-149, but ament_xmllint's schema refuses it",
-                ),
-                Report(
-                    "package.xml:3:12",
-                    "<license file> needs format 3, but this manifest has format 2",
-                ),
-                Report(
-                    "package.xml:4:11",
-                    '<depend> has no attribute "version_get": it has "version_gt"',
-                ),
+            Report(
+                "package.xml:2:12",
+                "<version compatibility> is in REP-149, but ament_xmllint's schema refuses it",
+            ),
+            Report(
+                "package.xml:3:12",
+                "<license file> needs format 3, but this manifest has format 2",
+            ),
+            Report(
+                "package.xml:4:11",
+                '<depend> has no attribute "version_get": it has "version_gt"',
             ),
         ),
     ),
@@ -307,31 +277,25 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "different",
             {"package.xml": LINE.format(2) + '<package format="3"/>\n'},
-            reports=(
-                Report(
-                    "package.xml:1:1",
-                    "names the schema of format 2, but <package> has 3",
-                    fix="name the schema of format 3",
-                ),
+            Report(
+                "package.xml:1:1",
+                "names the schema of format 2, but <package> has 3",
+                fix="name the schema of format 3",
             ),
             fixed={"package.xml": LINE.format(3) + '<package format="3"/>\n'},
         ),
         Example(
             "none, so 1",
             {"package.xml": LINE.format(3) + "<package/>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:2",
-                    "no format: that is format 1, but the schema named is format 3",
-                ),
+            Report(
+                "package.xml:2:2",
+                "no format: that is format 1, but the schema named is format 3",
             ),
         ),
         Example(
             "a format that does not exist",
             {"package.xml": LINE.format(3) + '<package format="4"/>\n'},
-            reports=(
-                Report("package.xml:2:18", 'format="4" does not exist: there are 1, 2 and 3'),
-            ),
+            Report("package.xml:2:18", 'format="4" does not exist: there are 1, 2 and 3'),
         ),
     ),
     "PX066": (
@@ -345,10 +309,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": "<package>\n  <name>talker</name>>\n  <export>\n"
                 "    ament_python\n  </export>\n</package>\n"
             },
-            reports=(
-                Report("package.xml:2:22", "text between the elements: only comments are allowed"),
-                Report("package.xml:4:5", "text between the elements: only comments are allowed"),
-            ),
+            Report("package.xml:2:22", "text between the elements: only comments are allowed"),
+            Report("package.xml:4:5", "text between the elements: only comments are allowed"),
         ),
     ),
     "PX067": (
@@ -356,42 +318,34 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "a capital and a dash",
             {"package.xml": "<package>\n  <name>Talker-two</name>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:9",
-                    "the name 'Talker-two' has - in it: only a to z, 0 to 9 and _ are allowed",
-                ),
+            Report(
+                "package.xml:2:9",
+                "the name 'Talker-two' has - in it: only a to z, 0 to 9 and _ are allowed",
             ),
         ),
         Example(
             "a dash",
             {"package.xml": "<package><name>the-talker</name></package>\n"},
-            reports=(
-                Report(
-                    "package.xml:1:16",
-                    "the name 'the-talker' has - in it: only a to z, 0 to 9 and _ are allowed",
-                    severity=Severity.WARNING,
-                ),
+            Report(
+                "package.xml:1:16",
+                "the name 'the-talker' has - in it: only a to z, 0 to 9 and _ are allowed",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
             "a dash in the name of a package with messages",
             {"package.xml": "<package><name>the-msgs</name></package>\n", "msg/Beat.msg": ""},
-            reports=(
-                Report(
-                    "package.xml:1:16",
-                    "the name 'the-msgs' has - in it: only a to z, 0 to 9 and _ are allowed",
-                ),
+            Report(
+                "package.xml:1:16",
+                "the name 'the-msgs' has - in it: only a to z, 0 to 9 and _ are allowed",
             ),
         ),
         Example(
             "two underscores",
             {"package.xml": "<package>\n  <name>talker__two</name>\n</package>\n"},
-            reports=(
-                Report(
-                    "package.xml:2:9",
-                    "the name 'talker__two' has an underscore at its end or two in a row",
-                ),
+            Report(
+                "package.xml:2:9",
+                "the name 'talker__two' has an underscore at its end or two in a row",
             ),
         ),
     ),
@@ -400,19 +354,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "two numbers",
             {"package.xml": "<package>\n  <version>0.1</version>\n</package>\n"},
-            reports=(Report("package.xml:2:12", "the version '0.1' is not MAJOR.MINOR.PATCH"),),
+            Report("package.xml:2:12", "the version '0.1' is not MAJOR.MINOR.PATCH"),
         ),
         Example(
             "a suffix",
             {"package.xml": "<package>\n  <version>0.1.0-rc1</version>\n</package>\n"},
-            reports=(
-                Report("package.xml:2:12", "the version '0.1.0-rc1' is not MAJOR.MINOR.PATCH"),
-            ),
+            Report("package.xml:2:12", "the version '0.1.0-rc1' is not MAJOR.MINOR.PATCH"),
         ),
         Example(
             "a leading zero",
             {"package.xml": "<package>\n  <version>0.01.0</version>\n</package>\n"},
-            reports=(Report("package.xml:2:12", "the version '0.01.0' has a leading zero"),),
+            Report("package.xml:2:12", "the version '0.01.0' has a leading zero"),
         ),
     ),
     "PX069": (
@@ -423,11 +375,9 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "unknown",
             {"package.xml": '<package>\n  <url type="homepage">http://a.org</url>\n</package>\n'},
-            reports=(
-                Report(
-                    "package.xml:2:14",
-                    "the url type 'homepage' is not known, only website, bugtracker, repository",
-                ),
+            Report(
+                "package.xml:2:14",
+                "the url type 'homepage' is not known, only website, bugtracker, repository",
             ),
         ),
     ),
@@ -442,7 +392,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": '<package format="2">\n'
                 '  <depend version_gte="1.x">a</depend>\n</package>\n'
             },
-            reports=(Report("package.xml:2:24", 'version_gte="1.x" is not one to three numbers'),),
+            Report("package.xml:2:24", 'version_gte="1.x" is not one to three numbers'),
         ),
     ),
     "PX071": (
@@ -450,21 +400,15 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "format 2",
             {"package.xml": DEPEND.format(2, "$ROS_VERSION == 2")},
-            reports=(
-                Report(
-                    "package.xml:2:11", "conditions need format 3, but this manifest has format 2"
-                ),
-            ),
+            Report("package.xml:2:11", "conditions need format 3, but this manifest has format 2"),
         ),
         Example(
             "a character that no condition has",
             {"package.xml": DEPEND.format(3, "$ROS_VERSION == 2 | 1")},
-            reports=(
-                Report(
-                    "package.xml:2:22",
-                    "'$ROS_VERSION == 2 | 1': the schema does not allow all of these "
-                    "characters for dependencies",
-                ),
+            Report(
+                "package.xml:2:22",
+                "'$ROS_VERSION == 2 | 1': the schema does not allow all of these "
+                "characters for dependencies",
             ),
         ),
         Example(
@@ -473,11 +417,9 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": '<package format="3">\n'
                 "  <member_of_group condition=\"$A == 'b'\">g</member_of_group>\n</package>\n"
             },
-            reports=(
-                Report(
-                    "package.xml:2:31",
-                    "\"$A == 'b'\": the schema does not allow all of these characters for groups",
-                ),
+            Report(
+                "package.xml:2:31",
+                "\"$A == 'b'\": the schema does not allow all of these characters for groups",
             ),
         ),
     ),
@@ -492,7 +434,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "a maintainer without",
             {"package.xml": "<package>\n  <maintainer>A</maintainer>\n</package>\n"},
-            reports=(Report("package.xml:2:4", "the maintainer 'A' has no email"),),
+            Report("package.xml:2:4", "the maintainer 'A' has no email"),
         ),
     ),
     "PX073": (
@@ -503,12 +445,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "spelt out",
             {"package.xml": '<package>\n  <author email="a at b.org">A</author>\n</package>\n'},
-            reports=(Report("package.xml:2:18", "'a at b.org' is not an email address"),),
+            Report("package.xml:2:18", "'a at b.org' is not an email address"),
         ),
         Example(
             "no domain",
             {"package.xml": '<package>\n  <maintainer email="a@b">A</maintainer>\n</package>\n'},
-            reports=(Report("package.xml:2:22", "'a@b' is not an email address"),),
+            Report("package.xml:2:22", "'a@b' is not an email address"),
         ),
     ),
     "PX074": (
@@ -522,9 +464,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": "<package>\n  <license>\n"
                 "    <url>http://a.org</url>\n  </license>\n</package>\n"
             },
-            reports=(
-                Report("package.xml:3:6", "<url> is inside <license>, which holds text only"),
-            ),
+            Report("package.xml:3:6", "<url> is inside <license>, which holds text only"),
         ),
     ),
     "PX075": (
@@ -532,7 +472,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "no port",
             {"package.xml": "<package>\n  <url>http://a.org:port/b</url>\n</package>\n"},
-            reports=(Report("package.xml:2:8", "'http://a.org:port/b' is not a URL"),),
+            Report("package.xml:2:8", "'http://a.org:port/b' is not a URL"),
         ),
     ),
 }
