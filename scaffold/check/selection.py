@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
+from scaffold.check.renamed_codes import new_codes
 from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
 
@@ -46,7 +47,10 @@ def validate(prefixes: Iterable[str], codes: Collection[str], origin: str) -> No
 
 
 def nearest(word: str, known: Collection[str]) -> str:
-    """Return the end of an error message: the known words next to a wrong one."""
+    """Return the end of an error message: what replaces a word, or the known ones next to it."""
+    renamed = new_codes(word.upper())
+    if renamed:
+        return f"; renamed to {', '.join(renamed)}"
     near = get_close_matches(word, known, n=3, cutoff=0.5)
     return f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
 

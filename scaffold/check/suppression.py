@@ -11,6 +11,7 @@ import re
 from collections.abc import Collection, Iterable
 
 from scaffold.check.engine_rules import UnusedSuppression
+from scaffold.check.renamed_codes import renamed_codes
 from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
 from scaffold.source import Source, ViewError
@@ -63,8 +64,14 @@ def _unused(
     for path in package.files:
         for source, line, code, start in _suppressions(package, path):
             if code.upper() in ran and (path, line, code.upper()) not in used:
-                at = source.location(start, start + len(code))
-                found.append(rule.report(at, f"noqa: {code} suppresses nothing on this line"))
+                message = f"noqa: {code} suppresses nothing on this line"
+            elif code.upper() not in ran and code.upper() in renamed_codes():
+                message = (
+                    f"noqa: {code} suppresses nothing: renamed to {renamed_codes()[code.upper()]}"
+                )
+            else:
+                continue
+            found.append(rule.report(source.location(start, start + len(code)), message))
     return found
 
 

@@ -8,11 +8,13 @@ from typing import ClassVar
 
 import pytest
 
+from scaffold.ament.codes import CODES
 from scaffold.check import registry, runner, selection, suppression
 from scaffold.check.fixes.fixer import splice
+from scaffold.check.renamed_codes import renamed_codes
 from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
-from scaffold.check.session import Session
+from scaffold.check.session import Session, all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Edit
@@ -181,6 +183,26 @@ def test_selection(
 def test_an_unknown_code_is_refused_with_the_nearest() -> None:
     with pytest.raises(ConfigError, match=r"--select: no rule has the code 'CN001'.*CM001"):
         selection.validate(["PX", "CN001"], ["CM001", "PX001"], "--select")
+
+
+@pytest.mark.parametrize(
+    ("prefix", "new"), [("NM041", "IM041$"), ("NM04", "IM041, IM042, IM043, IM044, IM045$")]
+)
+def test_a_former_code_is_refused_with_the_new_one(prefix: str, new: str) -> None:
+    with pytest.raises(ConfigError, match=f"--select: .*{prefix!r}; renamed to {new}"):
+        selection.validate([prefix], ["CM001", "IM041", "NM001"], "--select")
+
+
+def test_a_suppression_by_a_former_code_says_so() -> None:
+    package = Package.of({"a.py": "import a  # noqa: NM041\n"})
+    (unused,) = suppression.apply(package, [], {"IM041"})
+    assert unused.message == "noqa: NM041 suppresses nothing: renamed to IM041"
+
+
+def test_former_codes_are_free_and_lead_to_rules() -> None:
+    codes = {rule.code for rule in all_rules(registry.load(content.roots("rules")))} | set(CODES)
+    assert not renamed_codes().keys() & codes
+    assert set(renamed_codes().values()) <= codes
 
 
 @pytest.mark.parametrize(

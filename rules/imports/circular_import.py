@@ -1,0 +1,86 @@
+"""IM043: two modules do not import names of each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import Import, PythonModule
+
+_FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
+
+
+class CircularImport(Rule):
+    """Two modules import names from each other at their top.
+
+    **Why.** The second one is not complete when the first takes from it: ``ImportError: cannot
+    import name 'Talker' from partially initialized module``.
+
+    **Fix.** Move what both need to a third module.
+
+    **Source.** Python documentation, FAQ: "What are the best practices for using import in a
+    module".
+    """
+
+    code = "IM043"
+    name = "circular-import"
+    examples = (
+        Example("one way", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}),
+        Example(
+            "both ways",
+            {
+                "talker/__init__.py": "",
+                "talker/text.py": "from talker.node import NODE\n\nTEXT = ''\n",
+                "talker/node.py": "from talker.text import TEXT\n\nNODE = 1\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "talker/text.py:1 imports from this module in turn: ImportError, "
+                "whichever comes first",
+            ),
+            Report(
+                "talker/text.py:1:1",
+                "talker/node.py:1 imports from this module in turn: ImportError, "
+                "whichever comes first",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        edges: dict[tuple[str, str], Import] = {}
+        for module in package.modules():
+            for one in module.imports:
+                if one.top_level and one.names and not one.guarded:
+                    path = _file_of(package, module, one)
+                    if path and path != module.path:
+                        edges.setdefault((module.path, path), one)
+        for (path, other), one in edges.items():
+            back = edges.get((other, path))
+            if back is None or not self._takes_names(package, one, other):
+                continue
+            if self._takes_names(package, back, path):
+                message = (
+                    f"{other}:{back.location.line} imports from this module in turn: "
+                    "ImportError, whichever comes first"
+                )
+                yield self.report(one, message)
+
+    def _takes_names(self, package: Package, one: Import, path: str) -> bool:
+        """Tell whether an import takes what the module makes after its own imports."""
+        module = package.module(path)
+        last = max((other.location.line for other in module.imports if other.top_level), default=0)
+        lines = [
+            getattr(binding.node, "lineno", 0)
+            for name in one.names
+            for binding in module.index.bindings(module.tree).get(name.name, ())
+            if binding.kind != "import"
+        ]
+        return any(line > last for line in lines)
+
+
+def _file_of(package: Package, module: PythonModule, one: Import) -> str:
+    parts = one.module.split(".") if one.module else []
+    if one.level:
+        parts = [*module.path.split("/")[: -one.level], *parts]
+    base = "/".join(parts)
+    return next((path for path in (f"{base}.py", f"{base}/__init__.py") if package.has(path)), "")

@@ -1,0 +1,49 @@
+"""IM045: modules are not called."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.python import PythonModule
+
+_MODULES = {
+    "copy": "copy.copy",
+    "datetime": "datetime.datetime",
+    "glob": "glob.glob",
+    "pprint": "pprint.pprint",
+    "random": "random.random",
+    "time": "time.time",
+}
+
+
+class ModuleCalled(PythonRule):
+    """A module is called as if it were the function of the same name in it.
+
+    **Why.** ``TypeError: 'module' object is not callable``; in setup.py the build stops.
+
+    **Fix.** ``from glob import glob``, or ``glob.glob(...)``.
+
+    **Source.** Python documentation, "The import statement".
+    """
+
+    code = "IM045"
+    name = "module-called"
+    examples = (
+        Example("its function", {"setup.py": "import glob\n\nFILES = glob.glob('launch/*')\n"}),
+        Example(
+            "the module",
+            {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
+            Report("setup.py:3:9", "'glob' is a module here: TypeError; use glob.glob()"),
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if not any(one in module.imports_by_root for one in _MODULES):
+            return
+        for call in module.walk(ast.Call):
+            name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
+            if name in _MODULES:
+                message = f"{name!r} is a module here: TypeError; use {_MODULES[name]}()"
+                yield self.report(module.location(call.func), message)

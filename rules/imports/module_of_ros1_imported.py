@@ -1,0 +1,54 @@
+"""IM044: ROS 2 packages import modules of ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+
+_NEW = {
+    "actionlib": "rclpy.action",
+    "dynamic_reconfigure": "parameters of the node",
+    "ros_numpy": "sensor_msgs_py",
+    "roslib": "ament_index_python",
+    "rospkg": "ament_index_python",
+    "rospy": "rclpy",
+    "tf": "tf2_ros",
+}
+_MANIFEST = (
+    "<package format='3'><name>talker</name><export><build_type>ament_cmake</build_type></export>"
+    "</package>\n"
+)
+
+
+class ModuleOfRos1Imported(Rule):
+    """A module of ROS 1 is imported.
+
+    **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started.
+
+    **Fix.** Use its successor.
+
+    **Source.** ROS 2 documentation, "Migrating a Python package example".
+    """
+
+    code = "IM044"
+    name = "module-of-ros1-imported"
+    examples = (
+        Example("of ROS 2", {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\n"}),
+        Example(
+            "of ROS 1",
+            {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
+            Report("talker/node.py:2:1", "'rospy' is of ROS 1: ROS 2 has rclpy"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if not (package.manifest.build_type or "").startswith("ament"):
+            return
+        for module in package.modules():
+            if "rclpy" not in module.imports_by_root or module.in_tests:
+                continue
+            for root, new in _NEW.items():
+                for one in module.imports_by_root.get(root, ()):
+                    if not one.guarded and not one.conditional and not package.has_directory(root):
+                        yield self.report(one, f"{root!r} is of ROS 1: ROS 2 has {new}")

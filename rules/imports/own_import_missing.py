@@ -1,0 +1,127 @@
+"""IM041: what a package imports of itself is there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, nearest
+from scaffold.api.install import (
+    absolute_name,
+    file_of,
+    may_be_made,
+    meant_module,
+    modules_of,
+    own_roots,
+)
+from scaffold.api.python import Import, PythonModule
+
+_SETUP = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
+    "    entry_points={'console_scripts': ['node = talker.node:main']},\n)\n"
+)
+_FILES = {"setup.py": _SETUP, "talker/__init__.py": "", "talker/text.py": "def make():\n    pass\n"}
+
+
+class OwnImportMissing(Rule):
+    """A module imports another one of its package by a name that it does not have.
+
+    **Why.** ``ModuleNotFoundError: No module named 'text'`` or ``ImportError: cannot import name``
+    when the node is started; only the package itself is on Python's path, not its directory.
+
+    **Fix.** Write the full name: ``from talker.text import make``.
+
+    **Source.** Python documentation, "The import system"; ROS 2 documentation, "Writing a simple
+    publisher and subscriber (Python)".
+    """
+
+    code = "IM041"
+    name = "own-import-missing"
+    examples = (
+        Example("full name", {**_FILES, "talker/node.py": "from talker.text import make\n"}),
+        Example(
+            "a test wants it to be missing",
+            {
+                **_FILES,
+                "test/test_text.py": "import pytest\n\n\ndef test_nothing():\n"
+                "    with pytest.raises(ImportError):\n        import talker.nothing\n",
+            },
+        ),
+        Example(
+            "no such module",
+            {**_FILES, "talker/node.py": "from talker.texts import make\n"},
+            Report(
+                "talker/node.py:1:1",
+                "the package has no module 'talker.texts'; closest: 'talker.text'",
+            ),
+        ),
+        Example(
+            "no such function",
+            {**_FILES, "talker/node.py": "from .text import makes\n"},
+            Report(
+                "talker/node.py:1:19", "talker/text.py has no 'makes': ImportError; it has 'make'"
+            ),
+        ),
+        Example(
+            "without the package, with its directory",
+            {
+                **_FILES,
+                "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "no module 'text' is installed: ModuleNotFoundError; closest: 'talker.text'",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "no module 'src.talker.text' is installed: ModuleNotFoundError; "
+                "closest: 'talker.text'",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        makers = ("rosidl_generate_interfaces", "generate_parameter_module")
+        if package.has("CMakeLists.txt") and package.cmake.find(*makers):
+            return  # modules of the package are generated
+        roots = own_roots(package)
+        for module in package.modules():
+            for one in module.imports if module.path != "setup.py" else ():
+                if not (one.guarded or one.conditional or one.type_checking):
+                    yield from self._check(package, module, one, roots)
+
+    def _check(
+        self, package: Package, module: PythonModule, one: Import, roots: set[str]
+    ) -> Iterator[Diagnostic]:
+        name = absolute_name(module, one)
+        root = name.partition(".")[0]
+        path = file_of(package, name)
+        if root in roots and path:
+            yield from self._check_names(package, one, name, path)
+        elif root in roots:
+            if not may_be_made(package, name):
+                modules = [one for one in modules_of(package, root) if "__init__" not in one]
+                near = nearest(package, name, modules, 0.6)
+                hint = f"; closest: {near!r}" if near else ""
+                yield self.report(one, f"the package has no module {name!r}{hint}")
+        elif not one.level:
+            meant = meant_module(package, module, name)
+            if meant:
+                message = f"no module {name!r} is installed: ModuleNotFoundError"
+                yield self.report(one, f"{message}; closest: {meant!r}")
+
+    def _check_names(
+        self, package: Package, one: Import, name: str, path: str
+    ) -> Iterator[Diagnostic]:
+        try:
+            module = package.module(path)
+        except ViewError:
+            return
+        for imported in one.names:
+            if imported.name == "*" or module.defines(imported.name) is not False:
+                continue
+            below = f"{name}.{imported.name}"
+            if file_of(package, below) or may_be_made(package, below):
+                continue
+            near = nearest(package, imported.name, [*module.functions, *module.classes], 0.6)
+            hint = f"; it has {near!r}" if near else ""
+            yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

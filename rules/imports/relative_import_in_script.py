@@ -1,0 +1,56 @@
+"""IM042: programs of CMake packages import by full names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api.cmake import programs
+
+_LISTS = (
+    "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n"
+    "ament_python_install_package(${PROJECT_NAME})\n"
+    "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\nament_package()\n"
+)
+_FILES = {"CMakeLists.txt": _LISTS, "talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
+
+
+class RelativeImportInScript(Rule):
+    """A program that is started as a file imports relatively.
+
+    **Why.** In ``lib/<package>`` it is not a part of a package: ``ImportError: attempted relative
+    import with no known parent package``.
+
+    **Fix.** Write the full name: ``from talker.text import TEXT``.
+
+    **Source.** Python documentation, "Intra-package references".
+    """
+
+    code = "IM042"
+    name = "relative-import-in-script"
+    examples = (
+        Example("full name", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}),
+        Example(
+            "relative",
+            {**_FILES, "talker/node.py": "from .text import TEXT\n"},
+            Report(
+                "talker/node.py:1:1",
+                "installed as a program, it has no package to import from: ImportError",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in sorted({one.path for one in programs(package)}):
+            if path not in package.python_files:
+                continue
+            try:
+                module = package.module(path)
+            except ViewError:
+                continue
+            for one in module.imports:
+                if one.level and not one.guarded and not one.conditional:
+                    message = (
+                        "installed as a program, it has no package to import from: ImportError"
+                    )
+                    yield self.report(one, message)

@@ -1,0 +1,124 @@
+"""TS044: fixtures that tests ask for exist, give something, and are not called."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import (
+    LAUNCH,
+    Fixture,
+    arguments,
+    fixtures,
+    own_fixtures,
+    test_functions,
+    test_modules,
+)
+
+_BUILT_IN = frozenset(
+    {"cache", "capsys", "capsysbinary", "capfd", "capfdbinary", "caplog", "doctest_namespace"}
+    | {"monkeypatch", "pytestconfig", "pytester", "record_property", "record_testsuite_property"}
+    | {"recwarn", "request", "testdir", "tmp_path", "tmp_path_factory", "tmpdir", "tmpdir_factory"}
+)
+_TEST = (
+    "import pytest\n\n\n@pytest.fixture\ndef text():\n    {}\n\n\n"
+    "def test_text({}):\n    assert {} == 'a'\n"
+)
+
+
+class FixtureMisused(Rule):
+    """A test calls a fixture, asks for one of another name, or uses one that gives nothing.
+
+    **Why.** The test ends in an error: ``Fixture "text" called directly``, ``fixture 'txt' not
+    found``, ``'NoneType' object has no attribute ...``.
+
+    **Fix.** Take the fixture as an argument of the test, under its name; ``return`` or ``yield``
+    what the test needs.
+
+    **Source.** pytest documentation, "How to use fixtures".
+    """
+
+    code = "TS044"
+    name = "fixture-misused"
+    examples = (
+        Example("used", {"test/test_text.py": _TEST.format("return 'a'", "text", "text")}),
+        Example(
+            "called",
+            {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
+            Report(
+                "test/test_text.py:10:12",
+                "text is a fixture: take it as an argument instead of calling it",
+            ),
+        ),
+        Example(
+            "another name",
+            {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
+            Report("test/test_text.py:9:5", "there is no fixture 'txt'; closest: 'text'"),
+        ),
+        Example(
+            "nothing returned",
+            {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
+            Report("test/test_text.py:10:12", "the fixture text returns nothing, so this is None"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            if not module.in_tests or "pytest" not in module.imports_by_root:
+                continue
+            for call in module.walk(ast.Call):
+                name = _called(module, call)
+                if name:
+                    message = f"{name} is a fixture: take it as an argument instead of calling it"
+                    yield self.report(module.location(call), message)
+        for module in test_modules(package):
+            if LAUNCH not in module.functions:
+                yield from self._check_tests(module, fixtures(package, module))
+
+    def _check_tests(
+        self, module: PythonModule, known: Mapping[str, Fixture]
+    ) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            if test.class_ is not None and test.class_.bases:
+                continue
+            for name in arguments(test.node):
+                fixture = known.get(name)
+                if fixture is not None and _gives_nothing(fixture):
+                    for node in ast.walk(test.node):
+                        if isinstance(node, ast.Attribute) and _is_name(node.value, name):
+                            message = f"the fixture {name} returns nothing, so this is None"
+                            yield self.report(module.location(node), message)
+                            break
+                elif fixture is None and not test.node.decorator_list:
+                    near = get_close_matches(name, known, 1, 0.75)
+                    if name == "self" and test.class_ is None:
+                        message = (
+                            f"{test.node.name} is not a method: pytest finds no fixture 'self'"
+                        )
+                    elif near and name not in _BUILT_IN:
+                        message = f"there is no fixture {name!r}; closest: {near[0]!r}"
+                    else:
+                        continue
+                    yield self.report(module.name_location(test.node), message)
+
+
+def _is_name(node: ast.expr, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name
+
+
+def _called(module: PythonModule, call: ast.Call) -> str:
+    """Return the name of the fixture of the same file that is called."""
+    if not isinstance(call.func, ast.Name):
+        return ""
+    found = module.index.lookup(call.func.id, call)
+    nodes = [binding.node for binding in found[1]] if found else []
+    own = {fixture.node for fixture in own_fixtures(module)} if len(nodes) == 1 else set()
+    return call.func.id if nodes and nodes[0] in own else ""
+
+
+def _gives_nothing(fixture: Fixture) -> bool:
+    gives = (ast.Return, ast.Yield, ast.YieldFrom)
+    return not any(isinstance(node, gives) and node.value for node in ast.walk(fixture.node))

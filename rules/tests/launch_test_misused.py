@@ -1,0 +1,127 @@
+"""TS048: tests with launch_testing start what they describe, and are run with it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import PythonModule, is_generator, may_end, returned
+from scaffold.api.tests import LAUNCH, is_test_case, marks, may_start, methods
+
+_MARKS = ("launch_test", "rostest")
+_TEST = (
+    "import unittest\n\nfrom launch import LaunchDescription\nimport launch_testing.actions\n"
+    "import pytest\n\n\n{}"
+    "def generate_test_description():\n"
+    "    {} LaunchDescription([{}])\n\n\n"
+    "class TestTalker({}):\n    def test_all(self):\n        assert True\n"
+)
+_RIGHT = (
+    "@pytest.mark.launch_test\n",
+    "return",
+    "launch_testing.actions.ReadyToTest()",
+    "unittest.TestCase",
+)
+_OTHER = _TEST.format("", *_RIGHT[1:3], "object")
+
+
+class LaunchTestMisused(Rule):
+    """A test with launch_testing never becomes ready, is not run with its launch, or has no tests.
+
+    **Why.** launch_testing stops: ``generate_test_description functions must return a
+    LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs
+    the tests of an ament_python package, and starts none of the nodes. Classes that are no
+    ``TestCase`` are not run at all.
+
+    **Fix.** ``launch_testing.actions.ReadyToTest()`` in the list; ``@pytest.mark.launch_test``;
+    ``class TestTalker(unittest.TestCase)``.
+
+    **Source.** ``launch_testing/loader.py``, ``launch_testing/pytest/hooks.py``.
+    """
+
+    code = "TS048"
+    name = "launch-test-misused"
+    examples = (
+        Example("right", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
+        Example("for launch_pytest", {"test/test_a.py": "import launch_pytest\n" + _OTHER}),
+        Example(
+            "never ready",
+            {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
+            Report(
+                "test/test_talker.py:9:5",
+                "generate_test_description has no ReadyToTest() in its list: "
+                "launch_testing refuses it",
+            ),
+        ),
+        Example(
+            "no mark",
+            {"setup.py": "", "test/test_talker.py": _TEST.format("", *_RIGHT[1:])},
+            Report(
+                "test/test_talker.py:8:5",
+                "@pytest.mark.launch_test is missing: pytest does not start what "
+                "generate_test_description describes",
+            ),
+        ),
+        Example(
+            "nothing returned, no TestCase",
+            {"setup.py": "", "test/test_talker.py": _TEST.format("", "", _RIGHT[2], "object")},
+            Report(
+                "test/test_talker.py:8:5",
+                "generate_test_description returns nothing: launch_testing needs a "
+                "LaunchDescription",
+            ),
+            Report(
+                "test/test_talker.py:12:7",
+                "launch_testing does not run TestTalker: it is not a TestCase",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            function = module.functions.get(LAUNCH)
+            roots = module.imports_by_root
+            if function is None or "launch_testing" not in roots or "launch_pytest" in roots:
+                continue
+            for problem in _problems(package, module):
+                yield self.report(function, problem)
+            for class_ in module.classes.values():
+                has_tests = any(one.name.startswith("test") for one in methods(class_.node))
+                plain = not class_.node.bases or module.qualified_names(class_.node.bases[0]) == {
+                    "object"
+                }
+                if has_tests and plain and not module.index.names(class_.name):
+                    message = f"launch_testing does not run {class_.name}: it is not a TestCase"
+                    yield self.report(class_, message)
+
+
+def _problems(package: Package, module: PythonModule) -> Iterator[str]:
+    """Yield what is wrong about the function that describes the launch."""
+    node = module.functions[LAUNCH].node
+    arguments = {one.arg for one in node.args.args}
+    if not is_generator(node) and not returned(node) and may_end(node):
+        yield f"{LAUNCH} returns nothing: launch_testing needs a LaunchDescription"
+    elif not (
+        "ReadyToTest" in module.source.text
+        or "ready_fn" in arguments
+        or _calls_others(module, node)
+    ):
+        yield f"{LAUNCH} has no ReadyToTest() in its list: launch_testing refuses it"
+    tests = any(is_test_case(module, class_.node) for class_ in module.classes.values())
+    name = module.path.rpartition("/")[2]
+    by_pytest = package.has("setup.py") and not package.has("CMakeLists.txt")
+    collected = name.startswith("test_") or name.endswith("_test.py")
+    marked = any(mark in _MARKS for mark, _ in marks(module, node))
+    if by_pytest and collected and tests and not marked and not may_start(package, name):
+        yield f"@pytest.mark.launch_test is missing: pytest does not start what {LAUNCH} describes"
+
+
+def _calls_others(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a function of the package or of an unknown one may add actions."""
+    for call in ast.walk(node):
+        if isinstance(call, ast.Call):
+            name = module.qualified_name(call.func) or ""
+            if not name.startswith(("launch.", "launch_ros.", "launch_testing.", "os.", "ament_")):
+                return True
+    return False

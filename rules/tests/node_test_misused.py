@@ -1,0 +1,110 @@
+"""TS049: tests of nodes initialize rclpy, and spin."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import TestFunction, arguments, made_name, node_tests, test_functions
+
+_TEST = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "def test_node():\n    {}\n    node = Node('node')\n    got = []\n"
+    "    node.create_subscription(String, 'text', got.append, 10)\n    {}\n    assert got\n"
+)
+
+
+class NodeTestMisused(Rule):
+    """A test makes a node without rclpy.init(), or waits for messages without spinning.
+
+    **Why.** ``NotInitializedException: rclpy.init() has not been called``; ``Context.init() must
+    only be called once`` in the second test; no callback is ever called.
+
+    **Fix.** A fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; ``spin_once`` with
+    ``timeout_sec`` until a deadline.
+
+    **Source.** rclpy, ``context.py``, ``node.py``, ``executors.py``.
+    """
+
+    code = "TS049"
+    name = "node-test-misused"
+    examples = (
+        Example(
+            "right",
+            {
+                "test/test_node.py": _TEST.format(
+                    "rclpy.init()", "rclpy.spin_once(node, timeout_sec=1.0)"
+                )
+            },
+        ),
+        Example(
+            "no init, nothing spins",
+            {"test/test_node.py": _TEST.format("pass", "pass")},
+            Report(
+                "test/test_node.py:8:12",
+                "nothing calls rclpy.init() before this node is made: NotInitializedException",
+            ),
+            Report(
+                "test/test_node.py:10:5",
+                "nothing spins in this test, so the callback is never called",
+            ),
+        ),
+        Example(
+            "initialized again",
+            {
+                "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
+                "def test_two():\n    rclpy.init()\n"
+            },
+            Report(
+                "test/test_node.py:9:5",
+                "the test of line 5 calls init() as well, and nothing shuts down",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            seen: list[ast.Call] = []
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    if isinstance(node, ast.Call):
+                        problem = _problem(module, test, node, texts, seen)
+                        if problem:
+                            yield self.report(module.location(node), problem)
+
+
+def _problem(
+    module: PythonModule, test: TestFunction, call: ast.Call, texts: str, inits: list[ast.Call]
+) -> str:
+    name = module.qualified_name(call.func) or ""
+    own = test.class_ is None and set(arguments(test.node)) <= {"monkeypatch", "capsys", "tmp_path"}
+    if name == "rclpy.init" and own and "shutdown" not in texts and not call.keywords:
+        inits.append(call)
+        if len(inits) > 1:
+            line = module.location(inits[0]).line
+            return f"the test of line {line} calls init() as well, and nothing shuts down"
+    elif name in {"rclpy.node.Node", "rclpy.create_node"} and own and "init" not in texts:
+        words = {word.arg for word in call.keywords}
+        if words.isdisjoint({"context", None}):
+            return "nothing calls rclpy.init() before this node is made: NotInitializedException"
+    elif isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
+        is_node = own and _is_made_here(module, call.func.value)
+        if is_node and "spin" not in texts and _is_awaited(test, call):
+            return "nothing spins in this test, so the callback is never called"
+    return ""
+
+
+def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
+    """Tell whether the callback collects messages that the test asserts to be there."""
+    match call.args:
+        case [_, _, ast.Attribute(value=ast.Name(id=name), attr="append"), *_]:
+            wanted = (one.test for one in ast.walk(test.node) if isinstance(one, ast.Assert))
+            return any(isinstance(one, ast.Name) and one.id == name for one in wanted)
+    return False
+
+
+def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
+    """Tell whether a name stands for a plain node that is made in the file."""
+    return made_name(module, node) in {"rclpy.node.Node", "rclpy.create_node"}

@@ -1,0 +1,121 @@
+"""TS045: the methods of a TestCase are those that unittest calls, and as it calls them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api.python import FunctionNode, PythonModule
+from scaffold.api.tests import LAUNCH, arguments, is_test_case, marks, methods
+
+_SET_UP = ("setUp", "tearDown", "setUpClass", "tearDownClass")
+_PLAIN = {"setUp": "setup_method", "tearDown": "teardown_method"}
+_TEST = (
+    "import unittest\n\n\nclass TestText({}):\n"
+    "    def {}(self):\n        self.text = 'a'\n\n"
+    "    def test_text(self{}):\n        assert self.text\n"
+)
+_CASE = "unittest.TestCase"
+
+
+class TestCaseMisused(TestRule):
+    """A TestCase has a method that unittest never calls, or that it calls in another way.
+
+    **Why.** ``set_up`` is never called, nor is ``setUp`` in a class without TestCase:
+    AttributeError in the tests. unittest gives a test no arguments, so neither fixtures nor
+    ``parametrize`` work: TypeError.
+
+    **Fix.** ``setUp``, ``tearDown``; ``@classmethod`` for ``setUpClass``; a plain class or function
+    for fixtures.
+
+    **Source.** Python documentation, ``unittest``; pytest documentation, "How to use unittest-based
+    tests with pytest".
+    """
+
+    code = "TS045"
+    name = "test-case-misused"
+    examples = (
+        Example("right", {"test/test_text.py": _TEST.format(_CASE, "setUp", "")}),
+        Example(
+            "made by the file itself",
+            {
+                "test/test_text.py": _TEST.format(_CASE, "__init__", "")
+                + "\n\nTestText().test_text()\n"
+            },
+        ),
+        Example(
+            "set_up, a fixture",
+            {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
+            Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
+            Report(
+                "test/test_text.py:8:9",
+                "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
+            ),
+        ),
+        Example(
+            "setUp without TestCase",
+            {"test/test_text.py": _TEST.format("object", "setUp", "")},
+            Report(
+                "test/test_text.py:5:9",
+                "pytest calls setUp in a TestCase only; here it is setup_method",
+            ),
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for class_ in module.classes.values():
+            is_case = is_test_case(module, class_.node)
+            is_plain = class_.name.startswith("Test") and _has_no_base(class_.node)
+            for method in methods(class_.node) if is_case or is_plain else ():
+                problem = _case_problem(module, method) if is_case else _plain(method)
+                is_called = (
+                    _is_made(module, class_.name)
+                    if method.name == "__init__"
+                    else module.index.attributes(method.name)
+                )
+                if problem and not is_called:
+                    yield self.report(module.name_location(method), problem)
+
+
+def _is_made(module: PythonModule, name: str) -> bool:
+    """Tell whether the file itself makes an object of a class, or of one that inherits from it."""
+    heirs = {name}
+    for class_ in module.classes.values():
+        if any(isinstance(base, ast.Name) and base.id in heirs for base in class_.node.bases):
+            heirs.add(class_.name)
+    return any(
+        isinstance(call.func, ast.Name) and call.func.id in heirs for call in module.walk(ast.Call)
+    )
+
+
+def _has_no_base(class_: ast.ClassDef) -> bool:
+    return all(isinstance(base, ast.Name) and base.id == "object" for base in class_.bases)
+
+
+def _plain(method: FunctionNode) -> str:
+    name = _PLAIN.get(method.name)
+    return f"pytest calls {method.name} in a TestCase only; here it is {name}" if name else ""
+
+
+def _case_problem(module: PythonModule, method: FunctionNode) -> str:
+    """Return what is wrong about a method of a TestCase."""
+    name, given = method.name, arguments(method)
+    decorated = {module.qualified_name(one) for one in method.decorator_list}
+    static, launched = "staticmethod" in decorated, LAUNCH in module.functions
+    problem = ""
+    for right in _SET_UP:
+        if name != right and name.replace("_", "").lower() == right.lower():
+            return f"unittest never calls {name}; use {right}"
+    if name in {"setUpClass", "tearDownClass"} and not decorated:
+        problem = f"unittest calls {name} on the class: @classmethod is missing"
+    elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
+        problem = f"unittest calls {name} with self alone, and it takes {len(given)} arguments"
+    elif name == "__init__" and len(method.args.args) == 1 and not method.args.vararg:
+        problem = "unittest gives __init__ the name of a test: use setUp instead"
+    elif name.startswith("test") and not launched and not static:
+        if any(mark == "parametrize" for mark, _ in marks(module, method)):
+            problem = f"parametrize does nothing in a TestCase: {name} fails with TypeError"
+        elif len(given) > 1 and not decorated:
+            problem = f"unittest gives {name} no arguments, and it takes {given[1]!r}: TypeError"
+    return problem

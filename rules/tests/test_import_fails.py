@@ -1,0 +1,89 @@
+"""TS050: tests find the helpers beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import Import, PythonModule
+from scaffold.api.tests import test_modules
+
+_PATHS = ("import-mode", "importmode", "pythonpath", "sys.path", "rootdir", "site.addsitedir")
+_TEST = "{}\n\n\ndef test_make():\n    assert make()\n"
+_HELPER = {"test/helpers.py": "def make():\n    return 1\n"}
+
+
+class TestImportFails(Rule):
+    """A test imports a helper beside it in a way that pytest cannot follow.
+
+    **Why.** pytest stops with ``ImportError: attempted relative import with no known parent
+    package`` in a directory without ``__init__.py``, with ``No module named 'helpers'`` in one that
+    has it, and with ``No module named 'test.helpers'`` because ``test`` is a package of Python.
+
+    **Fix.** ``from helpers import ...`` and no ``__init__.py`` in the directory, or
+    ``from .helpers import ...`` and an ``__init__.py``.
+
+    **Source.** pytest documentation, "pytest import mechanisms and sys.path/PYTHONPATH".
+    """
+
+    code = "TS050"
+    name = "test-import-fails"
+    examples = (
+        Example(
+            "found",
+            {"setup.py": "", "test/test_a.py": _TEST.format("from helpers import make"), **_HELPER},
+        ),
+        Example(
+            "relative, and as a part of test",
+            {
+                "setup.py": "",
+                "test/test_a.py": _TEST.format("from .helpers import make"),
+                "test/test_b.py": _TEST.format("from test.helpers import make"),
+                **_HELPER,
+            },
+            Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
+            Report(
+                "test/test_b.py:1:1", "test is a package of Python: write `from helpers import ...`"
+            ),
+        ),
+        Example(
+            "the directory is a package",
+            {
+                "setup.py": "",
+                "test/__init__.py": "",
+                "test/test_a.py": _TEST.format("from helpers import make"),
+                **_HELPER,
+            },
+            Report("test/test_a.py:1:1", "test/ is a package: write `from .helpers import ...`"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
+        texts = [package.source(name).text for name in names if package.has(name)]
+        texts += [module.source.text for module in package.modules() if module.in_tests]
+        if any(word in text for text in texts for word in _PATHS):
+            return
+        for module in test_modules(package):
+            directory = module.path.rpartition("/")[0]
+            if directory in {"test", "tests"}:
+                for one in module.imports:
+                    problem = _problem(package, module, directory, one)
+                    if problem and not (one.guarded or one.conditional or one.in_function):
+                        yield self.report(one, problem)
+
+
+def _problem(package: Package, module: PythonModule, directory: str, one: Import) -> str:
+    is_package = package.has(f"{directory}/__init__.py")
+    if one.level == 1 and not is_package:
+        return f"a relative import fails: {directory}/ has no __init__.py"
+    first, _, rest = one.module.partition(".")
+    helper = rest.partition(".")[0] or (one.names[0].name if one.names else "")
+    if one.level == 0 and first == "test" == directory and not is_package:
+        if package.has(f"test/{helper}.py"):
+            return f"test is a package of Python: write `from {helper} import ...`"
+    elif one.level == 0 and is_package and package.has(f"{directory}/{first}.py"):
+        is_elsewhere = package.has(f"{first}.py") or package.has(f"{first}/__init__.py")
+        if not is_elsewhere and first != module.path.rpartition("/")[2][:-3]:
+            return f"{directory}/ is a package: write `from .{first} import ...`"
+    return ""

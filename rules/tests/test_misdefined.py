@@ -1,0 +1,121 @@
+"""TS042: pytest can call the tests with what it has."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api.python import FunctionNode, PythonModule
+
+_TEST = (
+    "import pytest\n\n\n"
+    "class TestText:\n"
+    "    @pytest.mark.parametrize('word, {}', [('a', 1)])\n"
+    "    def test_text({}word, count):\n"
+    "        assert len(word) == count\n"
+)
+
+
+class TestMisdefined(Rule):
+    """A test is defined in a way that pytest cannot run.
+
+    **Why.** pytest ends with an error: a method without ``self`` ("takes 0 positional arguments but
+    1 was given"), a parameter of ``parametrize`` that the test does not take ("function uses no
+    argument"), a section ``[pytest]`` in setup.cfg ("no longer supported").
+
+    **Fix.** Add ``self``; use the same names in both places; call the section ``[tool:pytest]``.
+
+    **Source.** pytest documentation, "How to parametrize fixtures and test functions",
+    "Configuration".
+    """
+
+    code = "TS042"
+    name = "test-misdefined"
+    examples = (
+        Example("right", {"test/test_text.py": _TEST.format("count", "self, ")}),
+        Example(
+            "another name, no self",
+            {
+                "test/test_text.py": _TEST.format("number", "self, ")
+                + "\n    def test_all():\n        assert True\n"
+            },
+            Report(
+                "test/test_text.py:5:30", "test_text takes no argument 'number': pytest stops here"
+            ),
+            Report("test/test_text.py:9:9", "test_all is a method without self: TypeError"),
+        ),
+        Example(
+            "a name that a fixture takes",
+            {
+                "test/test_text.py": _TEST.format("number", "self, ")
+                + "\n\n@pytest.fixture\ndef count(number):\n    return number\n"
+            },
+        ),
+        Example(
+            "the section of setup.cfg",
+            {"setup.py": "", "setup.cfg": "[pytest]\nxfail_strict = true\n"},
+            Report(
+                "setup.cfg:1:2",
+                "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        modules = [module for module in package.modules() if module.in_tests]
+        taken = {name for module in modules for name in _taken(module)}
+        for module in modules:
+            functions: list[FunctionNode] = [*module.walk(ast.FunctionDef)]
+            functions += module.walk(ast.AsyncFunctionDef)
+            for function in functions:
+                if not function.name.startswith("test"):
+                    continue
+                if _lacks_self(module, function):
+                    message = f"{function.name} is a method without self: TypeError"
+                    yield self.report(module.name_location(function), message)
+                for node, name in _given(module, function):
+                    if name not in taken:
+                        message = f"{function.name} takes no argument {name!r}: pytest stops here"
+                        yield self.report(module.location(node), message)
+        yield from self._check_section(package)
+
+    def _check_section(self, package: Package) -> Iterator[Diagnostic]:
+        if package.has("pytest.ini") or not package.has("setup.cfg"):
+            return
+        try:
+            sections = package.setup_cfg.sections.values()
+        except ViewError:
+            return
+        for section in sections:
+            if section.name == "pytest":
+                message = "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]"
+                yield self.report(section.name_location, message)
+
+
+def _taken(module: PythonModule) -> Iterator[str]:
+    """Yield the names of all arguments in a file: a fixture may take what a test does not."""
+    for arguments in module.walk(ast.arguments):
+        for one in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]:
+            yield one.arg
+
+
+def _lacks_self(module: PythonModule, function: FunctionNode) -> bool:
+    class_, given = module.parent(function), function.args
+    is_method = isinstance(class_, ast.ClassDef) and class_.name.startswith("Test")
+    return is_method and not (
+        function.decorator_list or given.args or given.posonlyargs or given.vararg
+    )
+
+
+def _given(module: PythonModule, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the names that ``parametrize`` gives to a test, with their places."""
+    for decorator in function.decorator_list:
+        if not isinstance(decorator, ast.Call) or not decorator.args:
+            continue
+        name = module.qualified_name(decorator.func)
+        first = decorator.args[0]
+        if name == "pytest.mark.parametrize" and isinstance(first, ast.Constant):
+            for part in str(first.value).split(","):
+                if part.strip():
+                    yield first, part.strip()

@@ -1,0 +1,112 @@
+"""TS076: tests of nodes end."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import made_name, node_tests, test_functions
+
+_WAYS_OUT = (
+    *("Thread(", "threading", "Timer", "timer", "multiprocessing", "concurrent", "signal"),
+    *("timeout", "shutdown_callback", "on_shutdown", "sys.exit", "subprocess", "raise "),
+)
+_TEST = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\ndef test_node():\n    rclpy.init()\n"
+    "    node = Node('node')\n    {}\n    assert node.get_name() == 'node'\n"
+)
+
+
+class TestNeverEnds(Rule):
+    """A test spins a node, or waits for an answer, and nothing ends that.
+
+    **Why.** ``rclpy.spin`` returns only when somebody shuts down, and ``client.call`` only when
+    another thread spins, so ``colcon test`` hangs.
+
+    **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline; ``call_async`` and
+    ``spin_until_future_complete`` with ``timeout_sec``.
+
+    **Source.** rclpy, ``__init__.py``, ``executors.py``.
+    """
+
+    code = "TS076"
+    name = "test-never-ends"
+    examples = (
+        Example(
+            "once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
+        ),
+        Example(
+            "an answer that nobody spins for",
+            {
+                "test/test_node.py": _TEST.format(
+                    "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
+                )
+            },
+            Report(
+                "test/test_node.py:9:5",
+                "call() waits for an answer while nothing spins: use call_async, "
+                "and spin until it is done",
+            ),
+        ),
+        Example(
+            "for ever",
+            {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
+            Report(
+                "test/test_node.py:8:5",
+                "nothing ends this: the test waits forever; use spin_once with timeout_sec",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            if any(word in texts for word in _WAYS_OUT):
+                continue
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    if not isinstance(node, ast.Call):
+                        continue
+                    if _waits(module, node):
+                        message = "call() waits for an answer while nothing spins"
+                        at = module.location(node)
+                        yield self.report(
+                            at, f"{message}: use call_async, and spin until it is done"
+                        )
+                    if not _spins(module, node):
+                        continue
+                    is_own = module.enclosing_function(node) is test.node
+                    if is_own and "shutdown" not in _text_around(module, node):
+                        message = "nothing ends this: the test waits forever"
+                        at = module.location(node)
+                        yield self.report(at, f"{message}; use spin_once with timeout_sec")
+
+
+def _spins(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is ``rclpy.spin``, or ``spin`` of an executor made in the file."""
+    match call.func:
+        case ast.Attribute(value=holder, attr="spin"):
+            if made_name(module, holder).endswith("ThreadedExecutor"):
+                return True
+    return module.qualified_name(call.func) == "rclpy.spin"
+
+
+def _waits(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is ``call`` of a client that is made in the file."""
+    match call.func:
+        case ast.Attribute(value=ast.Name(id=name), attr="call"):
+            found = module.index.lookup(name, call)
+            values = [binding.value for binding in found[1]] if found else []
+            made = values[0] if len(values) == 1 else None
+            match made:
+                case ast.Call(func=ast.Attribute(attr="create_client")):
+                    return True
+    return False
+
+
+def _text_around(module: PythonModule, call: ast.Call) -> str:
+    """Return the text of the file without the test that a call stands in."""
+    function = module.enclosing_function(call)
+    start, end = module.span(function) if function is not None else (0, 0)
+    return module.source.text[:start] + module.source.text[end:]

@@ -1,0 +1,115 @@
+"""TS040: a file of tests has tests that pytest collects."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.python import PythonModule
+
+_LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
+
+
+class TestWithoutTests(Rule):
+    """A file of tests has no test that pytest collects, or one that never fails.
+
+    **Why.** pytest collects functions that begin with ``test`` and classes that begin with
+    ``Test`` and have no constructor: the file passes without having tested anything.
+
+    **Fix.** Rename the function or class; assert instead of returning.
+
+    **Source.** pytest documentation, "Conventions for Python test discovery".
+    """
+
+    code = "TS040"
+    name = "test-without-tests"
+    severity = Severity.WARNING
+    examples = (
+        Example("a test", {"test/test_text.py": "def test_text():\n    assert True\n"}),
+        Example(
+            "another name",
+            {"test/test_text.py": "def check_text():\n    assert True\n"},
+            Report(
+                "test/test_text.py:1:1",
+                "pytest collects no test here: names begin with test_ or Test",
+            ),
+        ),
+        Example(
+            "a class with a constructor",
+            {
+                "test/test_text.py": "class TestText:\n"
+                "    def __init__(self):\n        self.n = 1\n\n"
+                "    def test_text(self):\n        assert self.n\n"
+            },
+            Report(
+                "test/test_text.py:1:7", "pytest does not collect TestText: it has a constructor"
+            ),
+        ),
+        Example(
+            "a comparison that is returned",
+            {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
+            Report("test/test_text.py:2:5", "what a test returns is not looked at: write assert"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules():
+            directory, _, name = module.path.rpartition("/")
+            if directory not in {"test", "tests"} or not name.startswith("test_"):
+                continue
+            yield from self._check_returns(module)
+            for class_ in _refused(module):
+                message = f"pytest does not collect {class_.name}: it has a constructor"
+                yield self.report(module.name_location(class_), message)
+            if not _has_tests(module) and _asserts(module):
+                message = "pytest collects no test here: names begin with test_ or Test"
+                yield self.report(package.start_of(module.path), message)
+
+    def _check_returns(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for function in module.functions.values():
+            if not function.name.startswith("test") or function.node.decorator_list:
+                continue
+            inner = list(ast.walk(function.node))
+            if any(isinstance(node, ast.Assert | ast.Raise | ast.With) for node in inner):
+                continue
+            for node in inner:
+                if isinstance(node, ast.Return) and isinstance(node.value, ast.Compare):
+                    message = "what a test returns is not looked at: write assert"
+                    yield self.report(module.location(node), message)
+
+
+def _methods(class_: ast.ClassDef) -> set[str]:
+    return {node.name for node in class_.body if isinstance(node, ast.FunctionDef)}
+
+
+def _refused(module: PythonModule) -> list[ast.ClassDef]:
+    """Return the classes with tests that pytest passes over because of their constructor."""
+    return [
+        class_.node
+        for class_ in module.classes.values()
+        if class_.name.startswith("Test")
+        and not any(_may_be_collected(module, base) for base in class_.node.bases)
+        and "__init__" in _methods(class_.node)
+        and any(name.startswith("test") for name in _methods(class_.node))
+    ]
+
+
+def _may_be_collected(module: PythonModule, base: ast.expr) -> bool:
+    return module.qualified_name(base) not in {"object", "rclpy.node.Node"}
+
+
+def _has_tests(module: PythonModule) -> bool:
+    names = {*module.functions, *module.index.bindings(module.tree)}
+    if any(name.startswith(("test", *_LAUNCH)) for name in names):
+        return True
+    refused = _refused(module)
+    return any(
+        class_.node not in refused
+        and (class_.name.startswith("Test") or class_.node.bases or class_.node.decorator_list)
+        for class_ in module.classes.values()
+    ) or bool(refused)
+
+
+def _asserts(module: PythonModule) -> bool:
+    return bool(module.walk(ast.Assert)) and not module.has_main_guard

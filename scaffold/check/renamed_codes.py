@@ -1,0 +1,22 @@
+"""The codes of rules that were merged into others or moved to another area."""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+
+_FILE = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "renamed_codes.txt")
+
+
+@cache
+def renamed_codes() -> dict[str, str]:
+    """Return today's code by each former one."""
+    with open(_FILE, encoding="utf-8") as file:
+        return dict(line.split() for line in file if not line.startswith("#"))
+
+
+def new_codes(prefix: str) -> list[str]:
+    """Return the codes that replace those beginning with two letters and a digit or more."""
+    if not prefix[2:].isdigit():
+        return []
+    return sorted({new for old, new in renamed_codes().items() if old.startswith(prefix)})
