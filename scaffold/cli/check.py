@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from scaffold.configuration.config import Config
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
+    from scaffold.reporters import ReportOptions
     from scaffold.writing.plan import WritePlan
 
 FORMATS = ("text", "json")
@@ -96,12 +97,18 @@ def run(options: argparse.Namespace) -> int:
     memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = _Copy()
-    reporters.get(options.format)(results, output, unsafe=options.unsafe_fixes)
+    reporters.get(options.format)(results, output, _report_options(options))
     terminal.write_report(output.getvalue())
     code = exit_code(results)
     if slot is not None:
         memory.save(slot, disk, results, code, output.getvalue(), settings.warnings)
     return code
+
+
+def _report_options(options: argparse.Namespace) -> ReportOptions:
+    from scaffold.reporters import ReportOptions
+
+    return ReportOptions(unsafe=options.unsafe_fixes)
 
 
 class _Copy(StringIO):
@@ -256,7 +263,7 @@ def _report_fixes(
     if options.diff:
         return FINDINGS if count else CLEAN
     output = _Copy()
-    reporters.get(options.format)(results, output, unsafe=options.unsafe_fixes)
+    reporters.get(options.format)(results, output, _report_options(options))
     terminal.write_report(output.getvalue())
     return exit_code(results)
 

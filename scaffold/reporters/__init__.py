@@ -7,18 +7,39 @@ from importlib import import_module
 from typing import Protocol, TextIO, cast
 
 from scaffold.check.session import Result
+from scaffold.diagnostic import Severity
+from scaffold.record import NamedTuple
+
+
+class ReportOptions(NamedTuple):
+    """What the user wants to see; nothing of it changes what a program reads."""
+
+    unsafe: bool = False
+    """Whether unsafe fixes are counted with the others: the user asked for them."""
+    severity: Severity = Severity.INFO
+    """The least severity that people are shown."""
+    everything: bool = False
+    """Whether a terminal shows what does not fit on a screen."""
+    style: bool = False
+    """Whether a terminal shows style findings that it would fold into one line."""
+    source: bool | None = None
+    """Whether source lines are shown; ``None`` for on a terminal only."""
+    statistics: bool = False
+    """Whether counts are shown instead of findings."""
+    quiet: bool = False
+    """Whether the summary is left out."""
 
 
 class Reporter(Protocol):
     """Writes the results of a check to a stream."""
 
-    def __call__(self, results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:
+    def __call__(self, results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
         """Write.
 
         Args:
             results: Of all packages, in the order to report them in.
             out: The stream.
-            unsafe: Whether the user asked for unsafe fixes.
+            options: What the user wants to see.
         """
 
 

@@ -8,10 +8,11 @@ from typing import TextIO
 from scaffold.check.session import Result, Summary
 from scaffold.diagnostic import Diagnostic
 from scaffold.printable import json_text
+from scaffold.reporters import ReportOptions
 from scaffold.reporters.paths import shown
 
 
-def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:  # noqa: ARG001  same shape as the other
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
     """Write ``{"diagnostics": [...], "summary": {...}}``."""
     diagnostics = [
         _as_data(diagnostic, shown(result.package, diagnostic.location.path))

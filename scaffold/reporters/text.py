@@ -10,12 +10,13 @@ from scaffold.check.session import Result, Summary
 from scaffold.diagnostic import Severity
 from scaffold.edits import Safety
 from scaffold.printable import printable
+from scaffold.reporters import ReportOptions
 from scaffold.reporters.paths import shown
 
 _COLORS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
 
 
-def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> None:
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
     """Write the diagnostics and a summary; see `Reporter`."""
     paint = _painter(out)
     for result in results:
@@ -26,7 +27,7 @@ def report(results: Sequence[Result], out: TextIO, *, unsafe: bool = False) -> N
             code = paint(diagnostic.code, "1")
             message = printable(diagnostic.message)
             out.write(f"{place} {severity} {code} {message} [{diagnostic.name}]\n")
-    out.write(_summary(results, unsafe=unsafe) + "\n")
+    out.write(_summary(results, unsafe=options.unsafe) + "\n")
 
 
 def _summary(results: Sequence[Result], *, unsafe: bool) -> str:
