@@ -1,9 +1,30 @@
-"""``python -m scaffold``."""
+"""``ros2-scaffold`` and ``python -m scaffold``: end in one line, also while modules are imported."""
 
 from __future__ import annotations
 
 import sys
 
-from scaffold.cli.main import main
 
-sys.exit(main())
+def main() -> int:
+    """Run the command line; return its exit code."""
+    try:
+        from scaffold.cli.main import main as run
+
+        return run()
+    except KeyboardInterrupt:  # before the verbs' own handling began, or after it ended
+        return _interrupted()
+
+
+def _interrupted() -> int:
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # of somebody impatient
+    from scaffold.cli import terminal
+    from scaffold.cli.exit_codes import INTERRUPTED
+
+    terminal.say("ros2-scaffold: interrupted")
+    return INTERRUPTED
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -77,7 +77,7 @@ def test_wheel_says_what_it_is(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         entry_points = archive.read(f"{information}/entry_points.txt").decode()
         licence = archive.read(f"{information}/licenses/LICENSE")
-    assert "ros2-scaffold = scaffold.cli.main:main" in entry_points.splitlines()
+    assert "ros2-scaffold = scaffold.__main__:main" in entry_points.splitlines()
     assert licence == (ROOT / "LICENSE").read_bytes()
 
 

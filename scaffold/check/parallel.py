@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterator, Sequence
 
 from scaffold.check.cache import worker_reads
@@ -34,7 +35,7 @@ def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
         for start in starts:
             yield from check(targets[start : start + BATCH])
         return
-    with multiprocessing.get_context("fork").Pool(workers) as pool:
+    with multiprocessing.get_context("fork").Pool(workers, _end_with_the_terminal) as pool:
         for start, (found, learnt) in zip(starts, pool.imap(_run, starts), strict=True):
             for note in learnt:
                 note.add_to(packages)
@@ -42,6 +43,11 @@ def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
                 targets[start : start + BATCH], found, strict=True
             ):
                 yield Result(target.package, files, diagnostics)
+
+
+def _end_with_the_terminal() -> None:
+    """Let Ctrl-C, which every process gets, end this one without a word: the first one reports."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _run(start: int) -> _Found:

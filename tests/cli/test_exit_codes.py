@@ -207,3 +207,102 @@ def test_control_c(tmp_path: Path) -> None:
     assert error == "ros2-scaffold: interrupted\n"
     assert run.returncode == exit_codes.INTERRUPTED
     assert not (tmp_path / "made").exists()
+
+
+SIGNALS_ITSELF = """
+import os, signal, sys
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == os.environ["AT_MODULE"]:
+            del sys.meta_path[0]
+            os.kill(os.getpid(), int(os.environ["SIGNAL"]))
+
+sys.meta_path.insert(0, Finder())
+"""
+"""What Python imports at its start: it gets a signal when a certain module is imported."""
+
+
+def signaled(at: str, number: signal.Signals, where: Path) -> subprocess.CompletedProcess[str]:
+    (where / "sitecustomize.py").write_text(SIGNALS_ITSELF)
+    return subprocess.run(
+        [*TOOL, "check", "."],
+        cwd=where,
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join([str(where / "."), str(ROOT)]),
+            "AT_MODULE": at,
+            "SIGNAL": str(int(number)),
+        },
+        check=False,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=PATIENCE,
+    )
+
+
+IMPORTED = (
+    "scaffold.cli.main",
+    "scaffold.check.cache.runs",
+    "scaffold.cli.terminal",
+    "scaffold.cli.parser",
+    "scaffold.cli.check",
+    "scaffold.check.registry",
+)
+"""Modules of a run of `check`, from the first one on."""
+
+
+@pytest.mark.parametrize("module", IMPORTED)
+def test_control_c_while_modules_are_imported(module: str, tmp_path: Path) -> None:
+    run = signaled(module, signal.SIGINT, tmp_path)
+
+    assert (run.stdout, run.stderr) == ("", "ros2-scaffold: interrupted\n")
+    assert run.returncode == exit_codes.INTERRUPTED
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_other_signals_end_it_without_a_word(number: signal.Signals, tmp_path: Path) -> None:
+    run = signaled(IMPORTED[0], number, tmp_path)
+
+    assert (run.returncode, run.stdout, run.stderr) == (-number, "", "")
+
+
+INTERRUPTING_RULE = """
+import os, signal
+from scaffold.api import Example, Rule
+
+class Interrupting(Rule):
+    \"\"\"Somebody presses Ctrl-C: every process of the terminal gets it.\"\"\"
+
+    code = "XX900"
+    name = "interrupting"
+    examples = (Example("none", {"package.xml": ""}),)
+
+    def check(self, package):
+        if os.getpid() != os.getpgrp():  # in a worker
+            os.killpg(0, signal.SIGINT)
+        yield from ()
+"""
+
+
+def test_control_c_in_a_workspace_is_one_line(tmp_path: Path) -> None:
+    for number in range(40):
+        (tmp_path / "src" / f"p{number}").mkdir(parents=True)
+        (tmp_path / "src" / f"p{number}" / "package.xml").write_text(
+            f'<package format="3"><name>p{number}</name></package>\n'
+        )
+    (tmp_path / "own" / "rules" / "area").mkdir(parents=True)
+    (tmp_path / "own" / "rules" / "area" / "interrupting.py").write_text(INTERRUPTING_RULE)
+    run = subprocess.run(
+        [*TOOL, "check", "--content", "own", "--select", "XX900", "src"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        check=False,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=PATIENCE,
+        start_new_session=True,
+    )
+
+    assert (run.stdout, run.stderr) == ("", "ros2-scaffold: interrupted\n")
+    assert run.returncode == exit_codes.INTERRUPTED
