@@ -1,4 +1,4 @@
-"""``ros2-scaffold`` and ``python -m scaffold``: end in one line, also while modules are imported."""
+"""The start of ``ros2-scaffold`` and ``python -m scaffold``, which may be interrupted at once."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
             _report(target.package, said)
             return INTERNAL_ERROR
         if not is_dry:
-            repository.write(above, plan, force=True)
+            plan.write(force=True, around=above)
     for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
         terminal.note(note)
     _show(options, target.package, added, plan, above)

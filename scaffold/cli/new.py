@@ -223,15 +223,14 @@ def _write(
 ) -> WritePlan:
     """Write; return the plan that was followed."""
     from scaffold.cli import writing
-    from scaffold.generate import repository
 
     if plan.is_new:
-        repository.write(above, plan, force=options.force)
+        plan.write(force=options.force, around=above)
         return plan
     with writing.held(plan.root, is_dry=False):
         # Of what is there now that nobody else changes it.
         plan = _plan(options, made, left)
-        repository.write(above, plan, force=options.force)
+        plan.write(force=options.force, around=above)
     return plan
 
 
@@ -255,6 +254,7 @@ def _plan_above(
 
 def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     """Return the directory of a package; raise if it is there and may not be overwritten."""
+    from scaffold.cli import writing
     from scaffold.errors import ConflictError
     from scaffold.writing import transaction
 
@@ -262,7 +262,12 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:
-        transaction.sweep(options.destination_directory)  # a killed run may have got this far
+        # A killed run may have got this far, or further.
+        transaction.sweep(options.destination_directory)
+        transaction.sweep(directory)
+        if transaction.is_unfinished(directory):
+            with writing.held(directory, is_dry=options.dry_run or options.diff):
+                pass
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} already exists; {hint}")
     return directory

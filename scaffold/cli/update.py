@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
         plan = WritePlan.of(directory, files, executable=updated.executable, tree=tree)
         above = repository.plan(place, repository.above(updated.files))
         if not is_dry:
-            repository.write(above, plan, force=True)
+            plan.write(force=True, around=above)
     if options.diff:
         terminal.show_patch(plan.diff(hidden=HIDDEN))
         terminal.show_patch(above.diff() if above else "")

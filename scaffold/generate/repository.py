@@ -124,30 +124,6 @@ def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
     return WritePlan.of(place.top, files) if files else None
 
 
-def write(first: WritePlan | None, package: WritePlan, *, force: bool) -> None:
-    """Write the files at the top of a repository and those of a package, or nothing.
-
-    Args:
-        first: The files at the top, if there are any.
-        package: The files of the package.
-        force: Overwrite files that exist.
-
-    Raises:
-        ConflictError: files would be overwritten.
-        InputError: the system refuses.
-    """
-    if first is None:
-        package.write(force=force)
-        return
-    missing = _missing_directories(first)
-    first.write(force=force)
-    try:
-        package.write(force=force)
-    except BaseException:
-        _undo(first, missing)
-        raise
-
-
 def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
     """Yield what the user should know of files that nobody reads where they are.
 
@@ -231,27 +207,3 @@ def _is_git(path: str) -> bool:
             with open(path, "rb") as file:
                 return file.read(len(prefix)) == prefix
     return False
-
-
-def _missing_directories(first: WritePlan) -> list[str]:
-    """Return the directories that are made for the files of a plan, inner ones first."""
-    found: set[str] = set()
-    for file in first.changes:
-        directory = os.path.dirname(file.target)
-        while not os.path.lexists(directory):
-            found.add(directory)
-            directory = os.path.dirname(directory)
-    return sorted(found, key=len, reverse=True)
-
-
-def _undo(first: WritePlan, directories: list[str]) -> None:
-    """Take back what a plan has written."""
-    from scaffold.writing.plan import WritePlan
-
-    before = {file.path: file.before for file in first.changes}
-    new = [path for path, content in before.items() if content is None]
-    old = {path: content for path, content in before.items() if content is not None}
-    WritePlan.of(first.root, old, remove=new).write(force=True)
-    for directory in directories:
-        with suppress(OSError):
-            os.rmdir(directory)

@@ -7,9 +7,10 @@ each file with what was read when the plan was made.
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from enum import Enum
 from typing import TYPE_CHECKING
@@ -137,11 +138,13 @@ class WritePlan:
         base = relative_to or patch.base([self.root])
         return "".join(patch.of(file, base) for file in self.changes if file.path not in hidden)
 
-    def write(self, *, force: bool = False) -> None:
+    def write(self, *, force: bool = False, around: WritePlan | None = None) -> None:
         """Write what differs.
 
         Args:
             force: Overwrite and remove files that exist.
+            around: The plan of a directory around this one, which is written with it or not at
+                all: files at the top of the repository.
 
         Raises:
             ConflictError: files would be overwritten and ``force`` was not given, or somebody
@@ -149,20 +152,22 @@ class WritePlan:
             InputError: the system refuses; what was there is as it was.
             LockedError: another process is changing the directory.
         """
-        if self.conflicts and not force:
-            names = ", ".join(self.conflicts)
-            raise ConflictError(f"would overwrite {names} in {self.root}; nothing was written")
+        plans = [self] if around is None else [self, around]
+        for plan in plans:
+            if plan.conflicts and not force:
+                names = ", ".join(plan.conflicts)
+                raise ConflictError(f"would overwrite {names} in {plan.root}; nothing was written")
         try:
             if self.is_new:
-                self._write_whole()
-            elif self.changes:
+                self._write_whole(_replacements(plans[1:], self.root))
+            elif any(plan.changes for plan in plans):
                 with transaction.exclusive(self.root):
-                    transaction.replace_all(self.root, self._replacements())
+                    transaction.replace_all(self.root, _replacements(plans, self.root))
         except OSError as error:
-            message = f"{self.root} cannot be written: {error.strerror}; nothing was written"
+            message = f"{_refusal(error, self.root, around)}; nothing was written"
             raise InputError(message) from error
 
-    def _write_whole(self) -> None:
+    def _write_whole(self, around: Sequence[transaction.Replacement]) -> None:
         """Write a directory beside its place and rename it."""
         parent = os.path.dirname(self.root)
         while not os.path.lexists(parent):
@@ -175,23 +180,35 @@ class WritePlan:
             for file in self.changes:
                 _write_new(place, file)
             _make_directories(os.path.dirname(self.root))
-            if os.path.lexists(self.root):
-                raise ConflictError(f"{self.root} has appeared in the meantime")
-            os.rename(place, self.root)
+            transaction.appear(place, self.root, around)
 
-    def _replacements(self) -> list[transaction.Replacement]:
-        """Return the changes by real file: two paths may be links to the same one."""
-        found: dict[str, transaction.Replacement] = {}
-        for file in self.changes:
-            path = os.path.relpath(file.target, self.root).replace(os.sep, "/")
+
+def _replacements(plans: Sequence[WritePlan], root: str) -> list[transaction.Replacement]:
+    """Return the changes by real file: two paths may be links to the same one."""
+    found: dict[str, transaction.Replacement] = {}
+    for plan in plans:
+        for file in plan.changes:
+            path = os.path.relpath(file.target, root).replace(os.sep, "/")
             content = None if file.state is State.REMOVED else file.content
             new = transaction.Replacement(path, file.seen, content, file.executable)
             if found.setdefault(path, new) != new:
                 raise ConflictError(
-                    f"{file.path} in {self.root} is another name of a file that is to have other "
+                    f"{file.path} in {plan.root} is another name of a file that is to have other "
                     "content; nothing was written"
                 )
-        return list(found.values())
+    return list(found.values())
+
+
+def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:
+    """Return which file or directory the system refuses to write, and why."""
+    name = error.filename2 or error.filename
+    for file in around.changes if around is not None else ():
+        is_there = f"{file.target}{os.sep}".startswith(f"{name}{os.sep}")
+        if is_there and not f"{root}{os.sep}".startswith(f"{name}{os.sep}"):
+            if error.errno == errno.EXDEV:
+                return f"{file.target} is on another file system than {root}: add it by hand"
+            return f"{name} cannot be written: {error.strerror}"
+    return f"{root} cannot be written: {error.strerror}"
 
 
 def target_outside(root: str, path: str) -> str | None:

@@ -1,4 +1,4 @@
-"""Changing files of a directory: all of them or none, even if the process is killed.
+"""Changing files of a package: all of them or none, even if the process is killed.
 
 What is written waits in a hidden directory, the stage, beside a journal. Each file is then
 exchanged with the one that it replaces: new content goes to its place and the old file to the
@@ -8,6 +8,10 @@ or by the next one that finds the journal.
 
 A change is done when the stage holds what was before, and not done when it holds what comes after.
 The same step with both swapped undoes it.
+
+Files at the top of the repository belong to the same transaction: their paths lead there from the
+package, and its stage and journal are theirs. All of them are on one file system, or the first
+rename fails and nothing is written.
 """
 
 from __future__ import annotations
@@ -21,7 +25,7 @@ from contextlib import contextmanager, suppress
 
 from scaffold.errors import ConflictError
 from scaffold.files import temporary
-from scaffold.files.disk import digest
+from scaffold.files.disk import Disk, digest
 from scaffold.record import NamedTuple
 from scaffold.writing import new_files, rename
 from scaffold.writing.lock import locked, try_lock
@@ -52,7 +56,7 @@ class Change(NamedTuple):
     """What happens to one file; states are as ``state`` returns them."""
 
     path: str
-    """Relative to the root, without links."""
+    """Relative to the root, without links; it may lead out of the root with ``..``."""
     before: str | None
     after: str | None
 
@@ -73,7 +77,7 @@ class Replacement(NamedTuple):
     """What a file is to become."""
 
     path: str
-    """Relative to the root, without links."""
+    """Relative to the root, without links; it may lead out of the root with ``..``."""
     before: str | None
     """Its state when it was read."""
     content: bytes | None
@@ -176,6 +180,10 @@ class Stage:
         """Return the path of a file in it."""
         return os.path.join(self.path, name)
 
+    def follow(self, parent: str) -> None:
+        """Note that the directory which it is in has another name now."""
+        self.parent, self.path = parent, os.path.join(parent, os.path.basename(self.path))
+
     def remove(self) -> bool:
         """Remove it with what this module has put into it; tell whether that was all."""
         with suppress(OSError):
@@ -217,39 +225,106 @@ def replace_all(root: str, replacements: Sequence[Replacement]) -> None:
             was done has been undone.
         OSError: the system refuses; what was done has been undone.
     """
-    last = (BASES, RECORD)
-    ordered = sorted(replacements, key=lambda file: (file.path in last, file.path))
     with Stage.made(root) as stage:
-        changes: list[Change] = []
-        for number, file in enumerate(ordered):
-            slot = stage.file(str(number))
-            if file.content is not None:
-                new_files.write(
-                    slot,
-                    file.content,
-                    executable=file.executable,
-                    like=_join(root, file.path),
-                    is_durable=True,
-                )
-            # Some file systems have no executable bits: what is there is what comes out.
-            changes.append(Change(file.path, file.before, state(slot)))
-        transaction = _Transaction(root, stage, changes, _missing_directories(root, changes))
+        transaction = _staged(root, stage, replacements)
         transaction.refuse_changed()
         transaction.write_journal()
         transaction.run()
+
+
+def appear(tree: str, root: str, around: Sequence[Replacement]) -> None:
+    """Rename a new directory to its place and change files around it: both or nothing.
+
+    If the process is killed between the two, the next writer in the directory completes it.
+
+    Args:
+        tree: The directory where it was made.
+        root: Its place.
+        around: Changes of files outside; their paths are relative to the place.
+
+    Raises:
+        ConflictError: the place is taken, or a file has changed since it was read.
+        OSError: the system refuses; what was done has been undone.
+    """
+    if not around:
+        _rename_to_free_place(tree, root)
+        return
+    with _hidden(tree), Stage.made(tree) as stage:
+        transaction = _staged(root, stage, around, is_forward=True)
+        transaction.refuse_changed()
+        transaction.write_journal()
+        _rename_to_free_place(tree, root)
+        stage.follow(root)
+        try:
+            transaction.run()
+        except BaseException:
+            os.rename(root, tree)
+            stage.follow(tree)
+            raise
+
+
+def _rename_to_free_place(tree: str, root: str) -> None:
+    if os.path.lexists(root):
+        raise ConflictError(f"{root} has appeared in the meantime")
+    os.rename(tree, root)
+
+
+@contextmanager
+def _hidden(tree: str) -> Iterator[None]:
+    """Let nobody else change a directory when it appears; file systems without locks cannot."""
+    with suppress(OSError):
+        descriptor = try_lock(tree)
+        if descriptor is not None:
+            try:
+                yield
+            finally:
+                os.close(descriptor)
+            return
+    yield
+
+
+def _staged(
+    root: str, stage: Stage, replacements: Sequence[Replacement], *, is_forward: bool = False
+) -> _Transaction:
+    """Write new content into a stage; return what is to be done."""
+    last = (BASES, RECORD)
+    changes: list[Change] = []
+    ordered = sorted(replacements, key=lambda file: (file.path in last, file.path))
+    for number, file in enumerate(ordered):
+        slot = stage.file(str(number))
+        if file.content is not None:
+            new_files.write(
+                slot,
+                file.content,
+                executable=file.executable,
+                like=_join(root, file.path),
+                is_durable=True,
+            )
+        # Some file systems have no executable bits: what is there is what comes out.
+        changes.append(Change(file.path, file.before, state(slot)))
+    directories = _missing_directories(root, changes)
+    return _Transaction(root, stage, changes, directories, is_forward=is_forward)
 
 
 class _Transaction:
     """The changes that a journal lists, and what was done of them."""
 
     def __init__(
-        self, root: str, stage: Stage, changes: list[Change], directories: list[str]
+        self,
+        root: str,
+        stage: Stage,
+        changes: list[Change],
+        directories: list[str],
+        *,
+        is_forward: bool,
     ) -> None:
         self.root = root
         self.stage = stage
         self.changes = changes
         self.directories = directories
         """Those that are made for new files, relative to the root, outer ones first."""
+        self.is_forward = is_forward
+        """Whether the journal alone, once it can be seen, is a reason to complete the changes."""
         self._numbers = {change.path: number for number, change in enumerate(changes)}
 
     # -- the journal
@@ -261,6 +336,7 @@ class _Transaction:
             "mark": self._mark(),
             "changes": [list(change) for change in self.changes],
             "directories": self.directories,
+            "is_forward": self.is_forward,
         }
         aside = self.stage.file(_NEW_JOURNAL)
         with open(temporary.create(aside), "w", encoding="ascii") as file:
@@ -275,22 +351,28 @@ class _Transaction:
         """Return what a journal says; ``None`` if this machine has not written it there.
 
         A journal may come with a repository or a copy. Then its mark, which cannot be checked
-        out or copied, is another one, and nothing of the journal is believed.
+        out or copied, is another one, and nothing of the journal is believed. Nor is that of
+        another user which leads out of the package, to files that only this user may change.
         """
-        found = cls(root, stage, [], [])
+        found = cls(root, stage, [], [], is_forward=False)
         try:
             with open(stage.file(_JOURNAL), encoding="ascii") as file:
                 entries = json.load(file)
             if entries["mark"] != found._mark():
                 return None
             changes = [Change(*entry) for entry in entries["changes"]]
-            return cls(root, stage, changes, entries["directories"])
+            if any(map(_leads_out, [one.path for one in changes] + entries["directories"])) and (
+                not Disk().is_own(stage.file(_MARK))
+            ):
+                return None
+            is_forward = bool(entries["is_forward"])
+            return cls(root, stage, changes, entries["directories"], is_forward=is_forward)
         except (OSError, ValueError, TypeError, KeyError, RecursionError):
             return None
 
     def _mark(self) -> list[int]:
         status = os.lstat(self.stage.file(_MARK))
-        root = os.stat(self.root)
+        root = os.stat(self.stage.parent)
         return [status.st_ino, status.st_ctime_ns, status.st_uid, root.st_ino]
 
     # -- what was done
@@ -358,16 +440,18 @@ class _Transaction:
     def heal(self) -> str:
         """Complete or undo what another process began; return what was done, for its user.
 
-        It is undone, unless all of it is done, or the user went on working with what was.
+        It is undone, unless all of it is done, or the user went on working with what came of it,
+        or it is what is left of a new package.
         """
         edited = [change for change in self.changes if self._is_edited(change)]
         pending = [change for change in self.changes if not self._is_done(change)]
-        if not pending or (edited and all(map(self._is_done, edited))):
+        if not pending or self.is_forward or (edited and all(map(self._is_done, edited))):
             outcome, left = "completed", self.complete()
         else:
             outcome, left = "undone", self.undo(touch=True)
         left = sorted({*left, *(change.path for change in edited)})
-        return f"{outcome}; edited since, left alone: {', '.join(left)}" if left else outcome
+        names = ", ".join(_shown(self.root, path) for path in left)
+        return f"{outcome}; edited since, left alone: {names}" if left else outcome
 
     def complete(self) -> list[str]:
         """Do what is not done; return the files that were left because they were edited."""
@@ -487,7 +571,16 @@ def _missing_directories(root: str, changes: Sequence[Change]) -> list[str]:
 
 
 def _join(root: str, path: str) -> str:
-    return os.path.join(root, *path.split("/"))
+    """Return a path below a root, or around it; the root need not be there, as a new package."""
+    return os.path.normpath(os.path.join(root, *path.split("/")))
+
+
+def _leads_out(path: str) -> bool:
+    return os.path.isabs(path) or ".." in path.split("/")
+
+
+def _shown(root: str, path: str) -> str:
+    return _join(root, path) if _leads_out(path) else path
 
 
 def _sync_directory(path: str) -> None:
@@ -501,7 +594,14 @@ def _sync_directory(path: str) -> None:
 
 def _refusal(root: str, changed: Sequence[str], left: Sequence[str]) -> str:
     """Return the message for files that somebody else has changed."""
-    message = f"{', '.join(changed)} in {root} changed after it was read"
+    message = f"{_names(root, changed)} changed after it was read"
     if left:
-        return f"{message}; all was undone but {', '.join(left)}, which changed as well"
+        return f"{message}; all was undone but {_names(root, left)}, which changed as well"
     return f"{message}; nothing was written: run this again"
+
+
+def _names(root: str, paths: Sequence[str]) -> str:
+    """Return the names of files for a message, those of the root first."""
+    inside = [path for path in paths if not _leads_out(path)]
+    outside = [_join(root, path) for path in paths if _leads_out(path)]
+    return ", ".join([*([f"{', '.join(inside)} in {root}"] if inside else []), *outside])

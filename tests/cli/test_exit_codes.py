@@ -184,6 +184,41 @@ def test_no_place_for_scratch_files_is_one_line_at_most(package: Path) -> None:
     assert (run.returncode, run.stderr) == (exit_codes.FINDINGS, "")
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("check", "--fix", "talker"),
+        ("add", "timer", "beat", "--package-directory", "talker"),
+        ("new", "listener"),
+    ],
+)
+def test_a_read_only_file_system(words: Sequence[str], package: Path, tmp_path: Path) -> None:
+    namespace = ["unshare", "--map-root-user", "--mount"]
+    try:
+        subprocess.run([*namespace, "mount", "-t", "tmpfs", "x", tmp_path], check=True)
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("needs to mount a file system")
+    script = (
+        'mount -t tmpfs x "$1" && cp -r "$2" "$1" && mount -o remount,ro "$1" && cd "$1" && '
+        'shift 2 && exec "$@"'
+    )
+    (package / "talker" / "untidy.py").write_text("X = 1 \n")
+    run = subprocess.run(
+        [*namespace, "bash", "-c", script, "bash", tmp_path, package, *TOOL, *words],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        check=False,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=PATIENCE,
+    )
+    (package / "talker" / "untidy.py").unlink()
+
+    (line,) = [line for line in run.stderr.splitlines() if "error: " in line]
+    assert line.endswith(" cannot be written: Read-only file system; nothing was written")
+    assert "Traceback" not in run.stderr
+    assert run.returncode == exit_codes.USAGE_ERROR
+
+
 def test_an_encoding_that_lacks_letters(tmp_path: Path) -> None:
     run = shell("tool check t\u00e4lker", tmp_path, variables={"PYTHONIOENCODING": "ascii"})
 

@@ -284,8 +284,8 @@ def test_what_is_at_the_top_is_taken_back_when_the_package_cannot_be_written(
     package = WritePlan.of(workspace / "src" / "talker", {"a": "a\n"})
     (workspace / "src" / "talker").mkdir()
     (workspace / "src" / "talker" / "a").write_text("mine\n")
-    with pytest.raises(ConflictError):
-        repository.write(first, package, force=True)
+    with pytest.raises(ConflictError, match="has appeared in the meantime"):
+        package.write(force=True, around=first)
     assert files(workspace) == {"old": b"old\n", "src/talker/a": b"mine\n"}
     assert not (workspace / ".github").exists()
 

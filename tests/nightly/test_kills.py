@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -84,6 +85,65 @@ def test_the_next_run_heals_what_was_killed(
     assert not wrong, f"seed {SEED}"
 
 
+HEALERS = (
+    ("check", "--fix", "talker"),
+    ("update", "talker"),
+    ("add", "timer", "beat", "--package-directory", "talker"),
+)
+"""Commands that heal a package; the first two change nothing in one that is whole."""
+
+
+@pytest.mark.parametrize("verb", ["new", "add"])
+def test_any_writer_heals_files_at_the_top_of_the_repository(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    before, after, place = (tmp_path / name for name in ("before", "after", "place"))
+    (before / "src").mkdir(parents=True)
+    subprocess.run(["git", "init", "-q", before], check=True)
+    monkeypatch.chdir(before / "src")
+    command = ["new", "talker", *PERSON, "--extras", "ci,devcontainer,pre_commit"]
+    if verb == "add":
+        assert main(["new", "talker", *PERSON]) == 0
+        command = ["add", "ci", "--package-directory", "talker"]
+
+    def begin(state: Path) -> None:
+        monkeypatch.chdir(tmp_path)
+        shutil.rmtree(place, ignore_errors=True)
+        shutil.copytree(state, place)
+        monkeypatch.chdir(place / "src")
+
+    begin(before)
+    steps = run(command, None)
+    shutil.copytree(place, after)
+    assert files(after) != files(before)
+    expected: dict[tuple[str, ...], list[dict[str, bytes]]] = {}
+    for healer in HEALERS:
+        expected[healer] = []
+        for state in (before, after):
+            begin(state)
+            run([*healer], None)
+            expected[healer].append(files(place))
+    chosen = Random(SEED)  # noqa: S311  it must be repeatable
+    wrong: list[str] = []
+    for number in range(KILLS):
+        at = chosen.randrange(1, steps + 1)
+        healer = HEALERS[number % len(HEALERS)]
+        begin(before)
+        run(command, at)
+        run([*healer], None)
+        # What a package that never appeared has left in `src`, the next `new` there sweeps.
+        left = [
+            path
+            for path in (*place.iterdir(), *(place / "src" / "talker").rglob("*"))
+            if temporary.is_temporary(path.name)
+        ]
+        if left or files(place) not in expected[healer]:
+            wrong.append(f"{verb}, {healer[0]}: step {at} of {steps}")
+    assert not wrong, f"seed {SEED}"
+
+
 def start(case: Case, place: Path) -> None:
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir()
@@ -95,7 +155,7 @@ def files(package: Path) -> dict[str, bytes]:
     return {
         path.relative_to(package).as_posix(): path.read_bytes()
         for path in package.rglob("*")
-        if path.is_file()
+        if path.is_file() and not any(map(temporary.is_temporary, path.parts))
     }
 
 

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -61,16 +62,19 @@ def write(root: Path, files: dict[str, str]) -> Path:
     return root
 
 
-def killed_writer(root: Path, at: int, how: str = "at once") -> bool:
+def killed_writer(
+    root: Path, at: int, how: str = "at once", around: dict[str, str] | None = None
+) -> bool:
     """Let a process write that kills itself before the n-th step; tell whether it came to that."""
     process = os.fork()
     if process == 0:
         try:
             plan = WritePlan.of(root, AFTER, remove=["gone"])
+            outer = WritePlan.of(root.parents[1], around) if around else None
             _count_down(at)
             if how == "in steps":
                 vars(rename)["try_rename"] = lambda *_: False
-            plan.write(force=True)
+            plan.write(force=True, around=outer)
         finally:
             os._exit(0)
     _, status = os.waitpid(process, 0)
@@ -126,6 +130,97 @@ def test_what_is_killed_at_any_step_is_completed_or_undone(tmp_path: Path, how: 
         outcomes.update(note.rpartition(" ")[2] for note in notes)
         assert heal(tmp_path / "p") == []
     assert outcomes == {"completed", "undone"}
+
+
+AROUND_BEFORE = {"hooks": "old\n", "src/other/a": "theirs\n"}
+AROUND_AFTER = {"hooks": "new\n", ".github/workflows/p": "new\n"}
+
+
+@pytest.mark.parametrize("how", STEPS)
+def test_files_around_a_package_are_of_the_same_transaction(tmp_path: Path, how: str) -> None:
+    top = tmp_path / "top"
+    before = {**AROUND_BEFORE, **{f"src/p/{path}": text for path, text in BEFORE.items()}}
+    after = {**AROUND_BEFORE, **AROUND_AFTER, **{f"src/p/{name}": AFTER[name] for name in AFTER}}
+    outcomes: set[str] = set()
+    for at in range(1, 200):
+        shutil.rmtree(top, ignore_errors=True)
+        write(top, before)
+        if not killed_writer(top / "src" / "p", at, how, AROUND_AFTER):
+            break
+        notes = heal(top / "src" / "p")
+        assert tree(top) in (before, after), at
+        assert (top / ".github").exists() == (tree(top) == after)
+        outcomes.update(note.rpartition(" ")[2] for note in notes)
+    assert tree(top) == after
+    assert outcomes == {"completed", "undone"}
+
+
+def test_a_new_package_and_files_around_it_are_one_transaction(tmp_path: Path) -> None:
+    top = tmp_path / "top"
+    after = {**AROUND_BEFORE, **AROUND_AFTER, **{f"src/p/{name}": AFTER[name] for name in AFTER}}
+    outcomes: set[str] = set()
+    for at in range(1, 200):
+        shutil.rmtree(top, ignore_errors=True)
+        write(top, AROUND_BEFORE)
+        if not killed_writer(top / "src" / "p", at, around=AROUND_AFTER):
+            break
+        notes = heal(top / "src" / "p") if (top / "src" / "p").exists() else []
+        transaction.sweep(str(top / "src"))
+        assert tree(top) in (AROUND_BEFORE, after), at
+        outcomes.update(note.rpartition(" ")[2] for note in notes)
+    assert tree(top) == after
+    assert outcomes == {"completed"}
+
+
+def test_a_new_package_is_taken_back_when_a_file_around_it_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(tmp_path, AROUND_BEFORE)
+    exchange = rename.exchange
+
+    def late(first: str, second: str, spare: str) -> None:
+        (tmp_path / "hooks").write_text("mine\n")
+        exchange(first, second, spare)
+
+    monkeypatch.setattr(rename, "exchange", late)
+    around = WritePlan.of(tmp_path, AROUND_AFTER)
+    with pytest.raises(ConflictError, match=f"^{tmp_path}/hooks changed after it was read"):
+        WritePlan.of(tmp_path / "src" / "p", AFTER).write(force=True, around=around)
+    assert tree(tmp_path) == {**AROUND_BEFORE, "hooks": "mine\n"}
+    assert sorted(os.listdir(tmp_path)) == ["hooks", "src"]
+    assert os.listdir(tmp_path / "src") == ["other"]
+
+
+def test_a_file_around_it_on_another_file_system_stops_all(tmp_path: Path) -> None:
+    memory = Path("/dev/shm")  # noqa: S108  its own file system on every Linux
+    if not memory.is_dir() or memory.stat().st_dev == tmp_path.stat().st_dev:
+        pytest.skip("needs two file systems")
+    write(tmp_path, BEFORE)
+    with TemporaryDirectory(dir=memory) as other:
+        write(Path(other), {"hooks": "old\n"})
+        around = WritePlan.of(other, {"hooks": "new\n"})
+        with pytest.raises(InputError, match=f"^{other}/hooks is on another file system than"):
+            WritePlan.of(tmp_path, AFTER).write(force=True, around=around)
+        assert tree(Path(other)) == {"hooks": "old\n"}
+    assert tree(tmp_path) == BEFORE
+
+
+def test_another_user_cannot_mean_files_outside_of_the_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = write(tmp_path / "src" / "p", BEFORE)
+    write(tmp_path, {"hooks": "old\n"})
+    at = 1
+    while not transaction.is_unfinished(str(root)):
+        assert killed_writer(root, at, around={"hooks": "new\n"})
+        at += 1
+    user = os.geteuid()
+    monkeypatch.setattr(os, "geteuid", lambda: user + 1)
+    (note,) = heal(root)
+    assert note.endswith("ignored: remove it")
+    monkeypatch.undo()
+    (note,) = heal(root)
+    assert note.endswith("undone")
 
 
 def test_the_sidecar_and_the_record_change_last(tmp_path: Path) -> None:
