@@ -1,4 +1,4 @@
-"""CM002: ``ament_package()`` is called."""
+"""CM002: ``ament_package()`` is reached."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ from scaffold.api.cmake import PACKAGE_COMMANDS, has_unknown_commands, uses_amen
 _LISTS = (
     "cmake_minimum_required(VERSION 3.8)\nproject(talker)\nfind_package(ament_cmake REQUIRED)\n"
 )
+_RETURN = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}install(FILES a DESTINATION b)\n"
 _CALL = "ament_package()\n"
 
 
 class AmentPackageMissing(Rule):
-    """CMakeLists.txt does not call ``ament_package()``.
+    """CMakeLists.txt does not call ``ament_package()``, or returns before it.
 
     **Why.** The build passes, but the package is not in the ament index: ``ros2 run`` answers
-    ``Package 'talker' not found``.
+    ``Package 'talker' not found``. What comes after ``return()`` is neither built nor installed.
 
-    **Fix.** Add ``ament_package()`` as the last call.
+    **Fix.** Add ``ament_package()`` as the last call; put ``return()`` into the ``if()`` it is for.
 
-    **Source.** ROS 2 documentation, "ament_cmake user documentation".
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; CMake documentation,
+    ``return``.
     """
 
     code = "CM002"
@@ -38,9 +40,31 @@ class AmentPackageMissing(Rule):
             ),
             fixed={"CMakeLists.txt": f"{_LISTS}\n{_CALL}"},
         ),
+        Example(
+            "return() under a condition, in a function",
+            {
+                "CMakeLists.txt": _RETURN.format(
+                    "if(WIN32)\n  return()\nendif()\nfunction(stop)\n  return()\nendfunction()\n"
+                )
+                + "ament_package()\n"
+            },
+        ),
+        Example(
+            "return() at the end",
+            {"CMakeLists.txt": f"{_RETURN.format('')}ament_package()\nreturn()\n"},
+        ),
+        Example(
+            "return() before it",
+            {"CMakeLists.txt": _RETURN.format("return()\n") + "ament_package()\n"},
+            Report(
+                "CMakeLists.txt:3:1",
+                "return() ends the file here: ament_package() in line 5 is never called",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_return(package)
         cmake = package.cmake
         if package.build_type == "cmake" or not uses_ament(package):
             return
@@ -53,3 +77,12 @@ class AmentPackageMissing(Rule):
         fix = Fix("call ament_package()", (Edit("CMakeLists.txt", end, end, lead + text),))
         message = "no ament_package() at the end: `ros2` does not find the package"
         yield self.report(last.name_location, message, fix)
+
+    def _check_return(self, package: Package) -> Iterator[Diagnostic]:
+        calls = package.cmake.find("ament_package")
+        certain = [call for call in calls if not call.blocks]
+        returns = [command for command in package.cmake.find("return") if not command.blocks]
+        if certain and returns and returns[0].index < calls[0].index:
+            line = certain[0].location.line
+            message = f"return() ends the file here: ament_package() in line {line} is never called"
+            yield self.report(returns[0].name_location, message)

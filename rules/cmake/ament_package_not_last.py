@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 FATAL = (
     "ament_export_definitions",
@@ -20,14 +20,15 @@ FATAL = (
     "ament_python_install_package",
     "ament_python_install_module",
 )
+_INSTALL = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 
 
 class AmentPackageNotLast(Rule):
-    """A call that has to come first comes after ``ament_package()``.
+    """A call that has to come before ``ament_package()`` comes after it.
 
     **Why.** CMake stops at an export or a linter after it; a Python package after it is never
-    installed, for ``ament_package()`` does that.
+    installed, for ``ament_package()`` does that. ``install()`` works there.
 
     **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
 
@@ -36,6 +37,7 @@ class AmentPackageNotLast(Rule):
 
     code = "CM003"
     name = "ament-package-not-last"
+    other_severities = {Severity.INFO: "the call is ``install()``"}
     examples = (
         Example(
             "last", {"CMakeLists.txt": f"{_LISTS}ament_export_libraries(talker)\nament_package()\n"}
@@ -46,6 +48,19 @@ class AmentPackageNotLast(Rule):
             Report(
                 "CMakeLists.txt:4:1",
                 "ament_export_libraries() comes after ament_package() in line 3",
+            ),
+        ),
+        Example(
+            "an installation before it",
+            {"CMakeLists.txt": f"project(talker)\n{_INSTALL}ament_package()\n"},
+        ),
+        Example(
+            "installations after it",
+            {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
+            Report(
+                "CMakeLists.txt:3:1",
+                "comes after ament_package() in line 2, like 1 more",
+                severity=Severity.INFO,
             ),
         ),
     )
@@ -59,3 +74,8 @@ class AmentPackageNotLast(Rule):
             if command.index > calls[0].index:
                 message = f"{command.name}() comes after ament_package() in line {line}"
                 yield self.report(command.name_location, message)
+        later = [call for call in package.cmake.find("install") if call.index > calls[0].index]
+        if later:
+            more = f", like {len(later) - 1} more" if len(later) > 1 else ""
+            message = f"comes after ament_package() in line {line}{more}"
+            yield self.report(later[0].name_location, message, severity=Severity.INFO)

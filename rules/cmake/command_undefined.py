@@ -1,11 +1,29 @@
-"""CM022: the package that defines a command is found."""
+"""CM022: every command is defined."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, uses_ament
 
+_OF_ROS1 = {
+    "add_action_files": "rosidl_generate_interfaces",
+    "add_message_files": "rosidl_generate_interfaces",
+    "add_rostest": "add_launch_test",
+    "add_service_files": "rosidl_generate_interfaces",
+    "catkin_add_gtest": "ament_add_gtest",
+    "catkin_add_nosetests": "ament_add_pytest_test",
+    "catkin_install_python": "install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})",
+    "catkin_metapackage": "ament_package",
+    "catkin_package": "ament_package",
+    "catkin_python_setup": "ament_python_install_package",
+    "generate_messages": "rosidl_generate_interfaces",
+    "roslaunch_add_file_check": "add_launch_test",
+}
+_MAX_LENGTH_DIFFERENCE = 2
+"""More letters than that are not a typo."""
 PROVIDERS = {
     "ament_add_gmock": ("ament_cmake_gmock", "ament_cmake_auto", "ament_cmake_ros"),
     "ament_add_gtest": ("ament_cmake_gtest", "ament_cmake_auto", "ament_cmake_ros"),
@@ -49,18 +67,20 @@ _BRING_NOTHING = (
 )
 """Packages that bring none of these commands but their own, nor do message packages."""
 
+_CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
 
 
 class CommandUndefined(Rule):
-    """A command is called, but no package that defines it is found.
+    """A command is called that neither CMake nor a package found before defines.
 
-    **Why.** CMake stops: ``Unknown CMake command``.
+    **Why.** CMake stops: ``Unknown CMake command "ament_pakage"``.
 
-    **Fix.** Call ``find_package`` for the package first.
+    **Fix.** Call ``find_package`` for the package first, or correct the name; the commands of
+    catkin have successors in ament.
 
-    **Source.** ``ament_cmake``, ``ament_lint``, ``rosidl`` and ``rclcpp``: the files that define
-    the commands.
+    **Source.** CMake documentation, "cmake-commands"; ``ament_cmake``, ``ament_lint``, ``rosidl``
+    and ``rclcpp``: the files that define the commands; ROS 2 documentation, "Migrating from ROS 1".
     """
 
     code = "CM022"
@@ -75,25 +95,77 @@ class CommandUndefined(Rule):
             {"CMakeLists.txt": _LISTS.format("")},
             Report(
                 "CMakeLists.txt:2:1",
-                "ament_add_pytest_test() is not known without "
+                "ament_add_pytest_test() is undefined without "
                 "find_package(ament_cmake_pytest REQUIRED)",
+            ),
+        ),
+        Example("a command of ament", {"CMakeLists.txt": _CALL.format("ament_package")}),
+        Example(
+            "misspelt",
+            {"CMakeLists.txt": _CALL.format("ament_pakage")},
+            Report(
+                "CMakeLists.txt:3:1",
+                "unknown command ament_pakage(): CMake stops; closest: ament_package()",
+            ),
+        ),
+        Example(
+            "of catkin",
+            {"CMakeLists.txt": _CALL.format("catkin_package")},
+            Report(
+                "CMakeLists.txt:3:1",
+                "catkin_package() is a command of ROS 1: CMake stops; use ament_package",
             ),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        found = {one.name for one in cmake.found_packages}
-        if cmake.finds_automatically or cmake.finds_tests_automatically or cmake.find("include"):
+        if cmake.find("include"):
+            return
+        own = {call.values[0].lower() for call in cmake.find("macro", "function") if call.values}
+        yield from self._check_providers(cmake, own)
+        if uses_ament(package):
+            yield from self._check_names(cmake, own)
+
+    def _check_providers(self, cmake: CMakeLists, own: set[str]) -> Iterator[Diagnostic]:
+        """Report the commands of packages that are not found."""
+        found = {package.name for package in cmake.found_packages}
+        if cmake.finds_automatically or cmake.finds_tests_automatically:
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
             return
-        own = {call.values[0].lower() for call in cmake.find("macro", "function") if call.values}
         if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in found):
             return
         for name, providers in PROVIDERS.items():
             if name in own or not found.isdisjoint(providers):
                 continue
             for command in cmake.find(name):
-                message = f"{name}() is not known without find_package({providers[0]} REQUIRED)"
+                message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"
                 yield self.report(command.name_location, message)
+
+    def _check_names(self, cmake: CMakeLists, own: set[str]) -> Iterator[Diagnostic]:
+        """Report misspelled commands, and those of catkin."""
+        for command in cmake.commands:
+            name = command.name
+            if name in BUILT_IN or name in OF_AMENT or name in own:
+                continue
+            successor = _OF_ROS1.get(name)
+            if successor and command.parent is None:
+                message = f"{name}() is a command of ROS 1: CMake stops; use {successor}"
+                yield self.report(command.name_location, message)
+            elif not successor:
+                for closest in _closest(name):
+                    message = f"unknown command {name}(): CMake stops; closest: {closest}()"
+                    yield self.report(command.name_location, message)
+
+
+def _closest(name: str) -> list[str]:
+    """Return the command that a name is a typo of, if there is one."""
+    if any(character.isdigit() for character in name):
+        return []
+    words = sorted(name.split("_"))
+    swapped = [known for known in OF_AMENT if sorted(known.split("_")) == words]
+    similar = get_close_matches(name, BUILT_IN | OF_AMENT, 1, 0.9)
+    return swapped[:1] or [
+        known for known in similar if abs(len(known) - len(name)) <= _MAX_LENGTH_DIFFERENCE
+    ]

@@ -1,4 +1,4 @@
-"""CM029: tests are registered for test builds only."""
+"""CM024: tests, and the packages that only they need, are left out of release builds."""
 
 from __future__ import annotations
 
@@ -15,37 +15,82 @@ COMMANDS = (
     "add_launch_test",
     "add_ros_test",
 )
+TEST_PACKAGES = (
+    "ament_lint_auto",
+    "ament_lint_common",
+    "ament_cmake_pytest",
+    "ament_cmake_gtest",
+    "ament_cmake_gmock",
+    "ament_cmake_copyright",
+    "ament_cmake_flake8",
+    "ament_cmake_pep257",
+    "ament_cmake_lint_cmake",
+    "ament_cmake_xmllint",
+    "ament_cmake_cpplint",
+    "ament_cmake_uncrustify",
+    "launch_testing_ament_cmake",
+    "ros_testing",
+)
+_MANIFEST = "<package><name>talker</name><test_depend>ament_lint_auto</test_depend></package>\n"
+_FIND = "find_package(ament_lint_auto REQUIRED)\n"
 _TEST = "ament_add_pytest_test(talk test/test_talk.py)\n"
 
 
 class TestUnguarded(Rule):
-    """A test is registered outside of ``if(BUILD_TESTING)``.
+    """A test is registered, or a ``<test_depend>`` found, outside of ``if(BUILD_TESTING)``.
 
-    **Why.** A release build finds no test packages: CMake stops at an unknown command.
+    **Why.** A release build has no test dependencies: CMake stops at a package that is not
+    installed, or at an unknown command.
 
-    **Fix.** Move it into ``if(BUILD_TESTING)``.
+    **Fix.** Move the call into ``if(BUILD_TESTING)``.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation", "Testing and linting".
     """
 
-    code = "CM029"
+    code = "CM024"
     name = "test-unguarded"
     examples = (
         Example(
-            "guarded", {"CMakeLists.txt": f"project(talker)\nif(BUILD_TESTING)\n  {_TEST}endif()\n"}
+            "a guarded package",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": f"project(talker)\nif(BUILD_TESTING)\n  {_FIND}endif()\n",
+            },
         ),
         Example(
-            "not guarded",
-            {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
+            "a package that is not guarded",
+            {"package.xml": _MANIFEST, "CMakeLists.txt": f"project(talker)\n{_FIND}"},
             Report(
-                "CMakeLists.txt:2:1", "ament_add_pytest_test() stands outside of if(BUILD_TESTING)"
+                "CMakeLists.txt:2:14",
+                "'ament_lint_auto' is a test dependency, but found outside of if(BUILD_TESTING)",
             ),
+        ),
+        Example(
+            "a guarded test",
+            {"CMakeLists.txt": f"project(talker)\nif(BUILD_TESTING)\n  {_TEST}endif()\n"},
+        ),
+        Example(
+            "a test that is not guarded",
+            {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
+            Report("CMakeLists.txt:2:1", "ament_add_pytest_test() is outside of if(BUILD_TESTING)"),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for command in package.cmake.find(*COMMANDS):
-            if command.blocks or package.cmake.guarded_by_testing(command):
+        yield from self._check_tests(package)
+        manifest = package.manifest
+        others = manifest.build_names | manifest.run_names | manifest.build_export_names
+        for found in package.cmake.found_packages:
+            name = found.name
+            only_tests = name in manifest.test_names or name in TEST_PACKAGES
+            if found.in_testing or not found.required or not only_tests or name in others:
                 continue
-            message = f"{command.name}() stands outside of if(BUILD_TESTING)"
-            yield self.report(command.name_location, message)
+            if not package.cmake.commands[found.command.index].blocks:
+                message = f"{name!r} is a test dependency, but found outside of if(BUILD_TESTING)"
+                yield self.report(found, message)
+
+    def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.find(*COMMANDS):
+            if not command.blocks and not package.cmake.guarded_by_testing(command):
+                message = f"{command.name}() is outside of if(BUILD_TESTING)"
+                yield self.report(command.name_location, message)

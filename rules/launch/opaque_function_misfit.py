@@ -1,4 +1,4 @@
-"""LF057: the function of an OpaqueFunction takes what launch gives it."""
+"""LF057: the function of an OpaqueFunction takes and returns what launch expects."""
 
 from __future__ import annotations
 
@@ -6,14 +6,21 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import LaunchCall, LaunchFile, function_of
-from scaffold.api.python import misfit_of_context
+from scaffold.api.launch import ACTIONS, LaunchCall, LaunchFile, function_of
+from scaffold.api.python import misfit_of_context, returned
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\n"
     "def set_up({}):\n    return []\n\n\n"
     "def generate_launch_description():\n"
     "    return LaunchDescription([OpaqueFunction(function=set_up{})])\n"
+)
+_RETURNS = (
+    "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def set_up(context):\n    node = Node(package='a', executable='b')\n    return {}\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([OpaqueFunction(function=set_up)])\n"
 )
 
 
@@ -22,14 +29,14 @@ def _launch(takes: str, given: str) -> dict[str, str]:
 
 
 class OpaqueFunctionMisfit(LaunchRule):
-    """The function of an OpaqueFunction takes other arguments than it is given.
+    """The function of an OpaqueFunction takes other arguments than it is given, or returns no list.
 
     **Why.** ``ros2 launch`` stops: ``set_up() takes 0 positional arguments but 1 was given``,
     ``missing 1 required positional argument``; ``'list' object is not callable`` for a function
-    that is called where it should be passed.
+    that is called where it should be passed, ``'Node' object is not iterable`` for one action.
 
     **Fix.** ``function=set_up`` with ``def set_up(context, ...)``, and ``args=[...]`` and
-    ``kwargs={...}`` for the rest.
+    ``kwargs={...}`` for the rest; ``return [node]``.
 
     **Source.** ``launch/actions/opaque_function.py``.
     """
@@ -75,6 +82,20 @@ class OpaqueFunctionMisfit(LaunchRule):
             _launch("", "()"),
             Report("launch/a.launch.py:10:31", "set_up() is called here: pass the function itself"),
         ),
+        Example("a list returned", {"launch/a.launch.py": _RETURNS.format("[node]")}),
+        Example(
+            "one action returned",
+            {"launch/a.launch.py": _RETURNS.format("node")},
+            Report("launch/a.launch.py:8:5", "set_up returns one Node, not a list: TypeError"),
+        ),
+        Example(
+            "a description returned",
+            {"launch/a.launch.py": _RETURNS.format("LaunchDescription([node])")},
+            Report(
+                "launch/a.launch.py:8:5",
+                "set_up returns one LaunchDescription, not a list: TypeError",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -91,6 +112,18 @@ class OpaqueFunctionMisfit(LaunchRule):
             problem = _problem(call, function.args)
             if problem:
                 yield self.report(launch.location(given), f"{function.name} {problem}")
+        yield from self._check_returns(launch)
+
+    def _check_returns(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        given = [call.given.get("function") for call in launch.find("OpaqueFunction")]
+        for function in dict.fromkeys(function_of(launch, node) for node in given):
+            if function is None or function.decorator_list:
+                continue
+            for statement in returned(function):
+                made = launch.call_of(statement.value)
+                if made is not None and made.kind in {*ACTIONS, "LaunchDescription"}:
+                    message = f"{function.name} returns one {made.kind}, not a list: TypeError"
+                    yield self.report(launch.location(statement), message)
 
 
 def _problem(call: LaunchCall, arguments: ast.arguments) -> str:

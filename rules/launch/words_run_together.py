@@ -10,6 +10,8 @@ from itertools import pairwise
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
 
+_PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
+_PATHS = ("FindPackageShare", "PathJoinSubstitution", "ThisLaunchFileDir", "LaunchConfiguration")
 _LISTS = ("arguments", "ros_arguments", "cmd")
 _TWO_TEXTS = r"""(['"])((?:(?!\1)[^\\])*)\1\s+(['"])-"""
 _LAUNCH = (
@@ -18,19 +20,33 @@ _LAUNCH = (
     "    return LaunchDescription([\n"
     "        Node(package='talker', executable='talk', arguments=[{}]),\n    ])\n"
 )
+_COMMAND = (
+    "from launch import LaunchDescription\n"
+    "from launch.substitutions import Command, FindExecutable, PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    text = Command({})\n"
+    "    node = Node(package='talker', executable='node', parameters=[{{'text': text}}])\n"
+    "    return LaunchDescription([node])\n"
+)
+
+
+def _command(command: str) -> dict[str, str]:
+    return {"launch/a.launch.py": _COMMAND.format(command)}
 
 
 class WordsRunTogether(LaunchRule):
-    """Two arguments of a program are one text: a comma is missing, or a space is no border.
+    """Two words of a command line are one text: a comma or a space is missing between them.
 
     **Why.** Python joins texts that stand side by side: ``'--ros-args' '-r'`` is ``--ros-args-r``.
     ``'--ros-args -r a:=b'`` is one argument with spaces in it. The program ignores both, most often
-    without a word.
+    silently. ``Command(['xacro', path])`` looks for a program ``xacro/opt/...``.
 
-    **Fix.** ``['--ros-args', '-r', 'a:=b']``.
+    **Fix.** ``['--ros-args', '-r', 'a:=b']``; a space at the end of ``'xacro '``, or ``' '`` after
+    ``FindExecutable(...)``.
 
     **Source.** Python documentation, "String literal concatenation";
-    ``launch/descriptions/executable.py``.
+    ``launch/descriptions/executable.py``; ``launch/substitutions/command.py``.
     """
 
     code = "LF058"
@@ -68,9 +84,30 @@ class WordsRunTogether(LaunchRule):
                 "this is one argument with spaces in it: write one text for each word",
             ),
         ),
+        Example("a command with a space", _command("['xacro ', 'a.urdf']")),
+        Example(
+            "a command without one",
+            _command("['xacro', 'a']"),
+            Report(
+                "launch/a.launch.py:7:12",
+                "launch joins the parts of a command as they are: write 'xacro '",
+            ),
+        ),
+        Example(
+            "a program that is looked for",
+            _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
+            Report(
+                "launch/a.launch.py:7:12",
+                "launch joins the parts of a command as they are: write ' ' after it",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("Command"):
+            problem = _joined_command(launch, call.call.args[0]) if call.call.args else ""
+            if problem:
+                yield self.report(call, problem)
         for call in launch.find(*NODES, "ExecuteProcess"):
             if "shell" in call.given:
                 continue
@@ -106,3 +143,31 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
         return f"Python joins this to {item.value!r}: a comma is missing between the texts"
     return ""
+
+
+def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
+    """Return what is wrong about a command whose first word runs into the next part."""
+    if not isinstance(node, ast.List) or len(node.elts) < 2:  # noqa: PLR2004  word and argument
+        return ""
+    first, second = node.elts[0], node.elts[1]
+    found = launch.call_of(first)
+    if found is not None and found.kind == "PathJoinSubstitution":
+        parts = found.given.get("substitutions")
+        if isinstance(parts, ast.List) and len(parts.elts) == 1:
+            found = launch.call_of(parts.elts[0])
+    word = first.value if isinstance(first, ast.Constant) else ""
+    if found is not None and found.kind == "FindExecutable":
+        word = str(launch.text(found, "name"))
+    if word not in _PROGRAMS or _begins_with_space(launch, second):
+        return ""
+    what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
+    return f"launch joins the parts of a command as they are: write {what}"
+
+
+def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a part of a command begins with a space, or may do so."""
+    value = launch.evaluator.joined_text(node)
+    if isinstance(value, str):
+        return value[:1].isspace()
+    call = launch.call_of(node)
+    return call is None or call.kind not in _PATHS

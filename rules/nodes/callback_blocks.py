@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import has_more_threads, in_callbacks
+from scaffold.api.programs import has_more_threads, in_callbacks, in_constructors
 from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
@@ -17,6 +17,15 @@ WAITING = frozenset(
     | {"urllib.request.urlopen", "urllib.request.urlretrieve"}
 )
 """Calls that wait for a server. How long subprocesses run is not known."""
+WAITS = frozenset({"wait_for_service", "wait_for_server"})
+_CALLER = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, 'report')\n"
+    "        self.client.wait_for_service({})\n"
+)
 _NODE = (
     "import time\n\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -29,14 +38,17 @@ _NODE = (
 
 
 class CallbackBlocks(RclpyRule):
-    """A callback sleeps, or waits for input or for a server.
+    """A callback sleeps or waits for input, or waits for a server without a timeout.
 
     **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
-    of the node is served, and a timer misses its period.
+    of the node is served, and a timer misses its period. A callback or constructor that waits for a
+    server without a timeout hangs silently until the server is available.
 
-    **Fix.** Use a timer to do something later, and a separate thread to wait.
+    **Fix.** Use a timer to do something later, and a separate thread to wait. Pass ``timeout_sec``
+    to ``wait_for_service``, and log what is missing.
 
-    **Source.** ROS 2 documentation, "Executors"; "Migrating a Python package example".
+    **Source.** ROS 2 documentation, "Executors"; "Migrating a Python package example"; rclpy,
+    ``Client.wait_for_service``.
     """
 
     code = "ND030"
@@ -70,9 +82,20 @@ class CallbackBlocks(RclpyRule):
                 "input() blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
+        Example("with a timeout", {"caller.py": _CALLER.format("timeout_sec=1.0")}),
+        Example(
+            "without a timeout",
+            {"caller.py": _CALLER.format("")},
+            Report(
+                "caller.py:9:9",
+                "wait_for_service() without timeout_sec blocks the constructor of "
+                "Caller until the server is available",
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_server_waits(facts)
         if has_more_threads(facts):
             return
         for function, origin in in_callbacks(facts):
@@ -81,6 +104,18 @@ class CallbackBlocks(RclpyRule):
                 if name:
                     message = f"{name} blocks {origin}, and with it all other callbacks of the node"
                     yield self.report(facts.module.location(call), message)
+
+    def _check_server_waits(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        seen: set[ast.AST] = set()
+        for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
+            for call in facts.calls_in(function):
+                match call:
+                    case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
+                        if name in WAITS and call not in seen:
+                            seen.add(call)
+                            message = f"{name}() without timeout_sec blocks {origin} until the"
+                            at = facts.module.location(call)
+                            yield self.report(at, f"{message} server is available")
 
 
 def _blocking(facts: RclpyFile, call: ast.Call) -> str:

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
 from scaffold.api.python import UNKNOWN
-from scaffold.api.rclpy import RclpyFile, is_of_rclpy
+from scaffold.api.rclpy import RclpyFile, log_calls
 
-METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -21,7 +20,8 @@ _NODE = (
 class LogMessageNotText(RclpyRule):
     """A logger gets a message that is not a str, or arguments to format.
 
-    **Why.** rclpy does not convert it: ``TypeError`` when the line is reached.
+    **Why.** rclpy does not convert it, nor does Python add a number to a str: ``TypeError`` when
+    the line is reached.
 
     **Fix.** Write ``str(...)`` or an f-string.
 
@@ -52,14 +52,21 @@ class LogMessageNotText(RclpyRule):
             {"talker.py": _NODE.format("'%d', 42")},
             Report("talker.py:6:38", "loggers do not format arguments: TypeError; use an f-string"),
         ),
+        Example(
+            "a number added",
+            {"talker.py": _NODE.format("'heard ' + 1")},
+            Report("talker.py:6:32", "a number is added to a str: TypeError; use an f-string"),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            method = _get_logger(call)
-            if method is None or not call.args or not is_of_rclpy(facts, method):
+        for call in log_calls(facts):
+            if not call.args:
                 continue
             message = call.args[0]
+            if isinstance(message, ast.BinOp) and _adds_number(facts, message):
+                problem = "a number is added to a str: TypeError; use an f-string"
+                yield self.report(facts.module.location(message), problem)
             if len(call.args) > 1 and not isinstance(message, ast.Starred):
                 at = facts.module.location(call.args[1])
                 yield self.report(at, "loggers do not format arguments: TypeError; use an f-string")
@@ -82,10 +89,12 @@ class LogMessageNotText(RclpyRule):
         return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
 
 
-def _get_logger(call: ast.Call) -> ast.expr | None:
-    """Return the ``get_logger`` of a call that logs with what it returns."""
-    match call.func:
-        case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger") as method)):
-            return method if call.func.attr in METHODS else None
-        case _:
-            return None
+def _adds_number(facts: RclpyFile, node: ast.BinOp) -> bool:
+    if not isinstance(node.op, ast.Add):
+        return False
+    left = facts.evaluator.evaluate(node.left)
+    right = facts.evaluator.evaluate(node.right)
+    is_number = type(right) in {int, float} or (
+        isinstance(node.right, ast.Attribute) and facts.is_number(node.right)
+    )
+    return isinstance(left, str) and is_number

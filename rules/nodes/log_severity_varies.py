@@ -6,9 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import LOG_METHODS, RclpyFile
 
-METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _NODE = "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
 _BRANCHES = (
     "        if bad:\n            self.get_logger().error('bad')\n"
@@ -55,7 +54,7 @@ class LogSeverityVaries(RclpyRule):
     def _severity(self, node: ast.expr) -> str | None:
         match node:
             case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
-                return node.attr if node.attr in METHODS else None
+                return node.attr if node.attr in LOG_METHODS else None
             case ast.Attribute(value=ast.Name(id=name)) if "log" in name.lower():
-                return node.attr if node.attr in METHODS else None
+                return node.attr if node.attr in LOG_METHODS else None
         return None

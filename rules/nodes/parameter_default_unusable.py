@@ -19,19 +19,28 @@ _NODE = (
     "        self.declare_parameter('rate', {}, ParameterDescriptor({}))\n"
     "        self.declare_parameters('', [('mode', {}), ('gain', 1.0)])\n"
 )
+_PLAIN = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter({})\n"
+)
 
 
 class ParameterDefaultUnusable(RclpyRule):
-    """The default of a parameter is missing, a class, or a constant of ``ParameterType``.
+    """The default of a parameter is missing or empty, a class, or a constant of ``ParameterType``.
 
     **Why.** ``ValueError: Cannot declare a statically typed parameter with default value of type
     PARAMETER_NOT_SET``, or ``TypeError: The given value is not one of the allowed types``. The
     constants of ``ParameterType`` are numbers: as a default, they make the parameter an integer.
+    Without default and descriptor, rclpy only warns, and the value is None until it is set. rclpy
+    takes an empty list for a byte array, and then rejects a list of strings.
 
     **Fix.** Without a default, pass ``Parameter.Type.DOUBLE``, or a descriptor with
     ``dynamic_typing=True``. The ``type`` of a descriptor is ignored.
 
-    **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rclpy/parameter.py``.
+    **Source.** ``rclpy/node.py``, ``declare_parameters``; ``rclpy/parameter.py``; rclpy issue 1030.
     """
 
     code = "ND083"
@@ -77,6 +86,23 @@ class ParameterDefaultUnusable(RclpyRule):
             Report("b.py:9:40", "a type and dynamic_typing=True exclude each other: ValueError"),
             Report("b.py:10:47", "a parameter of type NOT_SET cannot be declared: ValueError"),
         ),
+        Example("only a name and a default", {"talker.py": _PLAIN.format("'rate', 2.0")}),
+        Example(
+            "only a name",
+            {"talker.py": _PLAIN.format("'rate'")},
+            Report(
+                "talker.py:7:32",
+                "parameter 'rate' has no default: its value is None until it is set",
+            ),
+        ),
+        Example(
+            "an empty list",
+            {"talker.py": _PLAIN.format("'names', []")},
+            Report(
+                "talker.py:7:32",
+                "parameter 'names' becomes a byte array: the default is an empty list",
+            ),
+        ),
     )
 
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
@@ -88,6 +114,10 @@ class ParameterDefaultUnusable(RclpyRule):
             error = problem.rpartition(": ")[2]
             if problem and not is_harmless(facts.module, parameter.call, error):
                 yield self.report(facts.module.location(node or parameter.call), problem)
+        for parameter in facts.parameters:
+            problem = _missing_problem(parameter)
+            if problem:
+                yield self.report(parameter.name_location, problem)
 
 
 def _default_problem(facts: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
@@ -123,3 +153,15 @@ def _type_problem(parameter: Parameter) -> str:
         return ""
     name = repr(parameter.name) if isinstance(parameter.name, str) else "of this name"
     return f"parameter {name} needs a default or a Parameter.Type: ValueError"
+
+
+def _missing_problem(parameter: Parameter) -> str:
+    """Return the message for a declaration that rclpy accepts without a usable default."""
+    is_typed = parameter.declared_type is not None or parameter.argument("descriptor") is not None
+    if is_typed or not isinstance(parameter.name, str) or parameter.has_unknown_arguments:
+        return ""
+    if parameter.default_node is None:
+        return f"parameter {parameter.name!r} has no default: its value is None until it is set"
+    if parameter.default in ([], ()):
+        return f"parameter {parameter.name!r} becomes a byte array: the default is an empty list"
+    return ""

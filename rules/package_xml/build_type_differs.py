@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api.cmake import uses_ament
 
+_MANIFEST = (
+    '<package format="3">\n  <name>talker</name>\n'
+    "  <export>\n    <build_type>{}</build_type>\n  </export>\n</package>\n"
+)
+_FILES = {"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"}
 FILES = {"ament_cmake": "CMakeLists.txt", "cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
 
 class BuildTypeDiffers(Rule):
-    """``<build_type>`` wants a file that the package does not have.
+    """``<build_type>`` does not match the files of the package.
 
-    **Why.** The build stops: ``does not appear to contain CMakeLists.txt``, or ``setup.py``.
+    **Why.** The build stops: ``does not appear to contain CMakeLists.txt``, or ``setup.py``. With
+    ``catkin`` or ``cmake``, colcon builds without the hooks of ament: ``ros2 run`` answers
+    ``Package 'talker' not found``.
 
     **Fix.** Declare the build type that the files belong to.
 
@@ -50,9 +58,23 @@ class BuildTypeDiffers(Rule):
                 "</export></package>\n"
             },
         ),
+        Example("ament", {"package.xml": _MANIFEST.format("ament_python"), **_FILES}),
+        Example(
+            "catkin",
+            {"package.xml": _MANIFEST.format("catkin"), **_FILES},
+            Report(
+                "package.xml:4:5",
+                "build type catkin, but the files are those of ament_python",
+                fix="write ament_python",
+            ),
+            fixed={"package.xml": _MANIFEST.format("ament_python")},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        for diagnostic in self._check_ros1(package):
+            yield diagnostic
+            return
         for element in package.manifest.build_type_elements:
             wanted = FILES.get(element.text)
             if wanted is None or package.has(wanted) or element.get("condition"):
@@ -65,3 +87,29 @@ class BuildTypeDiffers(Rule):
             edit = Edit("package.xml", *element.text_span, other)
             message += f"; its {FILES[other]} belongs to {other}"
             yield self.report(element.text_location, message, Fix(f"write {other}", (edit,)))
+
+    def _check_ros1(self, package: Package) -> Iterator[Diagnostic]:
+        """Report ``catkin`` and ``cmake`` where the files are those of ament."""
+        manifest = package.manifest
+        elements = [x for x in manifest.root.descendants() if x.tag == "build_type"]
+        given = manifest.build_type or ""
+        if given not in {"catkin", "cmake"} or len(elements) != 1 or elements[0].get("condition"):
+            return
+        wanted = _ament_type(package)
+        if wanted:
+            element = elements[0]
+            start = manifest.source.text.find(given, element.start)
+            edit = Edit("package.xml", start, start + len(given), wanted)
+            message = f"build type {given}, but the files are those of {wanted}"
+            yield self.report(element, message, Fix(f"write {wanted}", (edit,)))
+
+
+def _ament_type(package: Package) -> str:
+    """Return the build type that the files belong to; empty if they are not of ament."""
+    if package.has("CMakeLists.txt"):
+        try:
+            is_ament = uses_ament(package) and "catkin" not in package.cmake.source.text
+        except ViewError:
+            return ""
+        return "ament_cmake" if is_ament else ""
+    return "ament_python" if package.has("setup.py") else ""

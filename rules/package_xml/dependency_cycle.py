@@ -1,23 +1,26 @@
-"""PX009: packages do not need each other in a circle."""
+"""PX009: packages do not depend on each other in a cycle."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, ViewError
 
 _TALKER = '<package format="3">\n  <name>talker</name>\n  <depend>listener</depend>\n</package>\n'
+_ITSELF = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _LISTENER = '<package format="3">\n  <name>listener</name>\n{}</package>\n'
 
 
 class DependencyCycle(Rule):
-    """Packages of a workspace need each other in a circle.
+    """A package depends on itself, directly or through others of the workspace.
 
-    **Why.** colcon cannot order them: ``Unable to order packages topologically``.
+    **Why.** colcon cannot order them: ``Unable to order packages topologically``; it refuses the
+    manifest of a package that names itself.
 
-    **Fix.** Move what both need into a third package.
+    **Fix.** Move what both need into a third package; remove a dependency on the package itself.
 
-    **Source.** REP-149, "Dependency tags"; ``colcon_core/topological_order.py``.
+    **Source.** REP-149, "Dependency tags"; ``colcon_core/topological_order.py``;
+    ``catkin_pkg.package.Package.validate``.
     """
 
     code = "PX009"
@@ -31,20 +34,38 @@ class DependencyCycle(Rule):
         Example(
             "both ways",
             {"package.xml": _TALKER},
-            Report("package.xml:3:11", "a circle: talker needs listener needs talker"),
+            Report("package.xml:3:11", "dependency cycle: talker needs listener needs talker"),
             neighbours={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },
         ),
+        Example(
+            "on itself",
+            {"package.xml": _ITSELF.format("  <exec_depend>talker</exec_depend>\n")},
+            Report(
+                "package.xml:3:16",
+                "<exec_depend> 'talker': a package cannot depend on itself",
+                fix="remove it",
+            ),
+            fixed={"package.xml": _ITSELF.format("")},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for dependency in package.manifest.dependencies:
+        manifest = package.manifest
+        for dependency in manifest.dependencies:
+            if dependency.name and dependency.name == manifest.name:
+                fix = Fix("remove it", (manifest.remove(dependency.element),))
+                message = (
+                    f"<{dependency.kind}> {dependency.name!r}: a package cannot depend on itself"
+                )
+                yield self.report(dependency, message, fix)
+                continue
             if dependency.kind == "test_depend" or not dependency.active:
                 continue
             way = self._way_back(package, dependency.name)
             if way:
-                message = f"a circle: {' needs '.join([package.name, *way])}"
+                message = f"dependency cycle: {' needs '.join([package.name, *way])}"
                 yield self.report(dependency, message)
 
     def _way_back(self, package: Package, start: str) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 
 _DEBIAN = r"ros-(foxy|galactic|humble|iron|jazzy|kilted|rolling|noetic|melodic)-(.+)"
 _MODULES = (".msg", ".srv", ".action")
@@ -20,10 +20,10 @@ _MANIFEST = (
 
 
 class DependencyMalformed(Rule):
-    """The text of a dependency is no key of rosdep, nor the name of a package.
+    """The text of a dependency is empty, or neither a rosdep key nor the name of a package.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [std_msgs.msg]``, and
-    colcon does not build packages in the right order.
+    colcon does not build packages in the right order. bloom stops at an empty one.
 
     **Fix.** Write the name of the package, one in each element; versions are attributes such as
     ``version_gte``. ``ament_python`` is a build type and no package.
@@ -73,10 +73,22 @@ class DependencyMalformed(Rule):
                 "'ament_python' is a build type, no package: rosdep cannot resolve it; remove it",
             ),
         ),
+        Example(
+            "empty",
+            {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
+            Report("package.xml:2:3", "<depend> names no package", fix="remove it"),
+            fixed={"package.xml": "<package>\n</package>\n"},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for dependency in package.manifest.dependencies:
+        manifest = package.manifest
+        for dependency in manifest.dependencies:
+            if not dependency.name and not dependency.element.children:
+                fix = Fix("remove it", (manifest.remove(dependency.element),))
+                message = f"<{dependency.kind}> names no package"
+                yield self.report(dependency.element, message, fix)
+                continue
             problem = _problem(dependency.name) if dependency.active else ""
             if problem and package.workspace.get(dependency.name) is None:
                 yield self.report(dependency, problem)

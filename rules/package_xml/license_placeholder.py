@@ -1,4 +1,4 @@
-"""PX001: the licence is decided."""
+"""PX001: the license is decided."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from scaffold.api.manifest import is_placeholder
 
 
 class LicensePlaceholder(Rule):
-    """``<license>`` still waits for a licence.
+    """``<license>`` is empty or a placeholder.
 
-    **Why.** Without a licence nobody may use the package, and rosdistro refuses its release.
+    **Why.** Without a license nobody may use the package, and rosdistro refuses its release. colcon
+    does not build a package whose license is empty.
 
     **Fix.** Write an SPDX identifier such as ``Apache-2.0``. No automatic fix: the choice is the
     author's.
 
-    **Source.** REP-149, ``<license>``; rosdistro review guidelines.
+    **Source.** REP-149, ``<license>``; ``catkin_pkg.package.Package.validate``; rosdistro review
+    guidelines.
     """
 
     code = "PX001"
@@ -32,16 +34,23 @@ class LicensePlaceholder(Rule):
             },
             Report(
                 "package.xml:2:12",
-                "the licence is a placeholder, 'TODO: License declaration': nobody "
+                "the license is a placeholder, 'TODO: License declaration': nobody "
                 "may use the package",
             ),
+        ),
+        Example(
+            "empty",
+            {"package.xml": "<package>\n  <license> </license>\n</package>\n"},
+            Report("package.xml:2:3", "the license is empty: colcon refuses the package"),
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element in package.manifest.all("license"):
-            if is_placeholder(element.text):
+            if not element.text:
+                yield self.report(element, "the license is empty: colcon refuses the package")
+            elif is_placeholder(element.text):
                 message = (
-                    f"the licence is a placeholder, {element.text!r}: nobody may use the package"
+                    f"the license is a placeholder, {element.text!r}: nobody may use the package"
                 )
                 yield self.report(element.text_location, message)

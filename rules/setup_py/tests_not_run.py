@@ -4,28 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.api.setup_py import setup_edit
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.setup_py import SetupPy, setup_edit
 
 EXTRAS = ("test", "tests", "testing")
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
-_EXTRA = "    extras_require={'test': ['pytest']},\n"
+_NEW = "extras_require={'test': ['pytest']}"
+_EXTRA = f"    {_NEW},\n"
 _TEST = "def test_talk():\n    pass\n"
 
 
 class TestsNotRun(Rule):
-    """setup.py does not say that the tests need pytest.
+    """setup.py does not say that the tests need pytest, or says so with ``tests_require``.
 
     **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
-    tests ... OK``.
+    tests ... OK``. setuptools 72 dropped ``tests_require``; the version of Ubuntu 24.04 still reads
+    it.
 
     **Fix.** Write ``extras_require={'test': ['pytest']}``.
 
-    **Source.** ``colcon_core/task/python/test``; colcon-core issue 678.
+    **Source.** ``colcon_core/task/python/test``; colcon-core issue 678;
+    ros2_documentation issue 4727.
     """
 
     code = "SP012"
     name = "tests-not-run"
+    other_severities = {Severity.WARNING: "``tests_require`` says it"}
     examples = (
         Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
         Example("no tests", {"setup.py": _SETUP.format("")}),
@@ -40,22 +44,43 @@ class TestsNotRun(Rule):
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
+        Example(
+            "tests_require",
+            {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
+            Report(
+                "setup.py:5:19",
+                "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
+                "write extras_require={'test': ['pytest']}",
+                severity=Severity.WARNING,
+                fix="write extras_require={'test': ['pytest']}",
+            ),
+            fixed={"setup.py": _SETUP.format(_EXTRA)},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
+        if setup.keyword("tests_require") is not None:
+            yield from self._check_tests_require(setup)
+            return
         if package.build_type != "ament_python" or setup.call is None:
             return
         tests = [*package.glob("test/test_*.py"), *package.glob("tests/test_*.py")]
         if not tests or setup.has_unknown_keywords or self._has_extra(package):
             return
-        if setup.keyword("tests_require") is not None:
-            return
-        new = "extras_require={'test': ['pytest']}"
-        edit = setup_edit.insert(setup, new)
+        edit = setup_edit.insert(setup, _NEW)
         can_fix = edit is not None and setup.keyword("extras_require") is None
-        message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {new}"
-        yield self.report(setup, message, Fix(f"add {new}", (edit,)) if edit and can_fix else None)
+        message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {_NEW}"
+        yield self.report(setup, message, Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None)
+
+    def _check_tests_require(self, setup: SetupPy) -> Iterator[Diagnostic]:
+        old = setup.keyword("tests_require")
+        if old is None or setup.keyword("extras_require") is not None:
+            return
+        span = setup_edit.span(setup, "tests_require")
+        fix = Fix(f"write {_NEW}", (Edit("setup.py", *span, _NEW),)) if span else None
+        message = f"setuptools 72 and later ignore tests_require: colcon runs 0 tests; write {_NEW}"
+        yield self.report(old, message, fix, severity=Severity.WARNING)
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")

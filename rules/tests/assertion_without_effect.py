@@ -1,4 +1,4 @@
-"""TS043: what a test states is looked at."""
+"""TS043: what a test asserts can fail."""
 
 from __future__ import annotations
 
@@ -9,19 +9,24 @@ from scaffold.api import Diagnostic, Example, Report, Severity, TestRule
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import test_functions
 
+_MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
+_ASSERTION = "def ready():\n    return False\n\n\ndef test_text():\n    assert {}\n"
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
 _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
 class AssertionWithoutEffect(TestRule):
-    """A test states something that nothing looks at.
+    """A test states something that nothing checks, or asserts something that is always true.
 
     **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
-    with nothing to call, ``assert`` in a ``try`` that drops the AssertionError.
+    with nothing to call, ``assert`` in a ``try`` that drops the AssertionError. A function that is
+    not called is true, and so is a string that is not compared with anything.
 
-    **Fix.** Write ``assert``, or ``with pytest.raises(...):``.
+    **Fix.** Write ``assert``, or ``with pytest.raises(...):``; call the function; compare with the
+    string.
 
-    **Source.** pytest documentation, "How to write and report assertions in tests".
+    **Source.** pytest documentation, "How to write and report assertions in tests"; Python
+    documentation, "Truth Value Testing"; ``unittest.mock``.
     """
 
     code = "TS043"
@@ -63,6 +68,20 @@ class AssertionWithoutEffect(TestRule):
                 "this drops the AssertionError: the test passes all the same",
             ),
         ),
+        Example("a function that is called", {"test/test_text.py": _ASSERTION.format("ready()")}),
+        Example(
+            "a function that is not called",
+            {"test/test_text.py": _ASSERTION.format("ready")},
+            Report("test/test_text.py:6:5", "ready is a function, which is always true: call it"),
+        ),
+        Example(
+            "a text next to a comparison",
+            {"test/test_text.py": _ASSERTION.format("ready() == 'a' or 'b'")},
+            Report(
+                "test/test_text.py:6:5",
+                "one side of this `or` is always true: compare with it as well",
+            ),
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
@@ -76,6 +95,8 @@ class AssertionWithoutEffect(TestRule):
 def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
     problem = ""
     match node:
+        case ast.Assert(test=condition):
+            problem = _condition_problem(module, condition)
         case ast.Expr(value=value):
             problem = _statement_problem(module, value)
         case ast.Try(body=body, handlers=handlers) if any(
@@ -113,3 +134,27 @@ def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
     names = {module.qualified_name(kind) if kind is not None else "Exception" for kind in kinds}
     nothing = all(isinstance(one, ast.Pass | ast.Continue) for one in handler.body)
     return nothing and not names.isdisjoint({"Exception", "BaseException", "AssertionError"})
+
+
+def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
+    """Return why a condition is always true."""
+    match condition:
+        case ast.Constant(value=str(text)) if text:
+            return "a text is always true: nothing is asserted"
+        case ast.BoolOp(op=ast.Or(), values=values) if any(map(_is_true, values)):
+            return "one side of this `or` is always true: compare with it as well"
+        case ast.Call(func=ast.Attribute(attr=name)) if name in _MOCKED:
+            return f"a mock has no {name}(): it fails, or is always true; assert_{name}() is meant"
+        case ast.Name(id=name):
+            function = module.functions.get(name)
+            found = module.index.lookup(name, condition)
+            if function is not None and found is not None and found[0] is module.tree:
+                plain = not function.node.decorator_list and len(found[1]) == 1
+                return f"{name} is a function, which is always true: call it" if plain else ""
+        case ast.Attribute() if module.qualified_name(condition) == "rclpy.ok":
+            return "rclpy.ok is a function, which is always true: call it"
+    return ""
+
+
+def _is_true(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str | int) and bool(node.value)

@@ -1,4 +1,4 @@
-"""TS046: marks of tests are spelt as pytest spells them, and have what they need."""
+"""TS046: marks of tests are known to pytest, and complete."""
 
 from __future__ import annotations
 
@@ -18,6 +18,10 @@ _MEANT = {
     **dict.fromkeys(("usefixture", "use_fixtures", "use_fixture"), "usefixtures"),
     **dict.fromkeys(("x_fail", "xFail", "expected_fail"), "xfail"),
 }
+_PARAMETERS = (
+    "import pytest\n\n\n@pytest.mark.parametrize('word, count', {})\n"
+    "def test_text(word, count):\n    assert len(word) == count\n"
+)
 _TEST = (
     "import pytest\n\n\n@pytest.mark.{}('word, count', {})\ndef test_text(word, count):\n"
     "    assert len(word) == count\n"
@@ -25,14 +29,16 @@ _TEST = (
 
 
 class MarkMisused(TestRule):
-    """A mark is misspelt or lacks something.
+    """A mark is misspelled or incomplete, or ``parametrize`` has more or fewer values than names.
 
-    **Why.** pytest stops: ``Unknown 'parameterize' mark``, ``you need to specify reason=STRING``.
+    **Why.** pytest stops: ``Unknown 'parameterize' mark``, ``you need to specify reason=STRING``,
+    ``in "parametrize" the number of names must be equal to the number of values``; without any
+    value it skips the test.
 
     **Fix.** ``@pytest.mark.parametrize('a, b', [(1, 2)])``; ``reason='...'`` for ``skipif``.
 
-    **Source.** pytest documentation, "How to mark test functions with attributes", "How to use skip
-    and xfail".
+    **Source.** pytest documentation, "How to mark test functions with attributes", "How to
+    parametrize fixtures and test functions", "How to use skip and xfail".
     """
 
     code = "TS046"
@@ -57,24 +63,82 @@ class MarkMisused(TestRule):
                 "a condition that is not a string needs reason='...': pytest stops here",
             ),
         ),
+        Example("as many values as names", {"test/test_text.py": _PARAMETERS.format("[('a', 1)]")}),
+        Example(
+            "a value too many",
+            {"test/test_text.py": _PARAMETERS.format("[('a', 1), ('b', 1, 2)]")},
+            Report("test/test_text.py:4:2", "there are 2 names, and ('b', 1, 2) has 3 values"),
+        ),
+        Example(
+            "no values",
+            {"test/test_text.py": _PARAMETERS.format("[]")},
+            Report("test/test_text.py:4:2", "there are no values: pytest skips the test"),
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         for test in test_functions(module):
             for name, decorator in marks(module, test.node):
-                problem = _mark_problem(name, decorator)
+                problem = _mark_problem(module, name, decorator)
                 if problem:
                     yield self.report(module.location(decorator), problem)
 
 
-def _mark_problem(name: str, decorator: ast.expr) -> str:
+def _mark_problem(module: PythonModule, name: str, decorator: ast.expr) -> str:
     if name in _MEANT:
         return f"pytest has no mark {name!r}; closest: {_MEANT[name]!r}"
     if not isinstance(decorator, ast.Call):
         return "" if name != "parametrize" else "parametrize needs names and values"
+    if name == "parametrize":
+        return _parametrize_problem(module, decorator)
     words = keywords(decorator)
     if name == "skipif" and "reason" not in words and len(decorator.args) == 1:
         match decorator.args[0]:
             case ast.Compare() | ast.BoolOp() | ast.UnaryOp() | ast.Constant(value=bool()):
                 return "a condition that is not a string needs reason='...': pytest stops here"
     return ""
+
+
+def _parametrize_problem(module: PythonModule, call: ast.Call) -> str:
+    words = keywords(call)
+    if any(isinstance(one, ast.Starred) for one in call.args):
+        return ""
+    names = call.args[0] if call.args else words.get("argnames")
+    values = call.args[1] if len(call.args) > 1 else words.get("argvalues")
+    if values is None:
+        is_open = len(words) < len(call.keywords)
+        return "" if is_open else "parametrize needs the values as well as the names"
+    if not isinstance(values, ast.List | ast.Tuple):
+        return ""
+    if not values.elts:
+        return "there are no values: pytest skips the test"
+    count = _count(names)
+    for value in values.elts if count > 1 else ():
+        given = _given(module, value)
+        if given is not None and given != count:
+            return f"there are {count} names, and {module.text(value)} has {given} values"
+    return ""
+
+
+def _count(names: ast.expr | None) -> int:
+    match names:
+        case ast.Constant(value=str(text)):
+            return len([part for part in text.split(",") if part.strip()])
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            return len(items)
+    return 0
+
+
+def _given(module: PythonModule, value: ast.expr) -> int | None:
+    """Return how many values are written for one call of the test."""
+    items: list[ast.expr] | None = None
+    match value:
+        case ast.Tuple() | ast.List():
+            items = value.elts
+        case ast.Call() if module.qualified_name(value.func) == "pytest.param":
+            items = value.args
+        case ast.Constant(value=bool() | int() | float() | None):
+            return 1
+    if items is None or any(isinstance(item, ast.Starred) for item in items):
+        return None
+    return len(items)

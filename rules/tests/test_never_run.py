@@ -20,16 +20,19 @@ from scaffold.api.tests import (
 
 _TEST = "def test_text():\n    assert True\n\n\n{}"
 _CHECK = "def check():\n    assert True\n"
+_OUTER = "def ready():\n    return False\n\n\ndef test_text():\n{}"
+_OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    assert run(Case)\n"
+_MORE = "    assert ready()\n\n    def test_more():\n        assert ready()\n"
 _CLASS = "class TextTests:\n    def test_more(self):\n        assert True\n"
 
 
 class TestNeverRun(Rule):
-    """A function or class of tests stands next to others, and pytest does not run it.
+    """A function or class of tests has a name or a place that keeps pytest from running it.
 
-    **Why.** The file passes without it: pytest takes functions that begin with ``test`` and classes
-    that begin with ``Test``.
+    **Why.** The file passes without it: pytest collects functions that begin with ``test`` and
+    classes that begin with ``Test``, and nothing inside of another test.
 
-    **Fix.** Rename it.
+    **Fix.** Rename it, or move it out of the test.
 
     **Source.** pytest documentation, "Conventions for Python test discovery".
     """
@@ -58,14 +61,36 @@ class TestNeverRun(Rule):
                 "pytest does not run TextTests: its name does not begin with Test",
             ),
         ),
+        Example(
+            "inside of a test: a class that the test runs",
+            {"test/test_text.py": _OUTER.format(_OWN)},
+        ),
+        Example(
+            "inside of a test: a function that nothing calls",
+            {"test/test_text.py": _OUTER.format(_MORE)},
+            Report(
+                "test/test_text.py:8:5", "test_more is inside test_text: pytest does not collect it"
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        for module in test_modules(package):
+            yield from self._check_inner_tests(module)
         modules = [] if has_other_ways(package) else test_modules(package)
         for module in modules:
             if not module.has_main_guard:
                 yield from self._check_functions(package, module)
                 yield from self._check_classes(package, module)
+
+    def _check_inner_tests(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for test in test_functions(module):
+            for node in ast.walk(test.node):
+                is_other = isinstance(node, ast.FunctionDef) and node is not test.node
+                if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
+                    place = f"{node.name} is inside {test.node.name}"
+                    message = f"{place}: pytest does not collect it"
+                    yield self.report(module.location(node), message)
 
     def _check_functions(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         known = fixtures(package, module)
@@ -123,3 +148,15 @@ def _asserts(function: FunctionNode, known: set[str]) -> bool:
     if name.startswith(("test", "_", "pytest_", "setup", "teardown")) or not arguments <= known:
         return False
     return any(isinstance(node, ast.Assert) for node in function.body)
+
+
+def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:
+    """Tell whether a function is a test by its name, and nothing has to do with it."""
+    holder = module.parent(node)
+    used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
+    return node.name.startswith("test_") and not (used or _is_used(module, node))
+
+
+def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
+    """Tell whether anything else has to do with a function or class."""
+    return bool(node.decorator_list or module.index.names(node.name))

@@ -39,7 +39,7 @@ from scaffold.model.rclpy.entities import (
     Timer,
 )
 from scaffold.model.rclpy.file import RclpyFile, node_facts, rclpy_files
-from scaffold.model.rclpy.logging import is_of_rclpy
+from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
 from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
 from scaffold.model.rclpy.parameters.callbacks import RESULT, wrong_value
@@ -65,6 +65,7 @@ __all__ = [
     "CALLBACKS",
     "DESCRIPTOR",
     "FIELDS",
+    "LOG_METHODS",
     "NODE",
     "PARAMETER",
     "PLACES",
@@ -103,6 +104,7 @@ __all__ = [
     "is_of_rclpy",
     "is_read_in_full",
     "known_names",
+    "log_calls",
     "message_made",
     "name_asked",
     "names_compared",

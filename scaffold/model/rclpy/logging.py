@@ -1,14 +1,34 @@
-"""Which loggers in the code of a package are those of rclpy."""
+"""The calls that log with loggers of rclpy."""
 
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
+LOG_METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _METHOD = "get_logger"
+
+
+def log_calls(facts: RclpyFile) -> Iterator[ast.Call]:
+    """Yield the calls such as ``node.get_logger().info(...)``."""
+    for attribute in facts.module.index.attributes(_METHOD):
+        logger = facts.module.parent(attribute)
+        method = facts.module.parent(logger) if isinstance(logger, ast.Call) else None
+        call = facts.module.parent(method) if isinstance(method, ast.Attribute) else None
+        if (
+            isinstance(method, ast.Attribute)
+            and method.attr in LOG_METHODS
+            and isinstance(logger, ast.Call)
+            and logger.func is attribute
+            and isinstance(call, ast.Call)
+            and call.func is method
+            and is_of_rclpy(facts, attribute)
+        ):
+            yield call
 
 
 def is_of_rclpy(facts: RclpyFile, method: ast.expr) -> bool:

@@ -1,0 +1,103 @@
+"""CM092: ``install`` says what to install, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, nearest
+from scaffold.api.cmake import Argument
+
+_OF_FILES = ("PROGRAMS", "FILES", "DIRECTORY")
+_KINDS = (
+    *_OF_FILES,
+    "TARGETS",
+    "IMPORTED_RUNTIME_ARTIFACTS",
+    "SCRIPT",
+    "CODE",
+    "EXPORT",
+    "EXPORT_ANDROID_MK",
+    "PACKAGE_INFO",
+    "RUNTIME_DEPENDENCY_SET",
+)
+_KIND = "project(talker)\ninstall({} talker/node.py DESTINATION lib/${{PROJECT_NAME}})\n"
+_LISTS = "project(talker)\ninstall(DIRECTORY launch{})\nament_package()\n"
+_FILES = {"launch/talk.launch.py": ""}
+
+
+class InstallMalformed(Rule):
+    """``install`` has no destination, or begins with an unknown keyword.
+
+    **Why.** CMake stops: ``install DIRECTORY given no DESTINATION!``, ``install called with unknown
+    mode PROGRAM``.
+
+    **Fix.** Add ``DESTINATION share/${PROJECT_NAME}``, for programs ``lib/${PROJECT_NAME}``. Write
+    ``PROGRAMS`` for scripts, ``TARGETS`` for what is compiled, ``DIRECTORY`` for directories,
+    ``FILES`` for other files; in capitals.
+
+    **Source.** CMake documentation, ``install``.
+    """
+
+    code = "CM092"
+    name = "install-malformed"
+    examples = (
+        Example(
+            "with one",
+            {"CMakeLists.txt": _LISTS.format(" DESTINATION share/${PROJECT_NAME}"), **_FILES},
+        ),
+        Example(
+            "without",
+            {"CMakeLists.txt": _LISTS.format(""), **_FILES},
+            Report("CMakeLists.txt:2:1", "install(DIRECTORY) has no DESTINATION: CMake stops"),
+        ),
+        Example(
+            "programs", {"CMakeLists.txt": _KIND.format("PROGRAMS"), "talker/node.py": "pass\n"}
+        ),
+        Example("a variable", {"CMakeLists.txt": _KIND.format("${kind}")}),
+        Example(
+            "a letter is missing",
+            {"CMakeLists.txt": _KIND.format("PROGRAM"), "talker/node.py": "pass\n"},
+            Report(
+                "CMakeLists.txt:2:9",
+                "unknown install() keyword 'PROGRAM': CMake stops; closest: PROGRAMS",
+                fix="write PROGRAMS",
+            ),
+            fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
+        ),
+        Example(
+            "in lower case",
+            {"CMakeLists.txt": _KIND.format("programs"), "talker/node.py": "pass\n"},
+            Report(
+                "CMakeLists.txt:2:9",
+                "unknown install() keyword 'programs': CMake stops; closest: PROGRAMS",
+                fix="write PROGRAMS",
+            ),
+            fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
+        ),
+        Example(
+            "nothing like it",
+            {"CMakeLists.txt": _KIND.format("BINARY"), "talker/node.py": "pass\n"},
+            Report("CMakeLists.txt:2:9", "unknown install() keyword 'BINARY': CMake stops"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.find("install"):
+            if command.arguments:
+                yield from self._check_kind(package, command.arguments[0])
+            values = command.values
+            if not values or values[0] not in _OF_FILES or {"DESTINATION", "TYPE"} & set(values):
+                continue
+            if any("$" in value and ";" not in value and "/" not in value for value in values[1:]):
+                continue  # a variable may hold the keyword
+            message = f"install({values[0]}) has no DESTINATION: CMake stops"
+            yield self.report(command.name_location, message)
+
+    def _check_kind(self, package: Package, kind: Argument) -> Iterator[Diagnostic]:
+        if kind.value in _KINDS or "$" in kind.value:
+            return
+        message, fix = f"unknown install() keyword {kind.value!r}: CMake stops", None
+        closest = nearest(package, kind.value.upper(), _KINDS, 0.7)
+        if closest:
+            edit = Edit("CMakeLists.txt", kind.start, kind.end, closest)
+            message, fix = f"{message}; closest: {closest}", Fix(f"write {closest}", (edit,))
+        yield self.report(kind, message, fix)

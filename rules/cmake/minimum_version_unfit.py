@@ -1,0 +1,96 @@
+"""CM005: CMakeLists.txt begins with a ``cmake_minimum_required`` that CMake supports."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.cmake import Command
+
+_OLDEST = (3, 5)
+_WANTED = "3.8"
+_LISTS = "cmake_minimum_required(VERSION {})\nproject(talker)\n"
+_MINIMUM = "cmake_minimum_required(VERSION 3.8)\n"
+
+
+class MinimumVersionUnfit(Rule):
+    """``cmake_minimum_required`` does not come before ``project``, or asks for too old a version.
+
+    **Why.** CMake sets its policies by it: ``project`` runs with those of another version, and
+    warns. CMake 4 stops without it, and at versions before 3.5: ``Compatibility with CMake < 3.5
+    has been removed from CMake``. Packages that come from ROS 1 begin with 2.8.3 or 3.0.2.
+
+    **Fix.** Begin with ``cmake_minimum_required(VERSION 3.8)``, the version that ROS 2 asks for.
+
+    **Source.** CMake documentation, ``cmake_minimum_required``, "Compatibility"; ROS 2
+    documentation, "ament_cmake user documentation".
+    """
+
+    code = "CM005"
+    name = "minimum-version-unfit"
+    severity = Severity.WARNING
+    examples = (
+        Example("first", {"CMakeLists.txt": f"{_MINIMUM}project(talker)\n"}),
+        Example(
+            "after project",
+            {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
+            Report(
+                "CMakeLists.txt:1:1",
+                "cmake_minimum_required() of line 2 belongs before project()",
+            ),
+        ),
+        Example(
+            "none",
+            {"CMakeLists.txt": "project(talker)\n"},
+            Report("CMakeLists.txt:1:1", "no cmake_minimum_required(VERSION ...) before project()"),
+        ),
+        Example("of ROS 2", {"CMakeLists.txt": _LISTS.format("3.8")}),
+        Example(
+            "old, but known to work with newer", {"CMakeLists.txt": _LISTS.format("3.1...3.28")}
+        ),
+        Example(
+            "of ROS 1",
+            {"CMakeLists.txt": _LISTS.format("2.8.3")},
+            Report(
+                "CMakeLists.txt:1:32",
+                "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
+                fix="write 3.8",
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format("3.8")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        project = cmake.project
+        minimum = cmake.find("cmake_minimum_required")
+        for command in minimum:
+            yield from self._check_version(command)
+        if project is None or (cmake.find("include") and not minimum):
+            return
+        if not minimum:
+            message = "no cmake_minimum_required(VERSION ...) before project()"
+            yield self.report(project.name_location, message)
+        elif minimum[0].index > project.index:
+            line = minimum[0].location.line
+            message = f"cmake_minimum_required() of line {line} belongs before project()"
+            yield self.report(project.name_location, message)
+
+    def _check_version(self, command: Command) -> Iterator[Diagnostic]:
+        match command.arguments:
+            case [word, version, *_] if word.value == "VERSION" and _is_outdated(version.value):
+                edit = Edit("CMakeLists.txt", version.start, version.end, _WANTED)
+                message = (
+                    f"CMake 4 stops at {version.value}: it supports 3.5 and newer; ROS 2 asks "
+                    f"for {_WANTED}"
+                )
+                yield self.report(version, message, Fix(f"write {_WANTED}", (edit,)))
+
+
+def _is_outdated(version: str) -> bool:
+    """Tell whether a version, or the end of a range of versions, is no longer supported."""
+    numbers = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version)
+    if numbers is None or ".." in version:
+        return False
+    return (int(numbers[1]), int(numbers[2])) < _OLDEST

@@ -1,0 +1,70 @@
+"""ND102: a log message with the name of a variable in braces is an f-string."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, log_calls
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tell(self, text):\n"
+    "        self.get_logger().info({})\n"
+)
+
+
+class LogFPrefixMissing(RclpyRule):
+    """A log message has the name of a variable in braces, but the string has no ``f`` prefix.
+
+    **Why.** It is logged with its braces: ``heard {text}``.
+
+    **Fix.** Write ``f'heard {text}'``.
+
+    **Source.** Python documentation, "Formatted string literals"; ``RUF027`` of ruff.
+    """
+
+    code = "ND102"
+    name = "log-f-prefix-missing"
+    examples = (
+        Example("an f-string", {"talker.py": _NODE.format("f'heard {text}'")}),
+        Example("braces around no variable", {"talker.py": _NODE.format("'heard {number}'")}),
+        Example(
+            "a missing f prefix",
+            {"talker.py": _NODE.format("'heard {text}'")},
+            Report("talker.py:6:32", "{text} is logged literally: the string has no f prefix"),
+        ),
+    )
+
+    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in log_calls(facts):
+            text = call.args[0] if call.args else None
+            if isinstance(text, ast.Constant) and isinstance(text.value, str):
+                name = _variable(facts, text, text.value)
+                if name:
+                    message = f"{{{name}}} is logged literally: the string has no f prefix"
+                    yield self.report(facts.module.location(text), message)
+
+
+def _variable(facts: RclpyFile, node: ast.Constant, text: str) -> str:
+    """Return the first variable, or attribute of one, that a text has in braces."""
+    for name in re.findall(r"\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}", text):
+        if _is_bound(facts, node, name.partition(".")[0]):
+            return str(name)
+    return ""
+
+
+def _is_bound(facts: RclpyFile, at: ast.Constant, name: str) -> bool:
+    probe = ast.Name(id=name, ctx=ast.Load())
+    for node in facts.module.index.names(name):
+        if facts.module.enclosing_function(node) is facts.module.enclosing_function(at):
+            probe = node
+            break
+    else:
+        function = facts.module.enclosing_function(at)
+        arguments = function.args.args if function else []
+        return any(argument.arg == name for argument in arguments)
+    return facts.module.index.lookup(probe.id, probe) is not None
