@@ -1,4 +1,4 @@
-"""What a rule says about a place, and how it would mend it."""
+"""What a rule reports about a place, and how to fix it."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ class Diagnostic(NamedTuple):
     location: Location
     message: str
     fix: Fix | None = None
+    cause: str = ""
+    """The same for findings of one package, of any code, that one edit would end."""
 
     @property
     def sort_key(self) -> tuple[str, int, int, str, str]:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 import os
 import re
-from collections.abc import Sequence
 from contextlib import suppress
-from fnmatch import fnmatchcase
 from functools import lru_cache
 
 from scaffold.ament.files import broken_links, lintable
 from scaffold.files.disk import LargeFileError
-from scaffold.model.cmake.lists import CMakeLists
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -313,125 +309,3 @@ def _find_marked(text: str, mark: str) -> int:
             return at
         at = text.find(beginning, at + 1)
     return -1
-
-
-LINTER = "ament_cmake_copyright"
-COLLECTIONS = ("ament_lint_common", LINTER)
-
-
-class Use(NamedTuple):
-    """How a package uses ament_copyright."""
-
-    runs: bool
-    why_not: str = ""
-    """Why the linter does not run; for people."""
-    excluded: tuple[str, ...] = ()
-    """Patterns of files that it is told to leave out."""
-
-    def covers(self, path: str) -> bool:
-        """Tell whether the linter looks at a file."""
-        return self.runs and not any(
-            fnmatchcase(path, pattern) and path.count("/") == pattern.count("/")
-            for pattern in self.excluded
-        )
-
-
-def copyright_use(package: Package) -> Use:
-    """Return how a package uses ament_copyright: by CMake, or by a test in Python."""
-    return package.remember("copyright_use", lambda: _use(package))
-
-
-def _use(package: Package) -> Use:
-    uses = [use for use in (_by_cmake(package), _by_pytest(package)) if use is not None]
-    running = [use for use in uses if use.runs]
-    if running:
-        return running[0]
-    return uses[0] if uses else Use(runs=False, why_not="no test of this package runs it")
-
-
-def _by_cmake(package: Package) -> Use | None:
-    try:
-        cmake = package.cmake
-        declared = package.manifest.declared_names
-    except ViewError:
-        return None
-    calls = cmake.find("ament_copyright")
-    if calls:
-        arguments = [a for call in calls for a in call.arguments if a.text != "EXCLUDE"]
-        return _excluding(cmake, cmake.expand_list(arguments))
-    finds = cmake.find("ament_lint_auto_find_test_dependencies")
-    finds = finds or cmake.find("ament_auto_find_test_dependencies")
-    if not finds or not any(_brings_linter(package, name) for name in declared):
-        return None
-    for command in cmake.find("set", "list"):
-        words = [argument.text for argument in command.arguments]
-        line = command.location.line
-        if words[:1] == [f"{LINTER}_FOUND"] and words[1:2] not in ([], ["FALSE"], ["OFF"], ["0"]):
-            return Use(runs=False, why_not=f"CMakeLists.txt line {line} switches it off")
-        if "AMENT_LINT_AUTO_EXCLUDE" in words[:2] and LINTER in words:
-            return Use(runs=False, why_not=f"CMakeLists.txt line {line} excludes it")
-    return _excluding(cmake, _file_excludes(cmake))
-
-
-def _brings_linter(package: Package, name: str) -> bool:
-    """Tell whether a dependency is the linter or a collection, ours or of the workspace."""
-    if name in COLLECTIONS:
-        return True
-    other = package.workspace.get(name) if name.endswith("_lint_common") else None
-    try:
-        return other is not None and not other.manifest.run_names.isdisjoint(COLLECTIONS)
-    except ViewError:
-        return False
-
-
-def _file_excludes(cmake: CMakeLists) -> list[str] | None:
-    found: list[str] = []
-    for command in cmake.find("set", "list"):
-        words = [argument.text for argument in command.arguments]
-        if "AMENT_LINT_AUTO_FILE_EXCLUDE" in words[:2]:
-            start = words.index("AMENT_LINT_AUTO_FILE_EXCLUDE") + 1
-            values = cmake.expand_list(command.arguments[start:], command)
-            if values is None:
-                return None
-            found += values
-    return found
-
-
-def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
-    if values is None:
-        return Use(runs=False, why_not="which files CMakeLists.txt excludes cannot be told")
-    return Use(runs=True, excluded=tuple(cmake.path_of(value) for value in values))
-
-
-def _by_pytest(package: Package) -> Use | None:
-    found: Use | None = None
-    for path in package.python_files:
-        if "test" not in path:
-            continue
-        try:
-            module = package.module(path)
-        except ViewError:
-            continue
-        if "ament_copyright" not in module.source.text:
-            continue
-        if "ament_copyright" not in module.imports_by_root:
-            continue
-        if re.search(r"pytest\.mark\.(?:skip|xfail)|pytest\.skip\(", module.source.text):
-            found = Use(runs=False, why_not=f"{path} is skipped")
-            continue
-        return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
-    return found
-
-
-def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
-    """Return what follows ``--exclude`` in lists of arguments."""
-    found: list[str] = []
-    for node in lists:
-        values = [item.value for item in node.elts if isinstance(item, ast.Constant)]
-        excluding = False
-        for value in values:
-            if isinstance(value, str) and value.startswith("--"):
-                excluding = value == "--exclude"
-            elif excluding and isinstance(value, str):
-                found.append(value.removeprefix("./"))
-    return tuple(found)

@@ -9,11 +9,11 @@ from scaffold.ament.codes import diagnostic
 from scaffold.ament.copyright import (
     REPOSITORY_FILES,
     Header,
-    copyright_use,
     departure,
     headers,
     identify_file,
 )
+from scaffold.ament.use import linter_use
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 
@@ -36,7 +36,7 @@ def _of_headers(
     """Yield an error for each file that the linter looks at, and one advice for the others."""
     if not faulty:
         return
-    use = copyright_use(package)
+    use = linter_use(package, "copyright")
     passed_over = [header for header in faulty if not use.covers(header.path)]
     for header in faulty:
         if use.covers(header.path):
@@ -76,7 +76,7 @@ def _reason(text: str) -> str:
 def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
     if not _is_repository(package):
         return
-    use = copyright_use(package)
+    use = linter_use(package, "copyright")
     for name in REPOSITORY_FILES:
         wrong = _wrong(package, name)
         at = package.start_of(name).location

@@ -125,6 +125,7 @@ class Rule:
         fix: Fix | None = None,
         *,
         severity: Severity | None = None,
+        cause: str = "",
     ) -> Diagnostic:
         """Return a diagnostic of this rule.
 
@@ -133,6 +134,8 @@ class Rule:
             message: What is wrong, what happens, what to do.
             fix: How to repair it automatically.
             severity: One of ``other_severities``, where the usual one does not fit.
+            cause: What other findings, also of other rules, share with this one: they are shown as
+                one. Findings with the same message need none.
         """
         severity = severity or self.severity
-        return Diagnostic(self.code, self.name, severity, at.location, message, fix)
+        return Diagnostic(self.code, self.name, severity, at.location, message, fix, cause)

@@ -54,6 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="with --fix or --diff: also unsafe fixes, to be reviewed; else: count them",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
+    _add_report_arguments(parser)
     parser.add_argument(
         "--reference",
         action="store_true",
@@ -65,6 +66,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="DIR",
         help="a directory with rules/ of your own; its Python is run",
+    )
+
+
+def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
+    report = parser.add_argument_group(
+        "the report", "what is left out keeps its part in the exit code"
+    )
+    report.add_argument(
+        "--all", action="store_true", help="show every finding, also what does not fit on a screen"
+    )
+    report.add_argument(
+        "--style",
+        action="store_true",
+        help="show style and docstring findings where a terminal would only count them",
+    )
+    report.add_argument(
+        "--severity",
+        choices=("error", "warning", "info"),
+        default="info",
+        help="show findings of this level and above only",
+    )
+    report.add_argument(
+        "--show-source",
+        action=argparse.BooleanOptionalAction,
+        help="show the source line of each finding (default: on a terminal)",
+    )
+    report.add_argument(
+        "--statistics", action="store_true", help="count the findings of each code instead"
+    )
+    report.add_argument("-q", "--quiet", action="store_true", help="leave out the summary")
+    report.add_argument(
+        "--exit-zero", action="store_true", help="exit with 0 even when something is found"
     )
 
 
@@ -99,16 +132,25 @@ def run(options: argparse.Namespace) -> int:
     output = _Copy()
     reporters.get(options.format)(results, output, _report_options(options))
     terminal.write_report(output.getvalue())
-    code = exit_code(results)
+    code = exit_code(results, is_zero=options.exit_zero)
     if slot is not None:
         memory.save(slot, disk, results, code, output.getvalue(), settings.warnings)
     return code
 
 
 def _report_options(options: argparse.Namespace) -> ReportOptions:
+    from scaffold.diagnostic import Severity
     from scaffold.reporters import ReportOptions
 
-    return ReportOptions(unsafe=options.unsafe_fixes)
+    return ReportOptions(
+        unsafe=options.unsafe_fixes,
+        severity=Severity(options.severity),
+        everything=options.all,
+        style=options.style or options.all,
+        source=options.show_source,
+        statistics=options.statistics,
+        quiet=options.quiet,
+    )
 
 
 class _Copy(StringIO):
@@ -265,7 +307,7 @@ def _report_fixes(
     output = _Copy()
     reporters.get(options.format)(results, output, _report_options(options))
     terminal.write_report(output.getvalue())
-    return exit_code(results)
+    return exit_code(results, is_zero=options.exit_zero)
 
 
 def _reference(targets: Sequence[Target]) -> int:
@@ -287,8 +329,13 @@ def _fixes(count: int) -> str:
     return "1 fix" if count == 1 else f"{count} fixes"
 
 
-def exit_code(results: list[Result]) -> int:
-    """Return 0 for nothing but advice, 1 for something found, 3 for a rule that failed."""
+def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
+    """Return 0 for nothing but advice, 1 for something found, 3 for a rule that failed.
+
+    Args:
+        results: Of all packages.
+        is_zero: Whether findings do not count.
+    """
     from scaffold.check.engine_rules import RuleCrashed
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.diagnostic import Severity
@@ -296,7 +343,8 @@ def exit_code(results: list[Result]) -> int:
     found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if any(diagnostic.code == RuleCrashed.code for diagnostic in found):
         return INTERNAL_ERROR
-    return FINDINGS if any(d.severity is not Severity.INFO for d in found) else CLEAN
+    has_findings = any(one.severity is not Severity.INFO for one in found)
+    return FINDINGS if has_findings and not is_zero else CLEAN
 
 
 def _selection(options: argparse.Namespace, settings: Config, rules: list[type[Rule]]) -> Selection:

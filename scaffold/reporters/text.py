@@ -1,70 +1,75 @@
-"""Text for people: one line per diagnostic that terminals and editors can jump to."""
+"""Text for people: a screen that shows what matters, or a line for each finding in a file."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from typing import TextIO
 
-from scaffold.check.session import Result, Summary
-from scaffold.diagnostic import Severity
-from scaffold.edits import Safety
+from scaffold.check.session import Result
+from scaffold.diagnostic import Diagnostic
+from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
+from scaffold.reporters.entries import SEVERITIES
+from scaffold.reporters.excerpt import excerpt
 from scaffold.reporters.paths import shown
-
-_COLORS = {Severity.ERROR: "31", Severity.WARNING: "33", Severity.INFO: "36"}
+from scaffold.reporters.summary import summary
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
-    """Write the diagnostics and a summary; see `Reporter`."""
-    paint = _painter(out)
-    for result in results:
-        for diagnostic in result.diagnostics:
-            at = diagnostic.location
-            place = f"{printable(shown(result.package, at.path))}:{at.line}:{at.column}:"
-            severity = paint(diagnostic.severity.value, _COLORS[diagnostic.severity])
-            code = paint(diagnostic.code, "1")
-            message = printable(diagnostic.message)
-            out.write(f"{place} {severity} {code} {message} [{diagnostic.name}]\n")
-    out.write(_summary(results, unsafe=options.unsafe) + "\n")
+    """Write the findings and a summary; see `Reporter`.
+
+    A terminal gets what fits on it. Everything else gets all findings, a line for each, in a form
+    that editors and ``grep`` know: nothing is folded.
+    """
+    if options.statistics:
+        _statistics(results, out)
+    elif out.isatty():
+        from scaffold.reporters import screen
+
+        screen.report(results, out, options)
+        return
+    else:
+        for package, one in worst_first(results, options):
+            out.write(f"{line(package, one)}\n")
+            if options.source:
+                out.writelines(f"    {text}\n" for text in excerpt(package, one.location))
+    if not options.quiet:
+        out.write(summary(results, unsafe=options.unsafe) + "\n")
 
 
-def _summary(results: Sequence[Result], *, unsafe: bool) -> str:
-    summary = Summary.of(results)
-    checked = f"{_count(summary.packages, 'package')}, {_count(summary.files, 'file')}"
-    if not any(result.diagnostics for result in results):
-        return f"{checked}: no findings"
-    found = [
-        _count(number, noun)
-        for number, noun in (
-            (summary.errors, "error"),
-            (summary.warnings, "warning"),
-            (summary.infos, "info"),
-        )
-        if number
-    ]
-    return f"{checked}: {', '.join(found)}{_fixable(results, unsafe=unsafe)}"
+def worst_first(
+    results: Sequence[Result], options: ReportOptions
+) -> Iterator[tuple[Package, Diagnostic]]:
+    """Yield the findings that are to be shown: errors, then warnings, then advice."""
+    for severity in SEVERITIES[: SEVERITIES.index(options.severity) + 1]:
+        for result in results:
+            for one in result.diagnostics:
+                if one.severity is severity:
+                    yield result.package, one
 
 
-def _fixable(results: Sequence[Result], *, unsafe: bool) -> str:
-    """Say how many fixes there are, and which flags apply them."""
-    fixes = [d.fix for result in results for d in result.diagnostics if d.fix is not None]
-    careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
-    others = len(fixes) - careful
-    parts = [f"{careful} fixable with --fix"] if careful else []
-    if others:
-        what = "more" if careful else "fixable"
-        parts.append(f"{others} {what} with --fix --unsafe-fixes")
-    return f"; {', '.join(parts)}" if parts else ""
+def line(package: Package, one: Diagnostic) -> str:
+    """Return the line of a finding: ``path:line:column: severity code message [name]``."""
+    head = f"{place(package, one)}: {one.severity.value} {one.code}"
+    return f"{head} {printable(one.message)} [{one.name}]"
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+def place(package: Package, one: Diagnostic) -> str:
+    """Return ``path:line:column``, as terminals and editors follow it."""
+    at = one.location
+    return f"{printable(shown(package, at.path))}:{at.line}:{at.column}"
 
 
-def _painter(out: TextIO) -> Callable[[str, str], str]:
-    """Return a function that wraps text in a color when a terminal shows it."""
-    if out.isatty() and not os.environ.get("NO_COLOR"):
-        return lambda text, color: f"\033[{color}m{text}\033[0m"
-    return lambda text, color: text  # noqa: ARG005  same shape as the other
+def _statistics(results: Sequence[Result], out: TextIO) -> None:
+    """Write how often each code is reported, the most frequent first."""
+    found = [one for result in results for one in result.diagnostics]
+    numbers = Counter((one.code, one.name, one.severity) for one in found)
+    fixable = {one.code for one in found if one.fix is not None}
+    width = len(str(max(numbers.values(), default=0)))
+    for (code, name, severity), number in numbers.most_common():
+        mark = "[*]" if code in fixable else "[ ]"
+        out.write(f"{number:>{width}}  {severity.value:<7}  {code:<6} {mark} {name}\n")
+    if fixable:
+        out.write("[*] some or all of these can be fixed with --fix, perhaps --unsafe-fixes\n")

@@ -160,7 +160,7 @@ class Needs:
 
 def _encode(one: Diagnostic) -> tuple[Any, ...]:
     fix = _encode_fix(one.fix) if one.fix else None
-    return one.code, one.name, one.severity.value, tuple(one.location), one.message, fix
+    return one.code, one.name, one.severity.value, tuple(one.location), one.message, fix, one.cause
 
 
 def _encode_fix(fix: Fix) -> tuple[Any, ...]:
@@ -169,9 +169,9 @@ def _encode_fix(fix: Fix) -> tuple[Any, ...]:
 
 
 def _decode(stored: tuple[Any, ...]) -> Diagnostic:
-    code, name, severity, location, message, fix = stored
+    code, name, severity, location, message, fix, cause = stored
     made = _decode_fix(*fix) if fix else None
-    return Diagnostic(code, name, Severity(severity), Location(*location), message, made)
+    return Diagnostic(code, name, Severity(severity), Location(*location), message, made, cause)
 
 
 def _decode_fix(title: str, changes: Sequence[tuple[Any, ...]], safety: str) -> Fix:

@@ -29,16 +29,21 @@ MAX_BYTES = 50_000_000
 """Of one run; 800 packages with 30,000 findings take 18 MB."""
 ENVIRONMENT = (
     "AMENT_PREFIX_PATH",
+    "COLORTERM",
+    "COLUMNS",
+    "FORCE_COLOR",
     "HOME",
+    "LINES",
     "NO_COLOR",
     "PATH",
     "PYTHONPATH",
     "ROS_HOME",
+    "TERM",
     "XDG_CONFIG_HOME",
 )
 """The variables that a verdict, or how it is shown, depends on."""
 
-_MAGIC = b"scaffold-run-2\n"
+_MAGIC = b"scaffold-run-3\n"
 
 
 class Run:
@@ -100,7 +105,7 @@ class Slot:
     def __init__(self, kept: str, words: Sequence[str]) -> None:
         where = os.getcwd()
         variables = [os.environ.get(name) for name in ENVIRONMENT]
-        key = marshal.dumps((list(words), where, variables, sys.stdout.isatty()))
+        key = marshal.dumps((list(words), where, variables, _screen()))
         self._path = os.path.join(kept, digest(key))
         self._head = _MAGIC + tool().encode()
         data = cache.read_sealed(self._path, self._head)
@@ -124,6 +129,15 @@ class Slot:
         data = marshal.dumps(everything)
         if len(data) <= MAX_BYTES and cache.write_sealed(self._path, self._head, data):
             cache.trim(os.path.dirname(self._path), MAX_RUNS)
+
+
+def _screen() -> tuple[int, int] | None:
+    """Return columns and lines of the terminal that is written to, ``None`` if it is none."""
+    try:
+        columns, lines = os.get_terminal_size(sys.stdout.fileno())
+    except (OSError, ValueError):
+        return None
+    return columns, lines
 
 
 def tool() -> str:

@@ -1,0 +1,71 @@
+"""Findings as people read them: what has one cause is one entry, and what matters comes first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scaffold.ament.codes import STYLE
+from scaffold.check.session import Result
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+
+SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
+"""Worst first."""
+
+_LAST = ("PX", "CM020", "LY", "NM", "TS")
+"""What stops no build and no program by itself: declarations, files, names, tests."""
+_LATER = ("CM", *_LAST)
+"""What does not crash a program that runs."""
+
+
+class Entry(NamedTuple):
+    """Findings in one package that have one cause; one edit may end them all.
+
+    Attributes:
+        package: Where they are.
+        places: The findings, the worst first, then in reading order; there is at least one.
+    """
+
+    package: Package
+    places: tuple[Diagnostic, ...]
+
+    @property
+    def first(self) -> Diagnostic:
+        """The finding whose message is shown."""
+        return self.places[0]
+
+    @property
+    def severity(self) -> Severity:
+        """That of the worst of them."""
+        return self.first.severity
+
+
+def by_cause(result: Result) -> list[Entry]:
+    """Return the findings of a package as entries.
+
+    Findings have one cause if their rules say so, or if they read the same.
+    """
+    causes: dict[tuple[str, ...], list[Diagnostic]] = {}
+    for one in result.diagnostics:
+        key = (one.cause,) if one.cause else (one.code, one.message, one.severity.value)
+        causes.setdefault(key, []).append(one)
+    return [
+        Entry(result.package, tuple(sorted(places, key=lambda one: SEVERITIES.index(one.severity))))
+        for places in causes.values()
+    ]
+
+
+def in_order(entries: Sequence[Entry]) -> list[Entry]:
+    """Return entries by severity; of one severity, what crashes or builds wrong comes first."""
+    return sorted(entries, key=_rank)
+
+
+def is_style(diagnostic: Diagnostic) -> bool:
+    """Tell whether a finding is one of ament_flake8 or ament_pep257 that breaks nothing."""
+    return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
+
+
+def _rank(entry: Entry) -> tuple[int, bool, bool]:
+    code = entry.first.code
+    return SEVERITIES.index(entry.severity), code.startswith(_LAST), code.startswith(_LATER)

@@ -1,0 +1,216 @@
+"""The report on a terminal: what breaks first, once for each cause, and no more than a screen."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from textwrap import shorten
+from typing import TextIO
+
+from rich.console import Console
+from rich.text import Text
+
+from scaffold.ament.use import linter_use
+from scaffold.check.session import Result
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.printable import printable
+from scaffold.record import NamedTuple
+from scaffold.reporters import ReportOptions
+from scaffold.reporters.entries import SEVERITIES, Entry, by_cause, in_order, is_style
+from scaffold.reporters.excerpt import excerpt
+from scaffold.reporters.summary import by_severity, count, summary
+from scaffold.reporters.text import place
+
+_COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
+_MAX_PLACES = 3
+"""Further places of an entry that are named; the others are counted."""
+MAX_MESSAGE = 300
+"""Characters of a message; what it lists at its end can be longer than the screen."""
+_MAX_NAMED = 4
+"""Packages or codes that are named where things are counted."""
+_MIN_LINES = 12
+"""For findings, on the smallest of terminals."""
+
+
+class _Folded(NamedTuple):
+    """Style findings that are counted instead of shown, by the directory of their package."""
+
+    results: Sequence[Result]
+    """Of the packages that have any, with these findings only."""
+
+    @property
+    def all(self) -> list[Diagnostic]:
+        return [one for result in self.results for one in result.diagnostics]
+
+
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
+    """Write to a terminal.
+
+    Style findings are counted in one line while there are errors, and always for a package that
+    does not run that linter itself. What is left out keeps its part in the exit code.
+    """
+    console = Console(file=out, highlight=False, soft_wrap=True)
+    folded = _fold(results, options)
+    hidden = {id(result.package): set(result.diagnostics) for result in folded.results}
+    kept = [_without(result, hidden.get(id(result.package), set())) for result in results]
+    entries = in_order(
+        [
+            entry
+            for result in kept
+            for entry in by_cause(result)
+            if SEVERITIES.index(entry.severity) <= SEVERITIES.index(options.severity)
+        ]
+    )
+    footer = [] if options.quiet else _footer(results, folded, options)
+    blocks = _blocks(entries, options)
+    room = len(blocks)
+    if not options.everything:
+        room = _room(blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width)
+    for block in blocks[:room]:
+        console.print(block)
+    if room < len(blocks) and not options.quiet:
+        footer = [*_left_out(entries[room:]), *footer]
+    if blocks and footer:
+        console.print()
+    for text in footer:
+        console.print(text)
+
+
+def _without(result: Result, hidden: set[Diagnostic]) -> Result:
+    kept = [one for one in result.diagnostics if one not in hidden]
+    return Result(result.package, result.files, kept)
+
+
+def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
+    if options.style:
+        return _Folded(())
+    has_errors = any(
+        one.severity is Severity.ERROR for result in results for one in result.diagnostics
+    )
+    found = [
+        Result(
+            result.package,
+            result.files,
+            [
+                one
+                for one in result.diagnostics
+                if is_style(one) and (has_errors or not _runs(result, one))
+            ],
+        )
+        for result in results
+    ]
+    return _Folded([result for result in found if result.diagnostics])
+
+
+def _runs(result: Result, one: Diagnostic) -> bool:
+    """Tell whether a test of the package itself would report a style finding."""
+    linter = "pep257" if one.code.startswith("D") else "flake8"
+    return linter_use(result.package, linter).covers(one.location.path)
+
+
+def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
+    """Return what is written for each entry: some lines, the name of the package above them."""
+    blocks: list[Text] = []
+    package = None
+    for entry in entries:
+        lines: list[Text] = []
+        if entry.package is not package:
+            package = entry.package
+            lines += [Text(), Text(printable(package.name), style="bold underline")]
+        lines += _lines(entry, options)
+        blocks.append(Text("\n").join(lines))
+    if blocks:
+        blocks[0] = blocks[0][1:]  # no empty line above the first package
+    return blocks
+
+
+def _lines(entry: Entry, options: ReportOptions) -> list[Text]:
+    first = entry.first
+    message = printable(first.message)
+    if not options.everything:
+        message = shorten(message, MAX_MESSAGE, placeholder=" …")
+    lines = [
+        Text.assemble(
+            (place(entry.package, first), "cyan"),
+            ": ",
+            (first.severity.value, _COLORS[first.severity]),
+            " ",
+            (first.code, "bold"),
+            f" {message} ",
+            (f"[{first.name}]", "dim"),
+        )
+    ]
+    if options.source is not False:
+        for text, style in zip(excerpt(entry.package, first.location), ("", "red"), strict=False):
+            lines.append(Text(f"    {text}", style=style))
+    if len(entry.places) > 1:
+        lines.append(_further(entry))
+    return lines
+
+
+def _further(entry: Entry) -> Text:
+    first, *others = entry.places
+    named = [
+        place(entry.package, one) + (f" ({one.code})" if one.code != first.code else "")
+        for one in others[:_MAX_PLACES]
+    ]
+    rest = len(others) - len(named)
+    more = f" and {count(rest, 'more place')}" if rest else ""
+    return Text(f"    also at {', '.join(named)}{more}", style="dim")
+
+
+def _room(blocks: Sequence[Text], height: int, width: int) -> int:
+    """Return how many blocks fit on the screen; at least one."""
+    used = 0
+    for at, block in enumerate(blocks):
+        used += sum(max(1, -(-len(one) // width)) for one in block.plain.split("\n"))
+        if used > height:
+            return max(1, at)
+    return len(blocks)
+
+
+def _left_out(entries: Sequence[Entry]) -> list[Text]:
+    """Return what does not fit on the screen, by code and by package, and how to see it."""
+    found = [one for entry in entries for one in entry.places]
+    codes = Counter(one.code for one in found)
+    names = Counter(printable(entry.package.name) for entry in entries for _ in entry.places)
+    return [
+        Text(f"not shown: {by_severity(found)}; --all shows them", style="bold"),
+        Text(f"    by code: {_named(codes)}", style="dim"),
+        Text(f"    by package: {_named(names)}", style="dim"),
+    ]
+
+
+def _named(numbers: Counter[str]) -> str:
+    """Return ``PX020 12, CM014 3 and 2 others``."""
+    common = [f"{name} {number:,}" for name, number in numbers.most_common(_MAX_NAMED)]
+    rest = len(numbers) - len(common)
+    return ", ".join(common) + (f" and {count(rest, 'other')}" if rest else "")
+
+
+def _footer(results: Sequence[Result], folded: _Folded, options: ReportOptions) -> list[Text]:
+    lines = [_style_line(result) for result in folded.results]
+    if len(lines) > _MAX_NAMED:
+        style = folded.all
+        lines = [
+            Text.assemble(
+                ("style: ", "bold"),
+                f"{count(len(style), 'finding')} in {count(len(folded.results), 'package')}, ",
+                _fixable(style),
+            )
+        ]
+    return [*lines, Text(summary(results, unsafe=options.unsafe), style="bold")]
+
+
+def _style_line(result: Result) -> Text:
+    found = result.diagnostics
+    return Text.assemble(
+        (f"{printable(result.package.name)}: ", "bold"),
+        f"{count(len(found), 'style finding')}, ",
+        _fixable(found),
+    )
+
+
+def _fixable(found: Iterable[Diagnostic]) -> str:
+    number = sum(one.fix is not None for one in found)
+    return f"{number:,} fixable with --fix; --style shows them"

@@ -1,0 +1,49 @@
+"""The last lines of a report for people: how much was found, and what can be done about it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from scaffold.check.session import Result, Summary
+from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Safety
+from scaffold.reporters.entries import SEVERITIES
+
+
+def summary(results: Sequence[Result], *, unsafe: bool) -> str:
+    """Return one line: what was checked, what was found, and what can be fixed.
+
+    Args:
+        results: Of all packages.
+        unsafe: Whether unsafe fixes are counted with the others.
+    """
+    total = Summary.of(results)
+    checked = f"{count(total.packages, 'package')}, {count(total.files, 'file')}"
+    found = [one for result in results for one in result.diagnostics]
+    if not found:
+        return f"{checked}: no findings"
+    return f"{checked}: {by_severity(found)}{_fixable(found, unsafe=unsafe)}"
+
+
+def by_severity(found: Iterable[Diagnostic]) -> str:
+    """Return ``2 errors, 1 warning``."""
+    numbers = Counter(one.severity for one in found)
+    return ", ".join(count(numbers[one], one.value) for one in SEVERITIES if numbers[one])
+
+
+def count(number: int, noun: str) -> str:
+    """Return ``1 error``, ``1,200 errors``."""
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
+def _fixable(found: Iterable[Diagnostic], *, unsafe: bool) -> str:
+    """Say how many fixes there are, and which flags apply them."""
+    fixes = [one.fix for one in found if one.fix is not None]
+    careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
+    others = len(fixes) - careful
+    parts = [f"{careful:,} fixable with --fix"] if careful else []
+    if others:
+        what = "more" if careful else "fixable"
+        parts.append(f"{others:,} {what} with --fix --unsafe-fixes")
+    return f"; {', '.join(parts)}" if parts else ""

@@ -1,0 +1,181 @@
+"""The report for people: in a file every finding has its line, a terminal shows what matters."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+
+pexpect = pytest.importorskip("pexpect")
+
+_NODE = '''"""A node."""
+
+import rclpy
+from rclpy.node import Node
+
+
+class Talker(Node):
+    """Talks."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.get_logger().warn_throttle(1, "late")
+
+
+def main():
+    """Run the node."""
+    with rclpy.init(), Talker() as node:
+        rclpy.spin(node)
+'''
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a directory with a clean package that gets a faulty node with double quotes."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert main(["new", "robot", "--topic", "chatter"]) == 0
+    (tmp_path / "robot" / "robot" / "faulty.py").write_text(_NODE)
+    return tmp_path
+
+
+def check(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, list[str]]:
+    """Return the exit code and the lines of a check whose output is not a terminal."""
+    capsys.readouterr()
+    code = main(["check", *arguments])
+    return code, capsys.readouterr().out.splitlines()
+
+
+def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int, list[str]]:
+    """Return the exit code and the lines that a terminal shows."""
+    child = pexpect.spawn(
+        os.path.join(os.path.dirname(sys.executable), "ros2-scaffold"),
+        ["check", *arguments],
+        cwd=str(directory),
+        dimensions=(lines, 120),
+        encoding="utf-8",
+        timeout=300,
+        env={**os.environ, "TERM": "xterm-256color"},
+    )
+    shown = child.read()
+    child.close()
+    plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\r[^\n]*(?=\r)", "", shown)
+    return int(child.exitstatus or 0), [line.strip("\r") for line in plain.splitlines()]
+
+
+def findings(lines: list[str]) -> list[str]:
+    """Return the lines that begin an entry."""
+    return [line for line in lines if re.match(r"\S+:\d+:\d+: (error|warning|info) ", line)]
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_file_gets_every_finding_in_a_line_of_its_own_errors_first(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    code, lines = check(capsys, "robot")
+    levels = [line.split()[1] for line in findings(lines)]
+    assert code == 1
+    assert levels == sorted(levels, key=("error", "warning", "info").index)
+    assert levels[0] == "error"
+    assert levels.count("warning") >= 2
+    assert len(findings(lines)) == len(lines) - 1
+
+
+def test_a_terminal_counts_style_while_there_are_errors(workspace: Path) -> None:
+    code, lines = on_terminal(workspace, "robot")
+    assert code == 1
+    assert not [line for line in findings(lines) if " Q000 " in line]
+    assert any(re.match(r"robot: \d+ style findings, \d+ fixable with --fix", one) for one in lines)
+    assert lines[-1].startswith("1 package, ")
+    _, shown = on_terminal(workspace, "--style", "robot", lines=200)
+    assert [line for line in findings(shown) if " Q000 " in line]
+
+
+def test_a_terminal_shows_the_source_line_with_a_mark(workspace: Path) -> None:
+    _, lines = on_terminal(workspace, "robot")
+    at = next(at for at, line in enumerate(lines) if "warn_throttle'" in line)
+    assert lines[at + 1].endswith('self.get_logger().warn_throttle(1, "late")')
+    mark = lines[at + 2]
+    assert set(mark.partition("|")[2].strip()) == {"^"}
+    assert lines[at + 1][mark.index("^") : mark.rindex("^") + 1] in lines[at + 1]
+
+
+def test_findings_with_one_cause_are_one_entry(workspace: Path) -> None:
+    for number in range(6):
+        (workspace / "robot" / "robot" / f"other_{number}.py").write_text(_NODE)
+    _, lines = on_terminal(workspace, "robot", lines=60)
+    (entry,) = [at for at, line in enumerate(lines) if "warn_throttle'" in line]
+    further = next(line for line in lines[entry:] if line.startswith("    also at "))
+    assert further.endswith("and 3 more places")
+
+
+@pytest.fixture
+def crowded(workspace: Path) -> Path:
+    """Return a workspace with more errors than a small terminal has lines."""
+    names = "\n".join(f"        self.get_logger().warn_{number}(1)" for number in range(40))
+    node = _NODE.replace('        self.get_logger().warn_throttle(1, "late")', names)
+    (workspace / "robot" / "robot" / "faulty.py").write_text(node)
+    return workspace
+
+
+def test_a_terminal_shows_one_screen_and_says_what_is_left_out(crowded: Path) -> None:
+    _, lines = on_terminal(crowded, "robot", lines=30)
+    assert len(lines) <= 30
+    assert any(re.match(r"not shown: \d+ errors.*; --all shows them", line) for line in lines)
+    assert any(re.match(r"    by code: ND047 \d+", line) for line in lines)
+    assert any(re.match(r"    by package: robot \d+", line) for line in lines)
+    _, everything = on_terminal(crowded, "--all", "robot", lines=30)
+    assert len([line for line in findings(everything) if " ND047 " in line]) == 40
+
+
+def test_another_size_of_the_terminal_is_another_report(crowded: Path) -> None:
+    _, small = on_terminal(crowded, "robot", lines=30)
+    _, large = on_terminal(crowded, "robot", lines=90)
+    assert len(findings(small)) < len(findings(large))
+
+
+@pytest.mark.usefixtures("workspace")
+def test_statistics_count_codes(capsys: pytest.CaptureFixture[str]) -> None:
+    _, all_lines = check(capsys, "robot")
+    code, lines = check(capsys, "--statistics", "robot")
+    assert code == 1
+    rows = [re.match(r" *(\d+)  (\S+) +(\S+) +\[[* ]\] \S+$", line) for line in lines]
+    numbers = {row[3]: int(row[1]) for row in rows if row}
+    assert sum(numbers.values()) == len(findings(all_lines))
+    assert numbers["Q000"] > 1
+    assert list(numbers.values()) == sorted(numbers.values(), reverse=True)
+
+
+@pytest.mark.usefixtures("workspace")
+def test_severity_hides_but_counts(capsys: pytest.CaptureFixture[str]) -> None:
+    _, lines = check(capsys, "--severity", "error", "robot")
+    assert {line.split()[1] for line in findings(lines)} == {"error"}
+    assert re.search(r"\d+ warnings", lines[-1])
+    code, lines = check(capsys, "--severity", "error", "--ignore", "ND,MS,LY", "robot")
+    assert (code, findings(lines)) == (1, [])
+
+
+@pytest.mark.usefixtures("workspace")
+def test_quiet_leaves_out_the_summary(capsys: pytest.CaptureFixture[str]) -> None:
+    _, lines = check(capsys, "--quiet", "robot")
+    assert lines == findings(lines) != []
+
+
+@pytest.mark.usefixtures("workspace")
+def test_exit_zero(capsys: pytest.CaptureFixture[str]) -> None:
+    code, lines = check(capsys, "--exit-zero", "robot")
+    assert (code, bool(findings(lines))) == (0, True)
+
+
+@pytest.mark.usefixtures("workspace")
+def test_source_lines_in_a_file_on_request(capsys: pytest.CaptureFixture[str]) -> None:
+    _, lines = check(capsys, "--show-source", "robot")
+    assert any(line.endswith('self.get_logger().warn_throttle(1, "late")') for line in lines)
