@@ -60,14 +60,22 @@ def page(rule: type[Rule]) -> str:
 
 def style_page(style: AmentCode) -> str:
     """Return the documentation of a code of flake8 or pydocstyle as Markdown."""
+    facts = f"Severity: {style.severity.value} · reported by {' and '.join(linters(style))}"
+    facts += _FIXED_WITH.get(style.fix, "")
+    return f"# {style.code} {style.name}\n\n{facts}\n\n{style_text(style)}\n"
+
+
+def style_text(style: AmentCode) -> str:
+    """Return what a code of flake8 or pydocstyle is about and who defines it, as Markdown."""
+    text = style.summary[0].upper() + style.summary[1:]
+    return f"{text}.\n\n**Source.** {_PLUGINS[style.code[0]]}, as {linters(style)[0]} runs it."
+
+
+def linters(row: AmentCode) -> tuple[str, ...]:
+    """Return the names of the linters of ament that report a code."""
     from scaffold.ament.codes import LINTERS
 
-    names = [name for flag, name in LINTERS.items() if style.linters & flag]
-    facts = f"Severity: {style.severity.value} · reported by {' and '.join(names)}"
-    facts += _FIXED_WITH.get(style.fix, "")
-    text = style.summary[0].upper() + style.summary[1:]
-    source = f"**Source.** {_PLUGINS[style.code[0]]}, as {names[0]} runs it."
-    return f"# {style.code} {style.name}\n\n{facts}\n\n{text}.\n\n{source}\n"
+    return tuple(name for flag, name in LINTERS.items() if row.linters & flag)
 
 
 def as_data(rule: type[Rule]) -> dict[str, object]:

@@ -11,6 +11,7 @@ from types import CodeType, ModuleType
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.cache import rule_bytecode
 from scaffold.check.rule import Rule
+from scaffold.configuration import content
 from scaffold.errors import ContentError
 from scaffold.files.disk import digest
 
@@ -102,3 +103,22 @@ def _load_file(prefix: str, area: str, path: str, code: CodeType) -> type[Rule]:
     if rule.name.replace("-", "_") != stem:
         raise ContentError(f"{path}: holds the rule {rule.name!r}; file and rule share one name")
     return rule
+
+
+def loaded() -> dict[str, type[Rule]]:
+    """Return the rules that this process has loaded, those of the engine included, by code."""
+    found: dict[str, type[Rule]] = {}
+    pending: list[type[Rule]] = [Rule]
+    for kind in pending:
+        pending += kind.__subclasses__()
+        if hasattr(kind, "code"):
+            found[kind.code] = kind
+    return found
+
+
+def is_built_in(rule: type[Rule]) -> bool:
+    """Tell whether a rule comes with this tool."""
+    file = sys.modules[rule.__module__].__file__ or ""
+    return rule.__module__.startswith("scaffold.") or file.startswith(
+        os.path.join(content.built_in(), "rules", "")
+    )

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
-from io import StringIO
 from typing import TYPE_CHECKING
 
 from scaffold.cli import terminal
@@ -23,8 +21,6 @@ if TYPE_CHECKING:
     from scaffold.reporters import ReportOptions
     from scaffold.writing.plan import WritePlan
 
-FORMATS = ("text", "json")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
@@ -35,7 +31,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         help="a package, a workspace or a single file (default: the current directory)",
     )
-    parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
+    from scaffold.reporters import NAMES
+
+    parser.add_argument("--format", choices=NAMES, default="text", help="output format")
+    parser.add_argument(
+        "--output-file", metavar="FILE", help="write the report into a file instead"
+    )
     parser.add_argument(
         "--select",
         action="append",
@@ -103,16 +104,17 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
-    from scaffold import reporters
     from scaffold.check import registry
     from scaffold.check.cache.results import Memory
     from scaffold.check.session import Session
+    from scaffold.cli import reports
     from scaffold.cli.interactive import progress
     from scaffold.cli.settings import warn
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
     from scaffold.model.discovery import targets as discovery
 
+    reports.validate(options)
     disk = Disk()
     settings = config.load(content=tuple(options.content), disk=disk)
     warn(settings.warnings)
@@ -129,12 +131,10 @@ def run(options: argparse.Namespace) -> int:
     slot = None if settings.content or is_unfinished else getattr(options, "slot", None)
     memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
-    output = _Copy()
-    reporters.get(options.format)(results, output, _report_options(options))
-    terminal.write_report(output.getvalue())
+    output = reports.write(options, results, _report_options(options))
     code = exit_code(results, is_zero=options.exit_zero)
     if slot is not None:
-        memory.save(slot, disk, results, code, output.getvalue(), settings.warnings)
+        memory.save(slot, disk, results, code, output, settings.warnings)
     return code
 
 
@@ -151,14 +151,6 @@ def _report_options(options: argparse.Namespace) -> ReportOptions:
         statistics=options.statistics,
         quiet=options.quiet,
     )
-
-
-class _Copy(StringIO):
-    """What is written to standard output, and may be again."""
-
-    def isatty(self) -> bool:
-        """Tell whether colors are seen."""
-        return sys.stdout.isatty()
 
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
@@ -290,8 +282,8 @@ def _patch(plans: Sequence[WritePlan]) -> str:
 def _report_fixes(
     options: argparse.Namespace, results: list[Result], fixed: Sequence[Fixed]
 ) -> int:
-    from scaffold import reporters
     from scaffold.check.fixes.fixer import MAX_ROUNDS
+    from scaffold.cli import reports
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(one.applied for one in fixed)
@@ -304,9 +296,7 @@ def _report_fixes(
         )
     if options.diff:
         return FINDINGS if count else CLEAN
-    output = _Copy()
-    reporters.get(options.format)(results, output, _report_options(options))
-    terminal.write_report(output.getvalue())
+    reports.write(options, results, _report_options(options))
     return exit_code(results, is_zero=options.exit_zero)
 
 

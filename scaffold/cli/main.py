@@ -73,7 +73,7 @@ def _run(given: list[str]) -> int:
         # Before argparse: laying out the flags takes longer than looking at a small package.
         for warning in last.warnings:
             terminal.warn(warning)
-        terminal.write_report(last.output)
+        terminal.write_report(last.output or "")
         return last.code
     from importlib import import_module
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Protocol, TextIO, cast
+from typing import TYPE_CHECKING, Protocol, TextIO, cast
 
-from scaffold.check.session import Result
 from scaffold.diagnostic import Severity
 from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.check.session import Result
 
 
 class ReportOptions(NamedTuple):
@@ -43,7 +45,7 @@ class Reporter(Protocol):
         """
 
 
-NAMES = ("text", "json")
+NAMES = ("text", "json", "sarif", "github", "gitlab", "junit")
 """A reporter is a module of this package, of that name, with a function ``report``."""
 
 

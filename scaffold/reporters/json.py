@@ -2,38 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TextIO
 
 from scaffold.check.session import Result, Summary
 from scaffold.diagnostic import Diagnostic
+from scaffold.edits import Fix
+from scaffold.model.package import Package
 from scaffold.printable import json_text
-from scaffold.reporters import ReportOptions
+from scaffold.reporters import ReportOptions, rule_pages
+from scaffold.reporters.fixes import Repetitions, placed
 from scaffold.reporters.paths import shown
+from scaffold.source import Location
+
+SCHEMA_VERSION = 1
+"""Counts up when a field changes its meaning or goes; a new field does not count."""
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
-    """Write ``{"diagnostics": [...], "summary": {...}}``."""
-    diagnostics = [
-        _as_data(diagnostic, shown(result.package, diagnostic.location.path))
-        for result in results
-        for diagnostic in result.diagnostics
-    ]
+    """Write ``{"schema_version": 1, "diagnostics": [...], "summary": {...}}``."""
     summary = Summary.of(results)._asdict()
-    out.write(json_text({"diagnostics": diagnostics, "summary": summary}) + "\n")
+    data = {
+        "schema_version": SCHEMA_VERSION,
+        "diagnostics": [*_diagnostics(results)],
+        "summary": summary,
+    }
+    out.write(json_text(data) + "\n")
+
+
+def _diagnostics(results: Sequence[Result]) -> Iterator[dict[str, object]]:
+    pages = rule_pages.of(one.code for result in results for one in result.diagnostics)
+    number = 0
+    for result in results:
+        repetitions = Repetitions()
+        for diagnostic in result.diagnostics:
+            data = _as_data(diagnostic, shown(result.package, diagnostic.location.path))
+            data["cause"] = diagnostic.cause or None
+            data["url"] = pages[diagnostic.code].url
+            fix = diagnostic.fix
+            first = number if fix is None else repetitions.first(fix, number)
+            data["fix"] = None if fix is None else _fix(result.package, fix, first, number)
+            yield data
+            number += 1
 
 
 def _as_data(diagnostic: Diagnostic, path: str) -> dict[str, object]:
-    at = diagnostic.location
     return {
         "code": diagnostic.code,
         "name": diagnostic.name,
         "severity": diagnostic.severity.value,
         "path": path,
+        **_place(diagnostic.location),
+        "message": diagnostic.message,
+        "fixable": diagnostic.fix is not None,
+    }
+
+
+def _place(at: Location) -> dict[str, int]:
+    return {
         "line": at.line,
         "column": at.column,
         "end_line": at.end_line,
         "end_column": at.end_column,
-        "message": diagnostic.message,
-        "fixable": diagnostic.fix is not None,
+    }
+
+
+def _fix(package: Package, fix: Fix, first: int, number: int) -> dict[str, object] | None:
+    head = {"title": fix.title, "safety": fix.safety.value}
+    if first != number:
+        return {**head, "same_as": first}
+    changes = placed(package, fix)
+    if changes is None:
+        return None
+    return {
+        **head,
+        "edits": [
+            {"path": shown(package, place.path), **_place(place), "text": text}
+            for place, text in changes.replacements
+        ],
+        "creates": [{"path": shown(package, path), "text": text} for path, text in changes.created],
+        "makes_executable": [shown(package, path) for path in changes.executable],
+        "removes": [shown(package, path) for path in changes.removed],
     }

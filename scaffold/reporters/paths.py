@@ -1,4 +1,4 @@
-"""Paths as a user would type them."""
+"""Paths as a user would type them, and as services know them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,38 @@ def shown(package: Package, path: str) -> str:
     return package.remember(("shown", path), lambda: _shown(package, path))
 
 
+def in_repository(package: Package, path: str) -> str:
+    """Return the path of a file of a package relative to the top of its repository, links resolved.
+
+    The repository is the one around the current directory if the file is in it, else the one around
+    the file. A file in no repository is relative to the current directory, like `shown`.
+    """
+    return package.remember(("in repository", path), lambda: _in_repository(package, path))
+
+
 def _shown(package: Package, path: str) -> str:
     joined = os.path.normpath(os.path.join(package.directory, path))
     if not os.path.isabs(joined):
         return joined
     relative = os.path.relpath(joined)
     return joined if relative.startswith(os.pardir) else relative
+
+
+def _in_repository(package: Package, path: str) -> str:
+    real = os.path.realpath(os.path.join(package.directory, path))
+    here = os.path.realpath(os.curdir)
+    for start in (here, os.path.dirname(real)):
+        top = _repository_around(package, start)
+        if top is not None and real.startswith(os.path.join(top, "")):
+            return os.path.relpath(real, top).replace(os.sep, "/")
+    return shown(package, path)
+
+
+def _repository_around(package: Package, directory: str) -> str | None:
+    disk = package.outside  # a remembered report is shown again while the disk gives these answers
+    while not disk.exists(os.path.join(directory, ".git")):
+        parent = os.path.dirname(directory)
+        if parent == directory:
+            return None
+        directory = parent
+    return directory

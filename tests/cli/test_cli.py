@@ -92,6 +92,25 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
         "end_column": 17,
         "message": "the project is 'listener', the package 'talker' (package.xml, line 4)",
         "fixable": True,
+        "cause": None,
+        "url": None,
+        "fix": {
+            "title": "name the project talker",
+            "safety": "safe",
+            "edits": [
+                {
+                    "path": "talker/CMakeLists.txt",
+                    "line": 2,
+                    "column": 9,
+                    "end_line": 2,
+                    "end_column": 17,
+                    "text": "talker",
+                }
+            ],
+            "creates": [],
+            "makes_executable": [],
+            "removes": [],
+        },
     }
     assert report["summary"] == {
         "packages": 1,

@@ -83,7 +83,7 @@ class Memory:
         disk: Disk,
         results: Sequence[Result],
         code: int,
-        output: str,
+        output: str | None,
         warnings: Sequence[str] = (),
     ) -> None:
         """Remember a complete run.
@@ -93,7 +93,7 @@ class Memory:
             disk: What was looked at outside of the packages.
             results: Of all packages, in their order.
             code: The exit code.
-            output: What was written.
+            output: What standard output got; ``None`` if something was written elsewhere, too.
             warnings: What of the configuration is ignored.
         """
         from scaffold.ament import ruff

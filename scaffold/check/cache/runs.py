@@ -54,7 +54,7 @@ class Run:
         trees: What was looked at in each package; ``None`` for one that is never remembered.
         results: What ``scaffold.check.cache.results`` wants to know of each package.
         code: The exit code.
-        output: What was written.
+        output: What standard output got; ``None`` if something was written elsewhere, too.
         warnings: What was written to standard error: what of the configuration is ignored.
     """
 
@@ -64,7 +64,7 @@ class Run:
         trees: Sequence[Seen | None],
         results: Sequence[tuple[Any, ...]],
         code: int,
-        output: str,
+        output: str | None,
         warnings: Sequence[str],
     ) -> None:
         self.outside = outside
@@ -76,7 +76,9 @@ class Run:
         self._asked: dict[int, bool] = {}
 
     def is_current(self) -> bool:
-        """Tell whether nothing has changed since."""
+        """Tell whether nothing has changed since, and the output is all there is to repeat."""
+        if self.output is None:
+            return False
         return self.is_same_outside() and all(map(self.is_same, range(len(self.trees))))
 
     def is_same_outside(self) -> bool:

@@ -1,0 +1,127 @@
+"""Where the report of a check goes: standard output or a file, and the summary of a job."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import suppress
+from io import StringIO
+from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
+from scaffold.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+    from scaffold.check.session import Result
+    from scaffold.reporters import ReportOptions
+
+JOB_SUMMARY = "GITHUB_STEP_SUMMARY"
+"""The variable with the file to which the steps of a job of GitHub add Markdown."""
+
+
+def validate(options: argparse.Namespace) -> None:
+    """Make sure that a report can be written, before the work is done.
+
+    Raises:
+        InputError: it cannot.
+    """
+    path = options.output_file
+    if path is None:
+        return
+    if options.diff:
+        raise InputError("--diff writes a patch to standard output: leave out --output-file")
+    if os.path.isdir(path):
+        raise InputError(f"--output-file {path}: is a directory; name a file")
+    directory = os.path.dirname(path)
+    if not os.path.isdir(directory or os.curdir):
+        raise InputError(f"--output-file {path}: there is no directory {directory!r}; create it")
+
+
+def write(
+    options: argparse.Namespace, results: Sequence[Result], shown: ReportOptions
+) -> str | None:
+    """Report results in the format and to the place that the user asked for.
+
+    Args:
+        options: The flags of `check`.
+        results: Of all packages, in the order to report them in.
+        shown: What of them the user wants to see.
+
+    Returns:
+        What standard output got; ``None`` where the same run would also write something else.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    from scaffold import reporters
+    from scaffold.reporters import summary
+
+    path = options.output_file
+    output = _Copy(is_terminal=path is None and sys.stdout.isatty())
+    reporters.get(options.format)(results, output, shown)
+    text = output.getvalue()
+    if options.format == "github":
+        _add_job_summary(results)
+    if path is None:
+        terminal.write_report(text)
+        return None if options.format == "github" else text
+    _write_file(path, text.encode("utf-8", "backslashreplace"))
+    if not shown.quiet:
+        terminal.say(f"{summary.summary(results, unsafe=shown.unsafe)}; the report is in {path}")
+    return None
+
+
+class _Copy(StringIO):
+    """What is written to standard output, and may be again."""
+
+    def __init__(self, *, is_terminal: bool) -> None:
+        super().__init__()
+        self._is_terminal = is_terminal
+
+    def isatty(self) -> bool:
+        """Tell whether colors are seen."""
+        return self._is_terminal
+
+
+def _add_job_summary(results: Sequence[Result]) -> None:
+    """Add to the summary of a job of GitHub, if this is one."""
+    from scaffold.reporters import github
+
+    path = os.environ.get(JOB_SUMMARY)
+    if not path:
+        return
+    try:
+        with open(path, "a", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(github.job_summary(results))
+    except OSError as error:
+        terminal.warn(f"the summary of the job is not written: {path}: {error.strerror}")
+
+
+def _write_file(path: str, content: bytes) -> None:
+    """Write aside and rename, so that nobody reads half a report; but straight to a device.
+
+    Raises:
+        InputError: the system refuses.
+    """
+    from scaffold.files import temporary
+    from scaffold.writing import new_files
+
+    target = os.path.realpath(path)
+    aside = os.path.join(os.path.dirname(target), temporary.name())
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as file:
+                file.write(content)
+            return
+        try:
+            new_files.write(aside, content, executable=False, like=target, is_durable=False)
+            os.replace(aside, target)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(aside)
+            raise
+    except OSError as error:
+        raise InputError(f"--output-file {path}: {error.strerror or error}") from error

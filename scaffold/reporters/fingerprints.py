@@ -1,0 +1,94 @@
+"""Fingerprints: what makes a finding the same after the lines around it have moved."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+from scaffold.reporters.paths import in_repository
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.model.package import Package
+
+_BLOCK = 100
+"""Characters that a line's hash covers, without spaces and tabs, from the start of the line."""
+_FACTOR = 37
+_END_OF_FILE = "\uffff"
+_NUMBERS = re.compile(r"\d+")
+
+
+class Fingerprints:
+    """Gives each finding of a report a fingerprint that no other one has.
+
+    It depends on the file, the code, the text of the line, and the message without its numbers:
+    these may be those of other lines. Findings that agree in all of it are counted.
+    """
+
+    def __init__(self) -> None:
+        self._counts: Counter[tuple[str, ...]] = Counter()
+
+    def of(self, package: Package, diagnostic: Diagnostic) -> str:
+        """Return the fingerprint of the next finding."""
+        at = diagnostic.location
+        lines = _text(package, at.path).split("\n")
+        line = lines[at.line - 1].strip() if at.line <= len(lines) else ""
+        message = _NUMBERS.sub("", diagnostic.message)
+        key = (in_repository(package, at.path), diagnostic.code, line, message)
+        self._counts[key] += 1
+        text = "\0".join([*key, str(self._counts[key])])
+        return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def line_hash(package: Package, path: str, line: int) -> str:
+    """Return the hash of a line as code scanning of GitHub computes it, so that both agree.
+
+    A polynomial over the characters from the start of the line, and how many earlier lines begin
+    with the same characters.
+    """
+    hashes = package.remember(("line hashes", path), lambda: _LineHashes(_text(package, path)))
+    return hashes.of(line)
+
+
+class _LineHashes:
+    def __init__(self, text: str) -> None:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        text = text.replace(" ", "").replace("\t", "")
+        if not text.isascii():
+            units = text.encode("utf-16-le", "surrogatepass")  # as JavaScript counts characters
+            text = "".join(map(chr, memoryview(units).cast("H")))
+        blocks: list[str] = []
+        start = 0
+        text += _END_OF_FILE + "\0" * _BLOCK
+        while True:
+            blocks.append(text[start : start + _BLOCK])
+            start = text.find("\n", start) + 1
+            if not start:
+                break
+        counts: Counter[str] = Counter()
+        self._blocks: list[tuple[str, int]] = []
+        for block in blocks:
+            counts[block] += 1
+            self._blocks.append((block, counts[block]))
+
+    def of(self, line: int) -> str:
+        block, count = self._blocks[min(line, len(self._blocks)) - 1]
+        value = 0
+        for character in block:
+            value = value * _FACTOR + ord(character)
+        return f"{value % 2**64:x}:{count}"
+
+
+def _text(package: Package, path: str) -> str:
+    """Return the text of a file, or of none."""
+
+    def read() -> str:
+        try:
+            return package.data(path).decode("utf-8", "replace")
+        except ViewError:
+            return ""
+
+    return package.remember(("text of lines", path), read)

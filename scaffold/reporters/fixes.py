@@ -1,0 +1,76 @@
+"""Fixes as places in files, for the programs that read a report."""
+
+from __future__ import annotations
+
+from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+from scaffold.source import Location, Source, ViewError
+
+MOST_REPEATED_EDITS = 50
+"""A fix of a whole file may belong to thousands of findings; a larger one is written once."""
+
+
+class Replacement(NamedTuple):
+    """A stretch of a file, and the text that takes its place."""
+
+    place: Location
+    text: str
+
+
+class PlacedFix(NamedTuple):
+    """What a fix changes; paths are relative to the package's root."""
+
+    replacements: tuple[Replacement, ...]
+    created: tuple[CreateFile, ...]
+    executable: tuple[str, ...]
+    removed: tuple[str, ...]
+
+
+def placed(package: Package, fix: Fix) -> PlacedFix | None:
+    """Return what a fix changes; ``None`` where a file can no longer be read.
+
+    Args:
+        package: What the fix was made for.
+        fix: The fix.
+    """
+    try:
+        replacements = tuple(
+            Replacement(_source(package, one.path).location(one.start, one.end), one.text)
+            for one in fix.changes
+            if isinstance(one, Edit)
+        )
+    except ViewError:
+        return None
+    return PlacedFix(
+        replacements,
+        tuple(one for one in fix.changes if isinstance(one, CreateFile)),
+        tuple(one.path for one in fix.changes if isinstance(one, MakeExecutable)),
+        tuple(one.path for one in fix.changes if isinstance(one, Remove)),
+    )
+
+
+class Repetitions:
+    """Which large fixes of a package have been written already, each with which finding."""
+
+    def __init__(self) -> None:
+        self._written: dict[Fix, int] = {}
+
+    def first(self, fix: Fix, number: int) -> int:
+        """Return the number of the finding that the fix is written with, this one if it is new."""
+        if len(fix.changes) <= MOST_REPEATED_EDITS:
+            return number
+        return self._written.setdefault(fix, number)
+
+
+def _source(package: Package, path: str) -> Source:
+    """Return the text that edits count in; a file in ASCII need not be parsed for it."""
+
+    def read() -> Source:
+        try:
+            source = package.source(path)
+        except ViewError:
+            return package.editable(path)
+        return source if source.text.isascii() else package.editable(path)
+
+    return package.remember(("text of edits", path), read)

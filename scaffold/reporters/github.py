@@ -1,0 +1,97 @@
+"""Annotations of a workflow of GitHub, and the summary of its job."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import TextIO
+
+from scaffold.check.session import Result
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.package import Package
+from scaffold.printable import printable
+from scaffold.reporters import ReportOptions
+from scaffold.reporters.entries import SEVERITIES, Entry, in_order
+from scaffold.reporters.paths import in_repository
+from scaffold.reporters.summary import summary
+
+_COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+_MOST_LISTED = 100
+"""Findings in a summary: it may have 1 MiB, and people read the first."""
+
+
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
+    """Write one workflow command per finding, errors first: GitHub shows the first ten of a step.
+
+    The place is in the message as well: the log of the step shows nothing else.
+    """
+    for package, one in _worst_first(results):
+        at = one.location
+        path = printable(in_repository(package, at.path))
+        properties = {
+            "file": path,
+            "line": at.line,
+            "endLine": at.end_line,
+            "col": at.column,
+            "endColumn": at.end_column,
+            "title": f"{one.code} {one.name}",
+        }
+        if at.line != at.end_line:
+            del properties["col"], properties["endColumn"]  # GitHub knows them for one line only
+        words = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
+        message = f"{path}:{at.line}:{at.column}: {one.code} {printable(one.message)}"
+        out.write(f"::{_COMMANDS[one.severity]} {words}::{_data(message)}\n")
+
+
+def job_summary(results: Sequence[Result]) -> str:
+    """Return the summary of a job as Markdown: errors first, then how often each code is found."""
+    findings = _worst_first(results)
+    lines = ["### ros2-scaffold check", "", summary(results, unsafe=False), ""]
+    if findings:
+        lines += _table(findings[:_MOST_LISTED])
+        if len(findings) > _MOST_LISTED:
+            lines += ["", f"The first {_MOST_LISTED} of {len(findings)} findings."]
+        lines += ["", *_counts([one for _, one in findings])]
+    return "\n".join(lines) + "\n"
+
+
+def _worst_first(results: Sequence[Result]) -> list[tuple[Package, Diagnostic]]:
+    findings = [Entry(result.package, (one,)) for result in results for one in result.diagnostics]
+    return [(one.package, one.first) for one in in_order(findings)]
+
+
+def _table(findings: Sequence[tuple[Package, Diagnostic]]) -> Iterator[str]:
+    yield "| severity | place | code | message |"
+    yield "|---|---|---|---|"
+    for package, one in findings:
+        place = f"{in_repository(package, one.location.path)}:{one.location.line}"
+        cells = (one.severity.value, _code(place), one.code, _cell(one.message))
+        yield f"| {' | '.join(cells)} |"
+
+
+def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
+    yield "| code | name | severity | findings |"
+    yield "|---|---|---|--:|"
+    counts = Counter((one.code, one.name, one.severity) for one in diagnostics)
+    for (code, name, severity), number in sorted(
+        counts.items(), key=lambda item: (SEVERITIES.index(item[0][2]), -item[1], item[0][0])
+    ):
+        yield f"| {code} | {name} | {severity.value} | {number} |"
+
+
+def _cell(text: str) -> str:
+    """Return text for a cell of a table: nothing of it is Markdown or HTML."""
+    escaped = "".join(f"\\{one}" if one in "\\`*_[]|~" else one for one in printable(text))
+    return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _code(text: str) -> str:
+    return f"`{printable(text)}`" if not {*"`|"} & {*text} else _cell(text)
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(value: object) -> str:
+    return _data(str(value)).replace(":", "%3A").replace(",", "%2C")

@@ -1,0 +1,76 @@
+"""JUnit, as ``colcon test-result`` and CI servers read it: a case per rule and file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TextIO
+from xml.etree import ElementTree as ET
+
+from scaffold.check.engine_rules import RuleCrashed
+from scaffold.check.session import Result
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.printable import printable
+from scaffold.reporters import ReportOptions
+from scaffold.reporters.paths import shown
+
+_TOOL = "ros2_scaffold"
+
+
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
+    """Write a suite per package; advice is no failure, as it is none of the exit code."""
+    root = ET.Element("testsuites", name=_TOOL)
+    for result in results:
+        root.append(_suite(result))
+    if not results:
+        root.append(_of_cases(_TOOL, [_case(_TOOL, "check", [])]))
+    for name in ("tests", "failures", "errors"):
+        root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
+    ET.indent(root)
+    out.write('<?xml version="1.0" encoding="UTF-8"?>\n')
+    out.write(ET.tostring(root, encoding="unicode") + "\n")
+
+
+def _suite(result: Result) -> ET.Element:
+    package = printable(result.package.identity.name)
+    by_case: dict[tuple[str, str, str], list[str]] = {}
+    for one in result.diagnostics:
+        at = one.location
+        path = printable(shown(result.package, at.path))
+        line = f"{path}:{at.line}:{at.column}: {one.code} {printable(one.message)}"
+        by_case.setdefault((f"{one.code} {path}", path, _outcome(one)), []).append(line)
+    cases = [
+        _case(package, name, lines, outcome, path)
+        for (name, path, outcome), lines in by_case.items()
+    ]
+    return _of_cases(package, cases or [_case(package, "check", [])])
+
+
+def _outcome(one: Diagnostic) -> str:
+    if one.code == RuleCrashed.code:
+        return "error"
+    return "system-out" if one.severity is Severity.INFO else "failure"
+
+
+def _case(
+    package: str, name: str, lines: Sequence[str], outcome: str = "", path: str = ""
+) -> ET.Element:
+    case = ET.Element("testcase", classname=f"{package}.{_TOOL}", name=name)
+    if path:
+        case.set("file", path)
+    if outcome:
+        text = "\n".join(lines)
+        child = ET.SubElement(case, outcome)
+        child.text = text
+        if outcome != "system-out":
+            child.set("message", text)
+    return case
+
+
+def _of_cases(name: str, cases: Sequence[ET.Element]) -> ET.Element:
+    suite = ET.Element("testsuite", name=name, tests=str(len(cases)))
+    suite.set("failures", str(sum(case.find("failure") is not None for case in cases)))
+    suite.set("errors", str(sum(case.find("error") is not None for case in cases)))
+    suite.set("skipped", "0")
+    suite.set("time", "0")
+    suite.extend(cases)
+    return suite

@@ -1,0 +1,146 @@
+"""SARIF 2.1.0, for code scanning and for editors."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TextIO
+from urllib.parse import quote
+
+from scaffold import __version__
+from scaffold.check.engine_rules import RuleCrashed
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.printable import json_text, printable
+from scaffold.reporters import ReportOptions, rule_pages
+from scaffold.reporters.fingerprints import Fingerprints, line_hash
+from scaffold.reporters.fixes import Repetitions, placed
+from scaffold.reporters.paths import in_repository
+from scaffold.reporters.rule_pages import RulePage
+
+if TYPE_CHECKING:
+    from scaffold.check.session import Result
+    from scaffold.edits import Fix
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_PROBLEMS = {**_LEVELS, Severity.INFO: "recommendation"}
+_MOST_CHARACTERS = 1024
+"""Of a description; code scanning refuses longer ones."""
+
+Data = dict[str, Any]
+
+
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
+    """Write one run with every finding, and the rules of these."""
+    pages = rule_pages.of(one.code for result in results for one in result.diagnostics)
+    numbers = {code: number for number, code in enumerate(pages)}
+    run: Data = {
+        "tool": {
+            "driver": {
+                "name": rule_pages.DISTRIBUTION,
+                "version": __version__,
+                "semanticVersion": __version__,
+                "rules": [_rule(page) for page in pages.values()],
+            }
+        },
+        "automationDetails": {"id": f"{rule_pages.DISTRIBUTION}/"},
+        "columnKind": "unicodeCodePoints",
+        "invocations": [{"executionSuccessful": RuleCrashed.code not in pages}],
+        "results": _results(results, numbers),
+    }
+    out.write(json_text({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}) + "\n")
+
+
+def _rule(page: RulePage) -> Data:
+    rule: Data = {
+        "id": page.code,
+        "name": page.name,
+        "shortDescription": {"text": _shortened(page.summary)},
+        "fullDescription": {"text": _shortened(_plain(page.markdown))},
+        "help": {"text": _plain(page.markdown), "markdown": page.markdown},
+        "defaultConfiguration": {"level": _LEVELS[page.severity]},
+        "properties": {
+            "tags": ["ROS 2", *page.linters],
+            "precision": "very-high" if page.linters else "high",
+            "problem.severity": _PROBLEMS[page.severity],
+        },
+    }
+    if page.url is not None:
+        rule["helpUri"] = page.url
+    return rule
+
+
+def _results(results: Sequence[Result], numbers: dict[str, int]) -> list[Data]:
+    fingerprints = Fingerprints()
+    found: list[Data] = []
+    for result in results:
+        repetitions = Repetitions()
+        for one in result.diagnostics:
+            data = _result(result.package, one, numbers[one.code])
+            data["partialFingerprints"]["finding/v1"] = fingerprints.of(result.package, one)
+            if one.fix is not None and repetitions.first(one.fix, len(found)) == len(found):
+                fix = _fix(result.package, one.fix)
+                data |= {"fixes": [fix]} if fix else {}
+            found.append(data)
+    return found
+
+
+def _result(package: Package, one: Diagnostic, number: int) -> Data:
+    at = one.location
+    return {
+        "ruleId": one.code,
+        "ruleIndex": number,
+        "level": _LEVELS[one.severity],
+        "message": {"text": printable(one.message)},
+        "locations": [
+            {
+                "physicalLocation": {
+                    "artifactLocation": _file(package, at.path),
+                    "region": _region(at),
+                }
+            }
+        ],
+        "partialFingerprints": {"primaryLocationLineHash": line_hash(package, at.path, at.line)},
+    }
+
+
+def _fix(package: Package, fix: Fix) -> Data | None:
+    """Return a fix; ``None`` for one that does more than to edit files, which SARIF cannot say."""
+    changes = placed(package, fix)
+    if changes is None or len(changes.replacements) < len(fix.changes):
+        return None
+    by_file: dict[str, list[Data]] = {}
+    for place, text in changes.replacements:
+        replacement = {"deletedRegion": _region(place), "insertedContent": {"text": text}}
+        by_file.setdefault(place.path, []).append(replacement)
+    return {
+        "description": {"text": fix.title},
+        "artifactChanges": [
+            {"artifactLocation": _file(package, path), "replacements": replacements}
+            for path, replacements in by_file.items()
+        ],
+        "properties": {"safety": fix.safety.value},
+    }
+
+
+def _file(package: Package, path: str) -> Data:
+    return {"uri": quote(os.fsencode(in_repository(package, path)))}
+
+
+def _region(at: Location) -> dict[str, int]:
+    return {
+        "startLine": at.line,
+        "startColumn": at.column,
+        "endLine": at.end_line,
+        "endColumn": at.end_column,
+    }
+
+
+def _plain(markdown: str) -> str:
+    return markdown.replace("**", "").replace("`", "")
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _MOST_CHARACTERS else f"{text[: _MOST_CHARACTERS - 1]}…"

@@ -1,0 +1,184 @@
+"""SARIF: valid, complete, and the same findings after lines have moved."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import jsonschema
+import pytest
+
+from scaffold.model.package import Package
+from scaffold.reporters.fingerprints import line_hash
+from tests.reporters.sarif_schema import SCHEMA
+
+Check = Callable[..., str]
+
+
+@pytest.fixture
+def run(check: Check) -> dict[str, Any]:
+    """Return the only run of the report."""
+    return _run(check("--format", "sarif"))
+
+
+def _run(text: str) -> dict[str, Any]:
+    report = json.loads(text)
+    jsonschema.validate(report, SCHEMA)
+    (found,) = report["runs"]
+    assert isinstance(found, dict)
+    return found
+
+
+def test_holds_every_finding_at_its_place(
+    run: dict[str, Any], diagnostics: list[dict[str, Any]]
+) -> None:
+    levels = {"error": "error", "warning": "warning", "info": "note"}
+    expected = [
+        {
+            "rule": one["code"],
+            "level": levels[one["severity"]],
+            "message": one["message"],
+            "path": one["path"],
+            "region": [one[name] for name in ("line", "column", "end_line", "end_column")],
+        }
+        for one in diagnostics
+    ]
+    found = []
+    for result in run["results"]:
+        place = result["locations"][0]["physicalLocation"]
+        found.append(
+            {
+                "rule": result["ruleId"],
+                "level": result["level"],
+                "message": result["message"]["text"],
+                "path": unquote(place["artifactLocation"]["uri"]),
+                "region": [*place["region"].values()],
+            }
+        )
+    assert found == expected
+    assert found
+
+
+def test_documents_the_rules_of_the_findings(run: dict[str, Any]) -> None:
+    rules = run["tool"]["driver"]["rules"]
+    for result in run["results"]:
+        assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
+    assert {rule["id"] for rule in rules} == {result["ruleId"] for result in run["results"]}
+    by_code = {rule["id"]: rule for rule in rules}
+    assert by_code["F401"]["properties"]["tags"] == ["ROS 2", "ament_flake8"]
+    assert "**Why.**" in by_code["SP006"]["help"]["markdown"]
+    assert "**" not in by_code["SP006"]["help"]["text"]
+
+
+def test_a_fix_that_edits_files_is_there_as_replacements(
+    run: dict[str, Any], repository: Path
+) -> None:
+    (quotes,) = [one for one in run["results"] if one["ruleId"] == "Q000"]
+    (fix,) = quotes["fixes"]
+    (change,) = fix["artifactChanges"]
+    path = repository / unquote(change["artifactLocation"]["uri"])
+    lines = path.read_text().split("\n")
+    for replacement in reversed(change["replacements"]):
+        region = replacement["deletedRegion"]
+        assert region["startLine"] == region["endLine"]
+        line = lines[region["startLine"] - 1]
+        lines[region["startLine"] - 1] = (
+            line[: region["startColumn"] - 1]
+            + replacement["insertedContent"]["text"]
+            + line[region["endColumn"] - 1 :]
+        )
+    assert "    print('hällo')" in lines
+
+
+def test_a_fix_that_creates_a_file_is_left_out(
+    run: dict[str, Any], diagnostics: list[dict[str, Any]]
+) -> None:
+    creating = {one["code"] for one in diagnostics if one["fix"] and one["fix"]["creates"]}
+    assert creating
+    for result in run["results"]:
+        assert ("fixes" in result) <= (result["ruleId"] not in creating)
+
+
+def test_moved_lines_keep_their_fingerprints(check: Check, repository: Path) -> None:
+    before = _run(check("--format", "sarif"))["results"]
+    path = repository / "src" / "talker" / "talker" / "talk.py"
+    text = path.read_text()
+    path.write_text(text.replace("import os\n", "import os\n\n\nLIMIT = 1\n"))
+    after = _run(check("--format", "sarif"))["results"]
+    assert [_line(one) for one in before] != [_line(one) for one in after]
+    names = [one["partialFingerprints"]["finding/v1"] for one in before]
+    assert names == [one["partialFingerprints"]["finding/v1"] for one in after]
+    assert len({*names}) == len(names)
+
+
+def _line(result: dict[str, Any]) -> int:
+    line = result["locations"][0]["physicalLocation"]["region"]["startLine"]
+    assert isinstance(line, int)
+    return line
+
+
+def test_equal_findings_in_equal_lines_have_fingerprints_of_their_own(
+    check: Check, repository: Path
+) -> None:
+    path = repository / "src" / "talker" / "talker" / "talk.py"
+    path.write_text(path.read_text() + '    print("hällo")\n')
+    results = _run(check("--format", "sarif", "--select", "Q000"))["results"]
+    assert len(results) == 2
+    assert len({one["partialFingerprints"]["finding/v1"] for one in results}) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "hashes"),
+    [
+        ("", ["c129715d7a2bc9a3:1"]),
+        (
+            " a\nb\n  \t\tc\n d",
+            ["271789c17abda88f:1", "54703d4cd895b18:1", "180aee12dab6264:1", "a23a3dc5e078b07b:1"],
+        ),
+        ("x\n" * 101, ["c0fe7b2700d6c254:1", "c0fe7b2700d6c254:2"]),
+        ("\r\n".join("ab"), ["c74339777b6a2c60:1", "8ee5a81e681643c1:1"]),
+        ("\U0001f600\n", ["49e42825ed591e1a:1"]),
+    ],
+    ids=["empty", "spaces", "repeated", "carriage returns", "emoji"],
+)
+def test_hashes_of_lines_are_those_that_code_scanning_computes(
+    text: str, hashes: list[str]
+) -> None:
+    """The upload to GitHub warns of each that differs from its own."""
+    package = Package.of({"a.py": text})
+    assert [line_hash(package, "a.py", number + 1) for number in range(len(hashes))] == hashes
+
+
+def test_paths_start_at_the_top_of_the_repository(
+    check: Check, repository: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    expected = _paths(check("--format", "sarif"))
+    monkeypatch.chdir(repository / "src" / "talker")
+    assert _paths(check("--format", "sarif", ".")) == expected
+    (repository.parent / "link").symlink_to(repository / "src")
+    monkeypatch.chdir(repository.parent)
+    assert _paths(check("--format", "sarif", "link/talker")) == expected
+
+
+def _paths(text: str) -> set[str]:
+    return {
+        one["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for one in _run(text)["results"]
+    }
+
+
+def test_a_clean_package_gives_a_valid_report(check: Check) -> None:
+    run = _run(check("--format", "sarif", "--select", "ND", code=0))
+    assert run["results"] == run["tool"]["driver"]["rules"] == []
+
+
+def test_a_remembered_run_has_the_same_report(check: Check, tmp_path: Path) -> None:
+    first = check("--format", "sarif")
+    path = tmp_path / "again.sarif"
+    command = ("--format", "sarif", "--output-file", str(path))
+    check(*command)
+    check(*command)  # what is known of the packages is taken from the run before
+    assert path.read_text() == first
