@@ -14,7 +14,8 @@ class ImportUndeclared(Rule):
     **Why.** It works on the machine of its author; on a clean one rosdep does not install the
     package and the node ends with ``ModuleNotFoundError``.
 
-    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it.
+    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it. Each module
+    is reported at its first import, where ``# noqa: PX020`` accepts it.
 
     **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
     """
@@ -88,15 +89,15 @@ class ImportUndeclared(Rule):
                 "test/test_node.py": "import numpy\n",
             },
             Report(
-                "package.xml:3:4",
-                "talker/node.py:2 imports 'std_msgs', which no dependency here "
-                "provides; add <exec_depend>std_msgs</exec_depend>",
+                "talker/node.py:2:1",
+                "imports 'std_msgs', which no dependency in package.xml provides; "
+                "add <exec_depend>std_msgs</exec_depend>",
                 fix="declare std_msgs",
             ),
             Report(
-                "package.xml:3:4",
-                "test/test_node.py:1 imports 'numpy', which no dependency here "
-                "provides; add <test_depend>python3-numpy</test_depend>",
+                "test/test_node.py:1:1",
+                "imports 'numpy', which no dependency in package.xml provides; add "
+                "<test_depend>python3-numpy</test_depend>",
                 fix="declare python3-numpy",
             ),
             fixed={
@@ -118,11 +119,9 @@ class ImportUndeclared(Rule):
                 continue
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
-            last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
-            at = need.location
             message = (
-                f"{at.path}:{at.line} imports {need.module!r}, which no dependency here provides; "
+                f"imports {need.module!r}, which no dependency in package.xml provides; "
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            yield self.report(last.name_location, message, fix)
+            yield self.report(need, message, fix)

@@ -50,7 +50,12 @@ def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]
 def _rule_files(root: str) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     with os.scandir(root) as areas:
-        directories = sorted(entry.name for entry in areas if entry.is_dir())
+        names = {entry.name: entry.is_dir() for entry in areas}
+    directories = sorted(name for name, is_directory in names.items() if is_directory)
+    for name in sorted(names.keys() - directories):
+        if name.endswith(".py") and not name.startswith("_"):
+            path = os.path.join(root, name)
+            raise ContentError(f"{path}: a rule is in a directory of rules/, that of its area")
     for area in directories:
         found += [
             (area, os.path.join(root, area, name))

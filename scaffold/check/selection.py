@@ -1,4 +1,4 @@
-"""Which codes are asked for: ``--select`` and ``--ignore`` by prefix, as flake8 and ruff do."""
+"""Which codes are asked for: ``--select`` and ``--ignore`` by code, prefix, name or ``ALL``."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from scaffold.check.renamed_codes import new_codes
 from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
 
+ALL = "ALL"
+"""What means every code."""
 UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
 """What says that something was not checked: whoever selects other codes must hear it, too."""
 
@@ -27,7 +29,8 @@ class Selection(NamedTuple):
     def wants(self, code: str) -> bool:
         """Tell whether a code is reported; the longer of two matching prefixes decides."""
         chosen = _longest(self.select, code) if self.select and code not in UNCHECKED else 0
-        return chosen is not None and chosen > (_longest(self.ignore, code) or -1)
+        ignored = _longest(self.ignore, code)
+        return chosen is not None and chosen > (-1 if ignored is None else ignored)
 
     def wants_at(self, code: str, path: str) -> bool:
         """Tell whether a code is reported in a file."""
@@ -38,12 +41,32 @@ class Selection(NamedTuple):
         )
 
 
-def validate(prefixes: Iterable[str], codes: Collection[str], origin: str) -> None:
-    """Raise ConfigError for a prefix that fits no code, with the nearest ones."""
-    for prefix in prefixes:
-        if any(code.startswith(prefix) for code in codes):
-            continue
-        raise ConfigError(f"{origin}: no rule has the code {prefix!r}{nearest(prefix, codes)}")
+def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tuple[str, ...]:
+    """Return the prefixes of codes that words mean.
+
+    Args:
+        words: Codes, beginnings of codes, names of rules, or ``ALL``, in any case.
+        names: The names of all rules by their codes.
+        origin: Where the words come from.
+
+    Raises:
+        ConfigError: a word means no rule.
+    """
+    found: dict[str, None] = {}
+    for word in words:
+        upper, lower = word.upper(), word.lower()
+        codes = [code for code, name in names.items() if name == lower]
+        if upper == ALL:
+            codes = [""]
+        elif any(code.startswith(upper) for code in names):
+            codes = [upper]
+        if not codes:
+            is_name = "-" in word or not any(map(str.isdigit, word))
+            what, known = ("name", names.values()) if is_name else ("code", names.keys())
+            hint = nearest(lower if is_name else upper, known)
+            raise ConfigError(f"{origin}: no rule has the {what} {word!r}{hint}")
+        found.update(dict.fromkeys(codes))
+    return tuple(found)
 
 
 def nearest(word: str, known: Collection[str]) -> str:
@@ -55,11 +78,9 @@ def nearest(word: str, known: Collection[str]) -> str:
     return f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
 
 
-def split(values: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the codes of a repeatable, comma-separated flag in upper case."""
-    return tuple(
-        code.upper() for value in values or () for code in re.split(r"[,\s]+", value) if code
-    )
+def split(values: Sequence[str] | None) -> list[str]:
+    """Return the words of a repeatable, comma-separated flag."""
+    return [word for value in values or () for word in re.split(r"[,\s]+", value) if word]
 
 
 def _longest(prefixes: Iterable[str], code: str) -> int | None:

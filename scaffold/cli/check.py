@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import terminal
+from scaffold.cli import flags, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from scaffold.check.selection import Selection
     from scaffold.check.session import Result, Session
     from scaffold.configuration.config import Config
+    from scaffold.files.disk import Disk
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
     from scaffold.reporters import ReportOptions
@@ -29,7 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="*",
         default=["."],
         metavar="PATH",
-        help="a package, a workspace or a single file (default: the current directory)",
+        help="a package or a directory in it, a workspace, or a single file "
+        "(default: the current directory)",
     )
     from scaffold.reporters import NAMES
 
@@ -37,15 +39,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output-file", metavar="FILE", help="write the report into a file instead"
     )
-    parser.add_argument(
+    select = parser.add_argument(
         "--select",
         action="append",
-        metavar="CODES",
-        help="report only these codes or prefixes, separated by commas",
+        metavar="RULES",
+        help="report only these codes, beginnings of codes or names, separated by commas, or ALL",
     )
-    parser.add_argument(
-        "--ignore", action="append", metavar="CODES", help="do not report these codes or prefixes"
+    ignore = parser.add_argument(
+        "--ignore",
+        action="append",
+        metavar="RULES",
+        help="do not report these; the longer one of two beginnings that fit decides",
     )
+    for action in (select, ignore):
+        action.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
         "--fix", action="store_true", help="apply the fixes that do not change behavior"
     )
@@ -116,7 +123,8 @@ def run(options: argparse.Namespace) -> int:
 
     reports.validate(options)
     disk = Disk()
-    settings = config.load(content=tuple(options.content), disk=disk)
+    directory = _directory(options.paths, disk)
+    settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
     selection = _selection(options, settings, rules)
@@ -339,24 +347,43 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
 
 def _selection(options: argparse.Namespace, settings: Config, rules: list[type[Rule]]) -> Selection:
     from scaffold.check import selection
-    from scaffold.check.session import all_rules
 
-    codes: set[str] = set()
+    names: dict[str, str] = {}
+
+    def prefixes(words: Sequence[str], origin: str) -> tuple[str, ...]:
+        if words and not names:
+            names.update(_names(rules))
+        return selection.resolve(words, names, origin)
+
     chosen: dict[str, tuple[str, ...]] = {}
     for key in ("select", "ignore"):
-        given = selection.split(getattr(options, key))
+        words = selection.split(getattr(options, key))
         origin = f"--{key}"
-        if not given and f"check.{key}" in settings.values:
-            given = selection.split(settings.strings(f"check.{key}"))
-            origin = settings.origin(f"check.{key}")
-        if given:
-            codes = codes or {rule.code for rule in all_rules(rules)} | _style_codes()
-            selection.validate(given, codes, origin)
-        chosen[key] = given
-    return selection.Selection(chosen["select"], chosen["ignore"], settings.per_path_ignores())
+        if not words and f"check.{key}" in settings.values:
+            words = selection.split(settings.strings(f"check.{key}"))
+            origin = f"{settings.origin(f'check.{key}')}: {key}"
+        chosen[key] = prefixes(words, origin)
+    per_path = {
+        pattern: prefixes(words, f"{settings.origin('check.per-path-ignores')}: {pattern!r}")
+        for pattern, words in settings.per_path_ignores().items()
+    }
+    return selection.Selection(chosen["select"], chosen["ignore"], per_path)
 
 
-def _style_codes() -> set[str]:
+def _names(rules: list[type[Rule]]) -> dict[str, str]:
+    """Return the names of everything that is reported, by code."""
     from scaffold.ament.codes import CODES
+    from scaffold.check.session import all_rules
 
-    return set(CODES)
+    return {
+        **{code: style.name for code, style in CODES.items()},
+        **{rule.code: rule.name for rule in all_rules(rules)},
+    }
+
+
+def _directory(paths: Sequence[str], disk: Disk) -> str:
+    """Return the directory that holds everything to check: the configuration is there or above."""
+    places = [os.path.abspath(path) for path in paths]
+    return os.path.commonpath(
+        [place if disk.is_directory(place) else os.path.dirname(place) for place in places]
+    )

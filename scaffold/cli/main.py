@@ -37,6 +37,7 @@ VERBS = {
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
+    "cache": "show or clean what runs remember",
     "trust": "let the configuration of a directory load rules and templates",
     "completion": "print the tab completion script of a shell",
 }
@@ -63,6 +64,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(given: list[str]) -> int:
+    if not given:
+        given = ["--help"]
     if given == ["--version"]:
         terminal.show(f"ros2-scaffold {__version__}")
         sys.exit(CLEAN)

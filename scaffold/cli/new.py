@@ -32,22 +32,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.generate.questions import questions
     from scaffold.generate.templates import template
 
+    parser.usage = f"{parser.prog} [PACKAGE] [OPTION ...]"
     templates = template.load(content.roots("templates", settings.load().content))
     parser.set_defaults(templates=templates)
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
-    questions.add_flags(parser, questions.shared(_in_order(templates)), kinds)
-    parser.add_argument(
+    general = {question.name for question in templates[template.BASE].questions}
+    asked = questions.shared(_in_order(templates))
+    about_package = [one for one in asked if one.name in general]
+    questions.add_flags(parser.add_argument_group("the package"), about_package, kinds)
+    about_parts = [one for one in asked if one.name not in general]
+    group = parser.add_argument_group("its node, interface or program")
+    questions.add_flags(group, about_parts, kinds)
+    writing = parser.add_argument_group("where and how it is written")
+    writing.add_argument(
         "--destination-directory",
         metavar="DIR",
         default=".",
         help="parent directory of the new package (default: the current directory)",
     )
-    flags.add_answers(parser)
-    flags.add_looking(parser)
-    parser.add_argument(
+    flags.add_answers(writing)
+    flags.add_looking(writing)
+    writing.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
     )
-    flags.add_content(parser, flags.ANSWERED_BY_FILE)
+    flags.add_content(writing, flags.ANSWERED_BY_FILE)
 
 
 def run(options: argparse.Namespace) -> int:

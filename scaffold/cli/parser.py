@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from importlib import import_module
 from typing import NoReturn
 
@@ -14,7 +15,33 @@ from scaffold.cli.main import VERBS
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, as every other error of this tool."""
+    """Says what is wrong in one line, as every other error of this tool, and what may be meant."""
+
+    chosen: _Parser | None = None
+    """The parser of the verb that the words begin with."""
+
+    def parse_args(  # type: ignore[override]  # without a namespace of its own
+        self, args: Sequence[str] | None = None, namespace: None = None
+    ) -> argparse.Namespace:
+        """Parse all words; print the line and exit if one has no meaning."""
+        options, rest = self.parse_known_args(args, namespace)
+        if rest:
+            verb = self.chosen or self
+            words = " ".join(rest)
+            verb.error(f"unrecognized arguments: {words}{nearest(rest[0], verb.flags)}")
+        return options
+
+    @property
+    def flags(self) -> list[str]:
+        """The flags that it knows."""
+        return [name for action in self._actions for name in action.option_strings]
+
+    def _check_value(self, action: argparse.Action, value: object) -> None:
+        """Refuse a word that is no choice, with the nearest one."""
+        choices = [*map(str, action.choices or ())]
+        if choices and value not in choices:
+            hint = nearest(str(value), choices) or f" (choose from {', '.join(choices)})"
+            raise argparse.ArgumentError(action, f"invalid choice: {str(value)!r}{hint}")
 
     def error(self, message: str) -> NoReturn:
         """Print the line and exit."""
@@ -27,7 +54,15 @@ class _Parser(argparse.ArgumentParser):
         terminal.show(message.removesuffix("\n"))
 
 
-def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argparse.ArgumentParser:
+def nearest(word: str, known: Sequence[str]) -> str:
+    """Return the end of an error message: the known word nearest to a wrong one, or nothing."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.partition("=")[0], known, n=1)
+    return f"; did you mean {near[0]!r}?" if near else ""
+
+
+def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Parser:
     """Return the parser.
 
     Args:
@@ -45,6 +80,8 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> argpa
     listed = {verb: VERBS[verb]} if comes_first and verb in VERBS else VERBS
     for name, text in listed.items():
         one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        if verb == name:
+            parser.chosen = one
         if verb is None or verb == name:
             import_module(f"scaffold.cli.{name}").add_arguments(one)
     return parser

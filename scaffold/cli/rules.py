@@ -5,17 +5,23 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from scaffold.cli import terminal
+from scaffold.cli import flags, terminal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from scaffold.check.rule import Rule
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
-    parser.add_argument(
-        "codes", nargs="*", metavar="CODE", help="explain these: a code such as CM001, or a name"
+    codes = parser.add_argument(
+        "codes",
+        nargs="*",
+        metavar="RULE",
+        help="explain these: a code such as CM001, or a name; list those whose codes begin so: CM",
     )
+    codes.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
     parser.add_argument(
         "--content",
@@ -31,7 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold.ament.codes import STYLE
     from scaffold.check import docs, registry
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
@@ -41,37 +46,79 @@ def run(options: argparse.Namespace) -> int:
     rules = all_rules(registry.load(content.roots("rules", own)))
     if options.write_docs:
         docs.write(options.write_docs, rules)
-    elif options.codes:
-        pages = [_page(word, rules) for word in options.codes]
-        terminal.show("\n".join(pages).removesuffix("\n"))
     elif options.format == "json":
-        terminal.show_json([docs.as_data(rule) for rule in rules])
-    else:
-        width = max(len(rule.name) for rule in rules)
-        for rule in rules:
-            fix = "fix" if docs.has_fix(rule) else ""
-            facts = f"{rule.code}  {rule.severity.value:<7}  {fix:<3}  {rule.name:<{width}}"
-            terminal.show(f"{facts}  {docs.summary(rule)}")
-        terminal.show(
-            f"\n{len(rules)} rules. Python style and docstrings keep the codes of flake8 and "
-            f"pydocstyle, with ament's verdict: {len(STYLE)} codes from {min(STYLE)} to "
-            f"{max(STYLE)}.\n`ros2-scaffold rules CODE` explains one."
+        chosen = [code for word in options.codes for code in _codes(word, rules)]
+        terminal.show_json(
+            [docs.as_data(rule) for rule in rules if not options.codes or rule.code in chosen]
         )
+    elif options.codes:
+        shown = [_explained(word, rules) for word in options.codes]
+        terminal.show("\n".join(shown).removesuffix("\n"))
+    else:
+        terminal.show(_listed(rules, ()))
+        terminal.show(_about(rules))
     return 0
 
 
-def _page(word: str, rules: list[type[Rule]]) -> str:
-    """Return what is known about the rule of a code or a name."""
+def _explained(word: str, rules: list[type[Rule]]) -> str:
+    """Return what is known about the rules that a word means."""
     from scaffold.ament.codes import STYLE
     from scaffold.check import docs
-    from scaffold.check.selection import nearest
-    from scaffold.errors import InputError
 
+    codes = _codes(word, rules)
+    if len(codes) > 1:
+        chosen = [rule for rule in rules if rule.code in codes]
+        return _listed(chosen, [code for code in codes if code in STYLE])
     for rule in rules:
-        if word.upper() == rule.code or word == rule.name:
+        if rule.code in codes:
             return docs.page(rule)
-    style = STYLE.get(word.upper())
-    if style is not None:
-        return docs.style_page(style)
-    known = [*(rule.code for rule in rules), *(rule.name for rule in rules), *STYLE]
-    raise InputError(f"there is no rule {word!r}{nearest(word, known)}")
+    return docs.style_page(STYLE[codes[0]])
+
+
+def _codes(word: str, rules: list[type[Rule]]) -> list[str]:
+    """Return the codes that a word means, as ``check --select`` takes it."""
+    from scaffold.ament.codes import STYLE
+    from scaffold.check import selection
+    from scaffold.errors import ConfigError, InputError
+
+    names = {**{rule.code: rule.name for rule in rules}, **{one: STYLE[one].name for one in STYLE}}
+    if word.upper() in names:
+        return [word.upper()]
+    try:
+        prefixes = selection.resolve([word], names, "RULE")
+    except ConfigError as error:
+        raise InputError(str(error).partition(": ")[2]) from error
+    return [code for code in names if code.startswith(prefixes)]
+
+
+def _listed(rules: list[type[Rule]], style: Sequence[str]) -> str:
+    """Return a line for each rule, and for each code of flake8 and pydocstyle."""
+    from scaffold.ament.codes import STYLE
+    from scaffold.check import docs
+
+    rows = [
+        (
+            *(rule.code, rule.severity.value, "fix" if docs.has_fix(rule) else "", rule.name),
+            docs.summary(rule),
+        )
+        for rule in rules
+    ]
+    rows += [
+        (code, one.severity.value, "fix" if one.fix else "", one.name, one.summary)
+        for code, one in ((code, STYLE[code]) for code in style)
+    ]
+    width = max((len(name) for *_, name, _ in rows), default=0)
+    return "\n".join(
+        f"{code:<5}  {severity:<7}  {fix:<3}  {name:<{width}}  {summary}"
+        for code, severity, fix, name, summary in rows
+    )
+
+
+def _about(rules: list[type[Rule]]) -> str:
+    from scaffold.ament.codes import STYLE
+
+    return (
+        f"\n{len(rules)} rules. Python style and docstrings keep the codes of flake8 and "
+        f"pydocstyle, with ament's verdict: {len(STYLE)} codes from {min(STYLE)} to "
+        f"{max(STYLE)}.\n`ros2-scaffold rules CODE` explains one."
+    )

@@ -1,6 +1,7 @@
 """The configuration file, and where each value came from.
 
-``ros2-scaffold.toml`` in the current directory or the nearest one above it is the project's;
+``ros2-scaffold.toml`` is the project's: `check` looks for it where everything that it checks is,
+other verbs in the current directory, and both above that.
 ``$XDG_CONFIG_HOME/ros2-scaffold/config.toml`` is the user's. A table ``[check]`` of the project
 wins over the user's key by key; flags win over both.
 
@@ -11,7 +12,7 @@ the user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from scaffold.configuration import trust
@@ -26,6 +27,7 @@ MOST_BYTES = 100_000
 USER_FILE = "config.toml"
 
 _CHECK_KEYS = frozenset({"select", "ignore", "per-path-ignores"})
+_TABLES = ("check", "new")
 
 
 class Value(NamedTuple):
@@ -120,13 +122,28 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
                 directories += [] if refused else named
                 continue
             if not isinstance(entries, dict):
-                raise ConfigError(f"{path}: {table} is outside of a table such as [check]")
+                raise ConfigError(f"{path}: {table!r} is outside of a table such as [check]")
+            if table not in _TABLES:
+                raise ConfigError(f"{path}: unknown table [{table}]{_table_hint(table)}")
             for key, value in entries.items():
                 if table == "check" and key not in _CHECK_KEYS:
-                    known = ", ".join(sorted(_CHECK_KEYS))
-                    raise ConfigError(f"{path}: [check] has no key {key!r}; it has {known}")
+                    hint = _nearest(key, sorted(_CHECK_KEYS))
+                    raise ConfigError(f"{path}: [check] has no key {key!r}; {hint}")
                 values[f"{table}.{key}"] = Value(value, path)
     return Config(values, (*directories, *content), tuple(warnings))
+
+
+def _table_hint(table: str) -> str:
+    if table == "tool":
+        return ": write [check] instead of [tool.ros2-scaffold.check]"
+    return f"; {_nearest(table, _TABLES)}"
+
+
+def _nearest(word: str, known: Sequence[str]) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(word, known, n=1)
+    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
 
 
 def named_content(directory: str) -> list[str]:

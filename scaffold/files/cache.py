@@ -14,8 +14,10 @@ from scaffold.files.disk import digest
 
 SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
-MOST_BYTES = 200_000_000
+MOST_BYTES = 100_000_000
 """Of all files of a kind."""
+KINDS = ("runs", "style", "rules", "words", "manifests", "templates_")
+"""What the names of the directories in the cache begin with; locks are not to be removed."""
 _ABANDONED_AFTER = 3600
 """Seconds after which nobody is still writing a temporary file."""
 
@@ -122,3 +124,41 @@ def trim(kept: str, most: int) -> None:
                 os.unlink(path)
     except OSError:
         return  # another process tidies up
+
+
+def size(top: str) -> tuple[int, int]:
+    """Return how many files the cache holds, and their bytes together."""
+    count = total = 0
+    for path in _files(top):
+        try:
+            total += os.lstat(path).st_size
+        except OSError:
+            continue  # another process tidies up
+        count += 1
+    return count, total
+
+
+def clean(top: str) -> None:
+    """Remove everything from the cache; what is not the cache's own stays.
+
+    Raises:
+        OSError: the system refuses.
+    """
+    for path in _files(top):
+        try:
+            os.unlink(path)
+        except FileNotFoundError:
+            continue
+
+
+def _files(top: str) -> list[str]:
+    """Return the files in the directories of the cache; links to directories are not followed."""
+    found: list[str] = []
+    try:
+        kinds = [name for name in os.listdir(top) if name.startswith(KINDS)]
+    except OSError:
+        return found
+    for kind in sorted(kinds):
+        for directory, _, names in os.walk(os.path.join(top, kind)):
+            found += [os.path.join(directory, name) for name in names]
+    return found

@@ -182,7 +182,7 @@ def test_selection(
 
 def test_an_unknown_code_is_refused_with_the_nearest() -> None:
     with pytest.raises(ConfigError, match=r"--select: no rule has the code 'CN001'.*CM001"):
-        selection.validate(["PX", "CN001"], ["CM001", "PX001"], "--select")
+        selection.resolve(["PX", "CN001"], {"CM001": "a-name", "PX001": "b-name"}, "--select")
 
 
 @pytest.mark.parametrize(
@@ -190,7 +190,7 @@ def test_an_unknown_code_is_refused_with_the_nearest() -> None:
 )
 def test_a_former_code_is_refused_with_the_new_one(prefix: str, new: str) -> None:
     with pytest.raises(ConfigError, match=f"--select: .*{prefix!r}; renamed to {new}"):
-        selection.validate([prefix], ["CM001", "IM041", "NM001"], "--select")
+        selection.resolve([prefix], {"CM001": "a", "IM041": "b", "NM001": "c"}, "--select")
 
 
 def test_a_suppression_by_a_former_code_says_so() -> None:
@@ -268,4 +268,4 @@ def test_a_rule_about_python_does_not_need_a_cmakelists_that_can_be_read() -> No
         }
     )
     said = runner.check(package, [rule()])
-    assert [one.location.path for one in said if one.code == "PX020"] == ["package.xml"]
+    assert [one.location.path for one in said if one.code == "PX020"] == ["talker/__init__.py"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.cli.main import main
+from scaffold.cli.main import VERBS, main
 
 MANIFEST = """\
 <?xml version="1.0"?>
@@ -147,7 +147,11 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     [
         (["check", "nowhere"], "nowhere: no such file or directory"),
         (["check", "--select", "CN001"], "--select: no rule has the code 'CN001'"),
-        (["rules", "CN001"], "there is no rule 'CN001'; did you mean"),
+        (
+            ["check", "--select", "project-name"],
+            "--select: no rule has the name 'project-name'; did",
+        ),
+        (["rules", "CN001"], "no rule has the code 'CN001'; did you mean"),
         (["rules", "--content", "nowhere"], "nowhere: no such directory; --content or"),
     ],
 )
@@ -161,8 +165,13 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["chekc"], "argument VERB: invalid choice: 'chekc'"),
-        (["check", "--formt", "json"], "unrecognized arguments: --formt"),
+        (["chekc"], "argument VERB: invalid choice: 'chekc'; did you mean 'check'?"),
+        (["completion", "fihs"], "argument shell: invalid choice: 'fihs'; did you mean 'fish'?"),
+        (
+            ["check", "--formt", "json"],
+            "unrecognized arguments: --formt; did you mean '--format'?",
+        ),
+        (["check", "--selct=PX"], "unrecognized arguments: --selct=PX; did you mean '--select'?"),
         (["add"], "the following arguments are required: KIND"),
     ],
 )
@@ -178,12 +187,103 @@ def test_wrong_words_get_one_line(
     assert error.count("\n") == 1
 
 
+def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        main([])
+    shown = capsys.readouterr()
+    assert [verb for verb in VERBS if f"\n    {verb}" not in shown.out] == []
+    assert shown.err == ""
+
+
+@pytest.mark.parametrize("paths", [[], ["."], ["../talker/talker"]])
+def test_a_directory_in_a_package_is_the_package(
+    paths: list[str],
+    flawed: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    inner = flawed / "talker"
+    inner.mkdir()
+    monkeypatch.chdir(inner if not paths or paths == ["."] else flawed)
+    assert main(["check", *paths]) == 1
+    assert "CMakeLists.txt:2:9: error CM001" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("flawed")
+@pytest.mark.parametrize(
+    ("words", "codes"),
+    [
+        (["--select", "project-name-differs"], {"CM001"}),
+        (["--select", "Project-Name-Differs,px002"], {"CM001", "PX002"}),
+        (["--select", "ALL", "--ignore", "description-placeholder"], {"CM001"}),
+        (["--ignore", "ALL"], set()),
+        (["--ignore", "ALL", "--select", "PX"], {"PX002"}),
+    ],
+)
+def test_rules_are_selected_by_name_and_all(
+    words: list[str], codes: set[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["check", "--format", "json", *words])
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert {one["code"] for one in found} == codes
+
+
+def test_a_prefix_lists_rules_as_select_takes_them(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules", "CM00"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) > 2
+    assert all(line.startswith("CM00") for line in lines)
+    assert main(["rules", "E50"]) == 0
+    assert capsys.readouterr().out.startswith("E501 ")
+    assert main(["rules", "--format", "json", "CM00"]) == 0
+    listed = json.loads(capsys.readouterr().out)
+    assert [one["code"] for one in listed] == [line.split()[0] for line in lines]
+
+
+@pytest.mark.usefixtures("package")
+def test_content_that_holds_nothing_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "own" / "rules" / "area").mkdir(parents=True)
+    assert main(["check", "--content", "own/rules", "talker"]) == 2
+    error = "own/rules: has no directory 'rules' or 'templates'; name the directory above it\n"
+    assert capsys.readouterr().err == f"ros2-scaffold: error: {error}"
+    assert main(["check", "--content", "own", "talker"]) == 0
+    (tmp_path / "own" / "rules" / "lost.py").touch()
+    assert main(["check", "--content", "own", "talker"]) == 2
+    assert "own/rules/lost.py: a rule is in a directory of rules/" in capsys.readouterr().err
+
+
+def test_configuration_is_searched_from_what_is_checked(
+    flawed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nselect = ["LY"]\n')
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "ros2-scaffold.toml").write_text('[check]\nselect = ["CM"]\n')
+    monkeypatch.chdir(elsewhere)
+    assert main(["check", str(flawed)]) == 0
+    assert main(["check", str(flawed / "CMakeLists.txt")]) == 0
+    (flawed / "ros2-scaffold.toml").write_text('[check]\nselect = ["CM"]\n')
+    assert main(["check", str(flawed)]) == 1
+
+
 def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
     assert main(["check"]) == 1
     assert "PX002" not in capsys.readouterr().out
     assert main(["check", "--ignore", "CM"]) == 1
     assert "PX002" in capsys.readouterr().out
+
+
+def test_the_configuration_of_the_docs_is_accepted(
+    flawed: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = Path(__file__).parents[2] / "docs" / "configuration.md"
+    text = page.read_text().partition("```toml\n")[2].partition("```")[0]
+    (flawed.parent / "ros2-scaffold.toml").write_text(text)
+    assert main(["check"]) == 1
+    assert "you do not trust this directory" in capsys.readouterr().err
 
 
 def test_per_path_ignores(flawed: Path) -> None:
@@ -196,7 +296,16 @@ def test_per_path_ignores(flawed: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[check]\nselekt = []\n", "[check] has no key 'selekt'"),
+        ("[check]\nselekt = []\n", "[check] has no key 'selekt'; did you mean 'select'?"),
+        ("[checks]\nselect = []\n", "unknown table [checks]; did you mean 'check'?"),
+        ("[tool.ros2-scaffold]\n", "unknown table [tool]: write [check] instead of [tool.ros2-"),
+        ("[lint]\nselect = []\n", "unknown table [lint]; known are check, new"),
+        ("select = []\n", "'select' is outside of a table such as [check]"),
+        ("[check]\nselect = ['XX']\n", "ros2-scaffold.toml: select: no rule has the name 'XX'"),
+        (
+            "[check.per-path-ignores]\n'a.py' = ['CM9999']\n",
+            "ros2-scaffold.toml: 'a.py': no rule has the code 'CM9999'; did you mean",
+        ),
         ("[check]\nselect = 'PX'\n", "check.select must be a list of strings"),
         ("[check\n", "invalid TOML"),
     ],
@@ -207,6 +316,18 @@ def test_broken_configuration(
     (package.parent / "ros2-scaffold.toml").write_text(text)
     assert main(["check"]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_an_undeclared_import_is_accepted_where_it_is(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "talker").mkdir()
+    (package / "talker" / "__init__.py").touch()
+    node = package / "talker" / "node.py"
+    node.write_text("import numpy  # noqa: PX020, F401\nimport rclpy  # noqa: F401\n")
+    main(["check", "--select", "PX020,SC003", "talker"])
+    (line,) = capsys.readouterr().out.splitlines()[:-1]
+    assert line.startswith("talker/talker/node.py:2:1: error PX020 imports 'rclpy', which no ")
 
 
 def test_diff_writes_nothing(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -54,6 +54,9 @@ def offered(line: str) -> list[str]:
         ("ros2-scaffold new talker --extras lau", ["launch"]),
         ("ros2-scaffold add cpp_dequ", ["cpp_deque"]),
         ("ros2-scaffold interfaces std_srvs/srv/Tri", ["std_srvs/srv/Trigger"]),
+        ("ros2-scaffold rules import-und", ["import-undeclared"]),
+        ("ros2-scaffold check --select PX,import-und", ["PX,import-undeclared"]),
+        ("ros2-scaffold cache cl", ["clean"]),
     ],
 )
 def test_what_is_offered(line: str, expected: list[str]) -> None:

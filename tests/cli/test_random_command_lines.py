@@ -65,6 +65,7 @@ def test_random_command_lines(data: st.DataObject, workspace: Path) -> None:
     words = data.draw(st.lists(st.one_of(word, assigned), max_size=5))
     arguments = data.draw(st.permutations([verb, *words])) if data.draw(st.booleans()) else None
     output, errors = io.StringIO(), io.StringIO()
+    code: int | str | None
     with redirect_stdout(output), redirect_stderr(errors):
         try:
             code = main(arguments or [verb, *words])

@@ -57,7 +57,7 @@ def shared(templates: Iterable[Template]) -> list[Question]:
 
 
 def add_flags(
-    parser: argparse.ArgumentParser,
+    parser: argparse.ArgumentParser | argparse._ArgumentGroup,
     questions: Iterable[Question],
     kinds: Mapping[str, Sequence[Question]] | None = None,
 ) -> None:
@@ -66,7 +66,7 @@ def add_flags(
     The words are judged later, with one line for an error instead of argparse's usage text.
 
     Args:
-        parser: Of the verb.
+        parser: Of the verb, or a group of its flags.
         questions: Each becomes a flag.
         kinds: The kinds of parts and their questions, for tab completion.
     """

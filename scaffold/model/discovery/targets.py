@@ -39,7 +39,7 @@ class _LooseFiles(DiskTree):
 
 
 def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
-    """Return the packages at or below the paths, and the packages of single files.
+    """Return the packages at or below the paths, and those of single files and directories.
 
     Args:
         paths: Directories and files.
@@ -107,9 +107,12 @@ def _package_directories(disk: Disk, path: str) -> list[str]:
     found = found or colcon.package_directories(disk, path, ignored=True)
     if found:
         return found
+    around = colcon.package_around(disk, os.path.abspath(path))
+    if around is not None:
+        return [around if os.path.isabs(path) else os.path.relpath(around)]
     if disk.is_file(os.path.join(path, "setup.py")):
         raise InputError(f"{path}: no {MANIFEST}; colcon does not take it for a ROS 2 package")
-    raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here or below")
+    raise InputError(f"{path}: no ROS 2 package (no {MANIFEST}) here, below or above")
 
 
 def _package_of(disk: Disk, path: str) -> str | None:
