@@ -56,6 +56,11 @@ class InterfaceFileMissing(Rule):
                 "Beat.msg must be in a directory, so CMake stops: move it to msg/",
             ),
         ),
+        Example(
+            "another kind of file",
+            {"CMakeLists.txt": _LISTS % "msg/Beat.txt", "msg/Beat.txt": ""},
+            Report("CMakeLists.txt:2:11", "msg/Beat.txt is no .msg, .srv, .action or .idl file"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -43,6 +43,15 @@ class InterfaceTargetDiffers(Rule):
             ),
             fixed={"CMakeLists.txt": _LISTS % "${PROJECT_NAME}"},
         ),
+        Example(
+            "a file",
+            {"CMakeLists.txt": _LISTS % "msg/Rate.msg", **_MESSAGE},
+            Report(
+                "CMakeLists.txt:2:28",
+                "the first argument is a name, not the file 'msg/Rate.msg': write "
+                "${PROJECT_NAME} in front",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

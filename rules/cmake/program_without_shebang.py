@@ -72,6 +72,25 @@ class ProgramWithoutShebang(Rule):
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
         ),
+        Example(
+            "line ends of Windows",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\r\nimport rclpy\r\n"},
+            Report(
+                "talker/node.py:1:1",
+                "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends",
+            ),
+        ),
+        Example(
+            "the Python of one machine",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/opt/bin/python3\nimport rclpy\n"},
+            Report(
+                "talker/node.py:1:1",
+                "'#!/opt/bin/python3' starts no Python on other machines; write "
+                "#!/usr/bin/env python3",
+                fix="begin with #!/usr/bin/env python3",
+            ),
+            fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

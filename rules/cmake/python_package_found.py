@@ -51,6 +51,11 @@ class PythonPackageFound(Rule):
                 "'python3-numpy' is Python alone and has no CMake files: CMake stops",
             ),
         ),
+        Example(
+            "of ROS 1",
+            {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
+            Report("CMakeLists.txt:3:14", "'catkin' is of ROS 1: CMake stops; find ament_cmake"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

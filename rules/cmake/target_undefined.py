@@ -53,6 +53,11 @@ class TargetUndefined(Rule):
                 "make_some(talk)\ninstall(TARGETS talk DESTINATION lib/${PROJECT_NAME})\n"
             },
         ),
+        Example(
+            "not defined, but named elsewhere",
+            {"CMakeLists.txt": _LISTS.format("talks") + "message(STATUS talks)\n"},
+            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -67,6 +67,25 @@ class ActionMadeWrongly(LaunchRule):
             _launch("name='node'", "[node]"),
             Report("launch/a.launch.py:7:12", "Node needs executable=...: TypeError"),
         ),
+        Example(
+            "no package; a setting at the end",
+            {
+                "launch/a.launch.py": _LAUNCH.format("executable='node.py'", "[node]").replace(
+                    "package='talker', ", ""
+                ),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "executable='node'", "[GroupAction([node, SetParameter('a', 1)])]"
+                ).replace("import Node", "import Node, SetParameter"),
+            },
+            Report(
+                "launch/a.launch.py:7:12",
+                "Node has no package=...: the program is looked for on the PATH",
+            ),
+            Report(
+                "launch/b.launch.py:8:50",
+                "nothing follows this SetParameter in the group: it has no effect",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

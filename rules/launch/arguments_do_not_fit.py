@@ -48,6 +48,23 @@ class ArgumentsDoNotFit(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "cancel_on_shutdown")},
             Report("launch/a.launch.py:10:31", "TimerAction needs period=...: TypeError"),
         ),
+        Example(
+            "arguments without names",
+            {
+                "launch/a.launch.py": _LAUNCH.format("['a']", "period").replace("period=", ""),
+                "launch/b.launch.py": "from launch.substitutions import LaunchConfiguration\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchConfiguration('a', 'b')\n",
+            },
+            Report(
+                "launch/a.launch.py:10:31",
+                "TimerAction takes arguments by name only: write the names",
+            ),
+            Report(
+                "launch/b.launch.py:5:12",
+                "LaunchConfiguration takes one argument without a name: variable_name",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

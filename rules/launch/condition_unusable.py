@@ -75,6 +75,33 @@ class ConditionUnusable(LaunchRule):
                 "with the defaults this is 'not true': the name 'true' is not defined",
             ),
         ),
+        Example(
+            "a condition in a condition, a truth value, a list, a value for a name",
+            {
+                "launch/a.launch.py": _LAUNCH.format("true", "UnlessCondition(use)").replace(
+                    "import If", "import UnlessCondition, If"
+                ),
+                "launch/b.launch.py": _LAUNCH.format("true", "True"),
+                "launch/c.launch.py": _LAUNCH.format("true", "use)]")
+                .replace("=IfCondition", "=[IfCondition")
+                .replace("])),", "]),"),
+                "launch/d.launch.py": _LAUNCH.format("true", "use, 'a'").replace(
+                    "IfCondition", "LaunchConfigurationEquals"
+                ),
+            },
+            Report("launch/a.launch.py:12:65", "IfCondition takes a text, not another condition"),
+            Report(
+                "launch/b.launch.py:12:65", "True is not a string: write 'true', or no condition"
+            ),
+            Report(
+                "launch/c.launch.py:12:53",
+                "a condition is one object such as IfCondition(...), not a list",
+            ),
+            Report(
+                "launch/d.launch.py:12:79",
+                "LaunchConfigurationEquals takes the name of the launch argument, a text",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

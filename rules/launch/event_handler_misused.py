@@ -67,6 +67,31 @@ class EventHandlerMisused(LaunchRule):
                 "RegisterEventHandler takes one handler, not a list of them",
             ),
         ),
+        Example(
+            "a name, an action, functions",
+            {
+                "launch/a.launch.py": _LAUNCH.format("event, context", "End", "'node'", "timer"),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "event, context", "End", "node", "handler"
+                ).replace("on_exit=on_exit", "on_exit=lambda: []"),
+                "launch/c.launch.py": _LAUNCH.format(
+                    "event, context", "End", "node", "handler"
+                ).replace("on_exit=on_exit", "on_exit=on_exit()"),
+            },
+            Report(
+                "launch/a.launch.py:15:43", "OnProcessExit watches one action: give the node itself"
+            ),
+            Report(
+                "launch/a.launch.py:16:59",
+                "this is the action TimerAction, and RegisterEventHandler takes a handler",
+            ),
+            Report(
+                "launch/b.launch.py:15:57", "launch calls this with event and context: TypeError"
+            ),
+            Report(
+                "launch/c.launch.py:15:57", "on_exit() is called here: pass the function itself"
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

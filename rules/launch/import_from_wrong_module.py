@@ -75,6 +75,14 @@ class ImportFromWrongModule(Rule):
                 "launch.actions has no 'TimerActions'; 'TimerAction' is meant",
             ),
         ),
+        Example(
+            "a module that does not exist",
+            {"launch/a.launch.py": _LAUNCH.format("launch_ros.action", "TimerAction")},
+            Report(
+                "launch/a.launch.py:1:1",
+                "there is no launch_ros.action; closest: 'launch_ros.actions'",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

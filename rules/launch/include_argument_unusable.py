@@ -76,6 +76,11 @@ class IncludeArgumentUnusable(LaunchRule):
                 "these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
             ),
         ),
+        Example(
+            "a number that is computed",
+            _launch("{'a': 1 + 2}.items()"),
+            Report("launch/a.launch.py:13:36", "'a' gets 3, which is not a string"),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

@@ -44,6 +44,18 @@ class LaunchNameInvalid(LaunchRule):
             ),
             Report("launch/a.launch.py:7:79", "ROS 2 refuses the namespace 'robot-1'"),
         ),
+        Example(
+            "a condition",
+            {
+                "launch/a.launch.py": "from launch.conditions import IfCondition\n"
+                "from launch.substitutions import LaunchConfiguration\n\n\n"
+                "def generate_launch_description():\n"
+                "    return IfCondition(LaunchConfiguration('use', default='yes'))\n"
+            },
+            Report(
+                "launch/a.launch.py:6:12", "the default is 'yes', which is neither true nor false"
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

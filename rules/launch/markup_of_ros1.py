@@ -47,6 +47,13 @@ class MarkupOfRos1(Rule):
             Report("launch/a.launch.xml:2:28", "type of <node> is of ROS 1; ROS 2 has exec"),
             Report("launch/a.launch.xml:2:40", "$(arg ...) is of ROS 1; ROS 2 has $(var name)"),
         ),
+        Example(
+            "an element of ROS 1",
+            {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
+            Report(
+                "launch/a.launch.xml:2:4", "<rosparam> is of ROS 1; ROS 2 has <param from='...'/>"
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

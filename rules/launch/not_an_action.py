@@ -73,6 +73,33 @@ class NotAnAction(LaunchRule):
             ),
             Report("launch/a.launch.py:14:2", "this is None, and LaunchDescription takes actions"),
         ),
+        Example(
+            "an event, a source, a node in a container",
+            {
+                "launch/a.launch.py": "from launch.events import Shutdown\n"
+                "from launch.launch_description_sources import AnyLaunchDescriptionSource\n"
+                "from launch_ros.actions import ComposableNodeContainer\n"
+                + _LAUNCH.format(
+                    "Shutdown(),\n AnyLaunchDescriptionSource('a'),\n"
+                    " ComposableNodeContainer(name='a', "
+                    "namespace='', package='b', executable='c',\n"
+                    "  composable_node_descriptions=[node])"
+                )
+            },
+            Report(
+                "launch/a.launch.py:15:31",
+                "this is an event, and LaunchDescription takes actions: put it into "
+                "EmitEvent(event=...)",
+            ),
+            Report(
+                "launch/a.launch.py:16:2",
+                "this is a AnyLaunchDescriptionSource, and LaunchDescription takes "
+                "actions: put it into IncludeLaunchDescription(...)",
+            ),
+            Report(
+                "launch/a.launch.py:18:33", "this is a Node, and a container takes ComposableNode"
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

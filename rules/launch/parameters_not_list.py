@@ -62,6 +62,16 @@ class ParametersNotList(LaunchRule):
                 "launch/b.launch.py": _LAUNCH.format("[*({'rate': 2.0},)]"),
             },
         ),
+        Example(
+            "a path that is put together",
+            {"launch/a.launch.py": _LAUNCH.format("'talker' + '.yaml'")},
+            Report(
+                "launch/a.launch.py:7:62",
+                "parameters is a path; Node takes a list alone",
+                fix="make it a list",
+            ),
+            fixed={"launch/a.launch.py": _LAUNCH.format("['talker' + '.yaml']")},
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

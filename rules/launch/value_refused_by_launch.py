@@ -58,6 +58,34 @@ class ValueRefusedByLaunch(LaunchRule):
                 "this is one word, so a program 'ls -l' is looked for: write a list of words",
             ),
         ),
+        Example(
+            "other kinds",
+            {
+                "launch/a.launch.py": _LAUNCH.format("fast", "['ls'], respawn='true'", "True"),
+                "launch/b.launch.py": _LAUNCH.format("fast", "['ls']", "'soon'").replace(
+                    "['fast', 'slow']", "'fast'"
+                ),
+                "launch/c.launch.py": _LAUNCH.format("1", "['ls']", "'1.0'").replace(
+                    "['fast', 'slow']", "[1, 2]"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:10:44",
+                "respawn is a truth value, not a text: write True or False",
+            ),
+            Report("launch/a.launch.py:11:28", "a period is a number of seconds such as 1.0"),
+            Report(
+                "launch/b.launch.py:9:69",
+                "choices are a list of texts; this is one, and every letter is a choice",
+            ),
+            Report(
+                "launch/b.launch.py:11:28", "a period is a number of seconds, and 'soon' is none"
+            ),
+            Report(
+                "launch/c.launch.py:9:66",
+                "choices are texts: what is given on the command line never equals a number",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

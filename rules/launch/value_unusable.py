@@ -50,6 +50,33 @@ class ValueUnusable(LaunchRule):
             ),
             Report("launch/a.launch.py:9:61", "an argument is text: write '3'"),
         ),
+        Example(
+            "other arguments of a node",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'2.0'",
+                    "[],\n"
+                    "             output='console', respawn_delay='1', additional_env=['A=b'],\n"
+                    "             condition='true', parameters=[('rate', 2.0)]",
+                )
+            },
+            Report(
+                "launch/a.launch.py:10:21",
+                "there is no output 'console', but both, full, log, own_log, screen",
+            ),
+            Report("launch/a.launch.py:10:46", "a delay is a number, and this is a str"),
+            Report(
+                "launch/a.launch.py:10:66", "the environment is a dictionary, and this is a list"
+            ),
+            Report(
+                "launch/a.launch.py:11:24",
+                "a condition is an object such as IfCondition(...), not a value",
+            ),
+            Report(
+                "launch/a.launch.py:11:43",
+                "a parameter entry is a file or a dictionary {'name': value}, not a list or pair",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

@@ -79,6 +79,25 @@ class DependencyMalformed(Rule):
             Report("package.xml:2:3", "<depend> names no package", fix="remove it"),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
+        Example(
+            "two names, underscores, Python 2",
+            {
+                "package.xml": _MANIFEST.format(
+                    "rclpy std_msgs</exec_depend>\n"
+                    "  <exec_depend>python3_numpy</exec_depend>\n"
+                    "  <exec_depend>python-numpy"
+                )
+            },
+            Report(
+                "package.xml:3:16",
+                "'rclpy std_msgs' is more than one name: write an element for each",
+            ),
+            Report("package.xml:4:16", "keys of rosdep have dashes: 'python3-numpy'"),
+            Report(
+                "package.xml:5:16",
+                "'python-numpy' is of Python 2, which is gone; closest: 'python3-numpy'",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -67,6 +67,17 @@ class DependencyUnresolvable(Rule):
             ),
             rosdep_keys=_KEYS,
         ),
+        Example(
+            "another spelling",
+            {"package.xml": _MANIFEST.format("Serial")},
+            Report(
+                "package.xml:3:11",
+                "rosdep's cache has no rule for 'Serial', and no package of the "
+                "workspace or of AMENT_PREFIX_PATH has the name; it has "
+                "'python3-serial'",
+            ),
+            rosdep_keys=_KEYS,
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

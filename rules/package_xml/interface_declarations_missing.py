@@ -15,13 +15,10 @@ _KINDS = ("_msgs", "_srvs", "_interfaces")
 _RUNTIMES = ("rosidl_default_runtime", "rosidl_core_runtime")
 _CMAKE = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 _FILES = {"CMakeLists.txt": _CMAKE, "msg/Beat.msg": "int32 count\n"}
+_MANIFEST = '<package format="3">\n  <name>my_msgs</name>\n{}</package>\n'
 _BUILD = "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n"
 _RUN = "  <exec_depend>rosidl_default_runtime</exec_depend>\n"
 _MEMBER = f"  <member_of_group>{GROUP}</member_of_group>\n"
-
-
-def _manifest(lines: str) -> str:
-    return f'<package format="3">\n  <name>my_msgs</name>\n{lines}</package>\n'
 
 
 class InterfaceDeclarationsMissing(Rule):
@@ -45,22 +42,22 @@ class InterfaceDeclarationsMissing(Rule):
         Severity.WARNING: "another declared message package brings the runtime along"
     }
     examples = (
-        Example("all three", {"package.xml": _manifest(_BUILD + _RUN + _MEMBER), **_FILES}),
+        Example("all three", {"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER), **_FILES}),
         Example(
             "without the group",
-            {"package.xml": _manifest(_BUILD + _RUN), **_FILES},
+            {"package.xml": _MANIFEST.format(_BUILD + _RUN), **_FILES},
             Report(
                 "package.xml:4:4",
                 "CMakeLists.txt:2 generates interfaces, but there is no "
                 "<member_of_group> rosidl_interface_packages: CMake stops",
                 fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
-            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+            fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
             "another message package brings the runtime along",
             {
-                "package.xml": _manifest(_BUILD + "  <depend>std_msgs</depend>\n" + _MEMBER),
+                "package.xml": _MANIFEST.format(_BUILD + "  <depend>std_msgs</depend>\n" + _MEMBER),
                 **_FILES,
             },
             Report(
@@ -71,12 +68,14 @@ class InterfaceDeclarationsMissing(Rule):
                 severity=Severity.WARNING,
             ),
             fixed={
-                "package.xml": _manifest(_BUILD + _RUN + "  <depend>std_msgs</depend>\n" + _MEMBER)
+                "package.xml": _MANIFEST.format(
+                    _BUILD + _RUN + "  <depend>std_msgs</depend>\n" + _MEMBER
+                )
             },
         ),
         Example(
             "without anything",
-            {"package.xml": _manifest(""), **_FILES},
+            {"package.xml": _MANIFEST.format(""), **_FILES},
             Report(
                 "package.xml:1:2",
                 "CMakeLists.txt:2 generates interfaces, but no <buildtool_depend> "
@@ -95,11 +94,11 @@ class InterfaceDeclarationsMissing(Rule):
                 "<member_of_group> rosidl_interface_packages: CMake stops",
                 fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
-            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+            fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
             "groups came with format 3",
-            {"package.xml": _manifest(_BUILD + _RUN).replace('"3"', '"2"'), **_FILES},
+            {"package.xml": _MANIFEST.format(_BUILD + _RUN).replace('"3"', '"2"'), **_FILES},
             Report(
                 "package.xml:4:4",
                 "CMakeLists.txt:2 generates interfaces, but there is no "
@@ -107,7 +106,7 @@ class InterfaceDeclarationsMissing(Rule):
                 "need package format 3",
                 fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
-            fixed={"package.xml": _manifest(_BUILD + _RUN + _MEMBER)},
+            fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
     )
 

@@ -47,6 +47,15 @@ class MaintainerPlaceholder(Rule):
             },
             Report("package.xml:2:3", "<maintainer> has no name"),
         ),
+        Example(
+            "a placeholder for a name",
+            {
+                "package.xml": "<package>\n"
+                '  <maintainer email="ada@example.com">TODO</maintainer>\n'
+                "</package>\n"
+            },
+            Report("package.xml:2:3", "the name of <maintainer> is a placeholder"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -51,6 +51,21 @@ class EntryPointMissing(Rule):
                 "there is no talker/nodes.py; talker/node.py is near: `ros2 run` of 'other' fails",
             ),
         ),
+        Example(
+            "packages that do not exist",
+            {
+                "package.xml": "<package><name>listener</name></package>\n",
+                "setup.py": _SETUP.format(
+                    "        'a = talkr.node:main',\n        'b = listener.node:main',\n"
+                ),
+                "talker/__init__.py": "",
+            },
+            Report(
+                "setup.py:5:9",
+                "the package has no module 'talkr'; talker is near: `ros2 run` of 'a' fails",
+            ),
+            Report("setup.py:6:9", "there is no directory listener/: `ros2 run` of 'b' fails"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -56,6 +56,18 @@ class EntryPointUnusable(Rule):
                 "TypeError; give args a default",
             ),
         ),
+        Example(
+            "a node class",
+            {
+                "setup.py": _SETUP.format("talker.node").replace(":main", ":Talker"),
+                **_FILES,
+                "talker/node.py": "from rclpy.node import Node\n\n\n"
+                "class Talker(Node):\n    pass\n",
+            },
+            Report(
+                "setup.py:6:39", "Talker is a node class: a program needs a function that spins it"
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -44,6 +44,28 @@ class MarkerMissing(Rule):
             ),
             fixed={"resource/talker": ""},
         ),
+        Example(
+            "not installed",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format("('share/talker', ['package.xml'])"),
+                "resource/talker": "",
+            },
+            Report(
+                "setup.py:5:16",
+                "data_files does not install resource/talker to "
+                "share/ament_index/resource_index/packages: ros2 does not find it",
+            ),
+        ),
+        Example(
+            "of another package",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_BOTH.replace("resource/talker", "resource/listener")),
+                "resource/listener": "",
+            },
+            Report("setup.py:5:18", "installs listener as marker; the package is 'talker'"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -72,6 +72,14 @@ class ModuleNotPacked(Rule):
                 "missing: find_packages does not install talker/ without it",
             ),
         ),
+        Example(
+            "no directory src",
+            {"setup.py": _SETUP.format("    packages=find_packages(where='src'),\n"), **_FILES},
+            Report(
+                "setup.py:5:14",
+                "find_packages looks in src/, which does not exist: nothing is installed",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -45,6 +45,17 @@ class NameDiffers(Rule):
             ),
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
         ),
+        Example(
+            "no name",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": "from setuptools import setup\n\nsetup(version='0.1.0')\n",
+            },
+            Report(
+                "setup.py:3:1",
+                "setup() has no name: nothing is installed as 'talker'; add name='talker'",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

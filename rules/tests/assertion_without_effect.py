@@ -82,6 +82,23 @@ class AssertionWithoutEffect(TestRule):
                 "one side of this `or` is always true: compare with it as well",
             ),
         ),
+        Example(
+            "calls without parentheses, a mock, a string",
+            {
+                "test/test_a.py": _TEST.format("    pytest.skip\n"),
+                "test/test_b.py": "import rclpy\n\n\n" + _ASSERTION.format("rclpy.ok"),
+                "test/test_c.py": _ASSERTION.format("ready.called_once()"),
+                "test/test_d.py": _ASSERTION.format("'ready'"),
+            },
+            Report("test/test_a.py:9:5", "pytest.skip is not called: parentheses are missing"),
+            Report("test/test_b.py:9:5", "rclpy.ok is a function, which is always true: call it"),
+            Report(
+                "test/test_c.py:6:5",
+                "a mock has no called_once(): it fails, or is always true; "
+                "assert_called_once() is meant",
+            ),
+            Report("test/test_d.py:6:5", "a text is always true: nothing is asserted"),
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:

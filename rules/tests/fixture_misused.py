@@ -63,6 +63,13 @@ class FixtureMisused(Rule):
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
             Report("test/test_text.py:10:12", "the fixture text returns nothing, so this is None"),
         ),
+        Example(
+            "self outside of a class",
+            {"test/test_text.py": _TEST.format("return 'a'", "self", "'a'")},
+            Report(
+                "test/test_text.py:9:5", "test_text is not a method: pytest finds no fixture 'self'"
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -74,6 +74,17 @@ class MarkMisused(TestRule):
             {"test/test_text.py": _PARAMETERS.format("[]")},
             Report("test/test_text.py:4:2", "there are no values: pytest skips the test"),
         ),
+        Example(
+            "neither names nor values; no values",
+            {
+                "test/test_text.py": "import pytest\n\n\n"
+                "@pytest.mark.parametrize\ndef test_one():\n"
+                "    pass\n\n\n@pytest.mark.parametrize('word')\ndef test_two(word):\n"
+                "    pass\n"
+            },
+            Report("test/test_text.py:4:2", "parametrize needs names and values"),
+            Report("test/test_text.py:9:2", "parametrize needs the values as well as the names"),
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:

@@ -61,6 +61,30 @@ class TestCaseMisused(TestRule):
                 "pytest calls setUp in a TestCase only; here it is setup_method",
             ),
         ),
+        Example(
+            "an argument of setUp, an instance method setUpClass, parametrize",
+            {
+                "test/test_a.py": _TEST.format(_CASE, "setUp", "").replace(
+                    "setUp(self", "setUp(self, text"
+                ),
+                "test/test_b.py": _TEST.format(_CASE, "setUpClass", ""),
+                "test/test_c.py": _TEST.format(_CASE, "setUp", "")
+                .replace("    def test_", "    @pytest.mark.parametrize('a', [1])\n    def test_")
+                .replace("import ", "import pytest\nimport "),
+            },
+            Report(
+                "test/test_a.py:5:9",
+                "unittest calls setUp with self alone, and it takes 2 arguments",
+            ),
+            Report(
+                "test/test_b.py:5:9",
+                "unittest calls setUpClass on the class: @classmethod is missing",
+            ),
+            Report(
+                "test/test_c.py:10:9",
+                "parametrize does nothing in a TestCase: test_text fails with TypeError",
+            ),
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:

@@ -72,6 +72,24 @@ class TestNeverRun(Rule):
                 "test/test_text.py:8:5", "test_more is inside test_text: pytest does not collect it"
             ),
         ),
+        Example(
+            "a method of another name, a fixture",
+            {
+                "test/test_text.py": "import pytest\n\n\n"
+                "@pytest.fixture\ndef test_data():\n    return 1\n\n"
+                "\n"
+                + _CLASS.replace("TextTests", "TestText")
+                + "\n    def check(self):\n        assert True\n"
+            },
+            Report(
+                "test/test_text.py:5:5",
+                "test_data is a fixture, so pytest does not run it as a test",
+            ),
+            Report(
+                "test/test_text.py:13:9",
+                "pytest does not run check: its name does not begin with test",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
