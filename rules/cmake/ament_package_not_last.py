@@ -59,7 +59,7 @@ class AmentPackageNotLast(Rule):
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
             Report(
                 "CMakeLists.txt:3:1",
-                "comes after ament_package() in line 2, like 1 more",
+                "install() comes after ament_package() in line 2, and 1 more",
                 severity=Severity.INFO,
             ),
         ),
@@ -76,6 +76,6 @@ class AmentPackageNotLast(Rule):
                 yield self.report(command.name_location, message)
         later = [call for call in package.cmake.find("install") if call.index > calls[0].index]
         if later:
-            more = f", like {len(later) - 1} more" if len(later) > 1 else ""
-            message = f"comes after ament_package() in line {line}{more}"
+            more = f", and {len(later) - 1} more" if len(later) > 1 else ""
+            message = f"install() comes after ament_package() in line {line}{more}"
             yield self.report(later[0].name_location, message, severity=Severity.INFO)

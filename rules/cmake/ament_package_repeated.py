@@ -32,7 +32,7 @@ class AmentPackageRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
-            Report("CMakeLists.txt:3:1", "ament_package() was called in line 2 already"),
+            Report("CMakeLists.txt:3:1", "ament_package() is already called in line 2"),
         ),
     )
 
@@ -41,5 +41,5 @@ class AmentPackageRepeated(Rule):
         for call in calls[1:]:
             line = calls[0].location.line
             yield self.report(
-                call.name_location, f"ament_package() was called in line {line} already"
+                call.name_location, f"ament_package() is already called in line {line}"
             )

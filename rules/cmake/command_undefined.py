@@ -101,7 +101,7 @@ class CommandUndefined(Rule):
         ),
         Example("a command of ament", {"CMakeLists.txt": _CALL.format("ament_package")}),
         Example(
-            "misspelt",
+            "misspelled",
             {"CMakeLists.txt": _CALL.format("ament_pakage")},
             Report(
                 "CMakeLists.txt:3:1",

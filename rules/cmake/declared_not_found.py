@@ -58,7 +58,8 @@ class DeclaredNotFound(Rule):
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
             Report(
-                "package.xml:3:17", "<build_depend> 'std_msgs', but CMakeLists.txt does not find it"
+                "package.xml:3:17",
+                "<build_depend> 'std_msgs', but CMakeLists.txt does not find that package",
             ),
         ),
     )
@@ -76,7 +77,9 @@ class DeclaredNotFound(Rule):
             if name not in ROS_PACKAGES or name.startswith(_NOT_FOUND_BY_NAME):
                 continue
             if not any(name in argument for argument in self._arguments(package)):
-                message = f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not find it"
+                message = (
+                    f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not find that package"
+                )
                 yield self.report(dependency, message)
 
     def _finds(self, package: Package) -> list[str]:

@@ -27,9 +27,7 @@ class FindRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": f"project(talker)\n{_FIND}{_FIND}"},
-            Report(
-                "CMakeLists.txt:3:1", "'rclcpp' was looked for in line 2 already", fix="remove it"
-            ),
+            Report("CMakeLists.txt:3:1", "'rclcpp' is already found in line 2", fix="remove it"),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
         ),
     )
@@ -50,5 +48,5 @@ class FindRepeated(Rule):
             text = cmake.source.text[start:end]
             alone = text.strip() == cmake.source.text[command.start : command.end]
             fix = Fix("remove it", (Edit("CMakeLists.txt", start, end, ""),)) if alone else None
-            message = f"{values[0]!r} was looked for in line {first[values]} already"
+            message = f"{values[0]!r} is already found in line {first[values]}"
             yield self.report(command.name_location, message, fix)

@@ -54,8 +54,8 @@ class FoundWhenRunOnly(Rule):
             {"package.xml": _MANIFEST.format(_EXEC), "CMakeLists.txt": _LISTS},
             Report(
                 "package.xml:3:3",
-                "<exec_depend> 'std_msgs' is not there when the package is built, "
-                "but CMakeLists.txt, line 2 finds it; add <build_depend>",
+                "<exec_depend> 'std_msgs' is not installed when the package is "
+                "built, but CMakeLists.txt, line 2 finds it; add <build_depend>",
                 fix="add a <build_depend> of std_msgs",
             ),
             fixed={
@@ -80,7 +80,7 @@ class FoundWhenRunOnly(Rule):
             only.remove(name)
             element = next(one for one in manifest.dependencies if one.name == name).element
             message = (
-                f"<exec_depend> {name!r} is not there when the package is built, but "
+                f"<exec_depend> {name!r} is not installed when the package is built, but "
                 f"CMakeLists.txt, line {found.location.line} finds it; add <build_depend>"
             )
             fix = Fix(f"add a <build_depend> of {name}", (manifest.insert("build_depend", name),))

@@ -34,7 +34,7 @@ class InstalledForTestsOnly(Rule):
             },
             Report(
                 "CMakeLists.txt:3:18",
-                "talker/node.py is installed only when tests are built: releases lack it",
+                "talker/node.py is installed only when tests are built: releases do not contain it",
             ),
         ),
     )
@@ -50,5 +50,7 @@ class InstalledForTestsOnly(Rule):
                     continue
                 module = package.module(path)
                 if "rclpy" in module.imports_by_root and not module.in_tests:
-                    message = f"{path} is installed only when tests are built: releases lack it"
+                    message = (
+                        f"{path} is installed only when tests are built: releases do not contain it"
+                    )
                     yield self.report(item, message)

@@ -48,7 +48,7 @@ class InstalledPathMissing(Rule):
             Report(
                 "CMakeLists.txt:4:18",
                 "installs talker/nod.py, which does not exist: the build stops; "
-                "talker/node.py is near",
+                "closest: talker/node.py",
             ),
         ),
         Example(
@@ -83,7 +83,7 @@ class InstalledPathMissing(Rule):
         if package.has(path):
             return None
         near = nearest(package, path, package.files, 0.8)
-        hint = f"; {near} is near" if near else ""
+        hint = f"; closest: {near}" if near else ""
         return f"installs {path}, which does not exist: the build stops{hint}"
 
     def _directory_problem(self, package: Package, path: str) -> str | None:

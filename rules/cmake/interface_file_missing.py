@@ -12,10 +12,10 @@ _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_
 
 
 class InterfaceFileMissing(Rule):
-    """``rosidl_generate_interfaces`` lists a file that is not there, or is no interface.
+    """``rosidl_generate_interfaces`` lists a file that does not exist, or is not an interface.
 
     **Why.** CMake stops: ``the passed file 'msg/Bet.msg' doesn't exist``. For a file next to
-    CMakeLists.txt it complains of ``get_filename_component``: a directory must stand in front.
+    CMakeLists.txt it complains of ``get_filename_component``: the path must start with a directory.
 
     **Fix.** Write the path of the file relative to CMakeLists.txt; it ends in .msg, .srv, .action
     or .idl.
@@ -34,7 +34,7 @@ class InterfaceFileMissing(Rule):
             },
         ),
         Example(
-            "misspelt, without its directory",
+            "misspelled, without its directory",
             {
                 "CMakeLists.txt": _LISTS % "\n  msg/beat.msg\n  Beat.msg\n",
                 "msg/Beat.msg": "int32 count\n",
@@ -59,7 +59,7 @@ class InterfaceFileMissing(Rule):
         Example(
             "another kind of file",
             {"CMakeLists.txt": _LISTS % "msg/Beat.txt", "msg/Beat.txt": ""},
-            Report("CMakeLists.txt:2:11", "msg/Beat.txt is no .msg, .srv, .action or .idl file"),
+            Report("CMakeLists.txt:2:11", "msg/Beat.txt is not a .msg, .srv, .action or .idl file"),
         ),
     )
 
@@ -70,7 +70,7 @@ class InterfaceFileMissing(Rule):
             for file in call.files:
                 path, ending = file.path, file.path.rpartition(".")[2]
                 if package.has(path) and ending not in {*SECTIONS, "idl"}:
-                    message = f"{path} is no .msg, .srv, .action or .idl file"
+                    message = f"{path} is not a .msg, .srv, .action or .idl file"
                     yield self.report(file.argument, message)
                 elif package.has(path) and "/" not in path:
                     message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"

@@ -45,7 +45,7 @@ class InterfaceNotGenerated(Rule):
             },
             Report(
                 "CMakeLists.txt:2:1",
-                "srv/Add.srv is not among the files: nobody can use Add",
+                "srv/Add.srv is not among the files: no code is generated for Add",
                 fix="generate srv/Add.srv",
                 severity=Severity.WARNING,
             ),
@@ -100,7 +100,7 @@ class InterfaceNotGenerated(Rule):
             if path in listed or is_commented_out(package, path):
                 continue
             name = path.rpartition("/")[2].rpartition(".")[0]
-            message = f"{path} is not among the files: nobody can use {name}"
+            message = f"{path} is not among the files: no code is generated for {name}"
             is_used = name in words_of_users(package)
             yield self.report(
                 calls[0].command.name_location,

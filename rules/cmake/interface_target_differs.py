@@ -28,7 +28,7 @@ class InterfaceTargetDiffers(Rule):
     name = "interface-target-differs"
     examples = (
         Example("the project", {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_MESSAGE}),
-        Example("spelt out", {"CMakeLists.txt": _LISTS % "my_msgs", **_MESSAGE}),
+        Example("spelled out", {"CMakeLists.txt": _LISTS % "my_msgs", **_MESSAGE}),
         Example(
             "only for tests", {"CMakeLists.txt": _LISTS % "my_test_msgs SKIP_INSTALL", **_MESSAGE}
         ),
@@ -48,8 +48,8 @@ class InterfaceTargetDiffers(Rule):
             {"CMakeLists.txt": _LISTS % "msg/Rate.msg", **_MESSAGE},
             Report(
                 "CMakeLists.txt:2:28",
-                "the first argument is a name, not the file 'msg/Rate.msg': write "
-                "${PROJECT_NAME} in front",
+                "the first argument must be a name, not the file 'msg/Rate.msg': "
+                "insert ${PROJECT_NAME} before it",
             ),
         ),
     )
@@ -72,7 +72,7 @@ class InterfaceTargetDiffers(Rule):
                 fix = Fix("write ${PROJECT_NAME}", (edit,))
             else:
                 message = (
-                    f"the first argument is a name, not the file {call.target!r}: write "
-                    "${PROJECT_NAME} in front"
+                    f"the first argument must be a name, not the file {call.target!r}: insert "
+                    "${PROJECT_NAME} before it"
                 )
             yield self.report(target, message, fix)

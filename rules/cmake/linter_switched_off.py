@@ -12,9 +12,9 @@ _LISTS = (
 
 
 class LinterSwitchedOff(Rule):
-    """A line that pretends a linter was found already switches it off.
+    """A line disables a linter by marking it as already found.
 
-    **Why.** ``ros2 pkg create`` writes it with the advice to remove it: until then missing licence
+    **Why.** ``ros2 pkg create`` writes it with the advice to remove it: until then missing license
     headers pass ``colcon test``.
 
     **Fix.** Remove the line, once every source file has its header.
@@ -30,7 +30,7 @@ class LinterSwitchedOff(Rule):
         Example(
             "as written by ros2 pkg create",
             {"CMakeLists.txt": _LISTS.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
-            Report("CMakeLists.txt:3:3", "switches ament_cmake_copyright off: it never runs"),
+            Report("CMakeLists.txt:3:3", "disables ament_cmake_copyright: it never runs"),
         ),
     )
 
@@ -41,4 +41,4 @@ class LinterSwitchedOff(Rule):
                 continue
             if [value.upper() for value in values[:1]] in (["TRUE"], ["ON"], ["1"], ["YES"]):
                 linter = name.removesuffix("_FOUND")
-                yield self.report(command.name_location, f"switches {linter} off: it never runs")
+                yield self.report(command.name_location, f"disables {linter}: it never runs")

@@ -46,7 +46,7 @@ class NameRegisteredTwice(Rule):
             {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
             Report(
                 "CMakeLists.txt:3:23",
-                "ament_add_pytest_test(talk) stands in line 2 already: CMake stops",
+                "ament_add_pytest_test(talk) is already called in line 2: CMake stops",
             ),
         ),
     )
@@ -67,7 +67,7 @@ class NameRegisteredTwice(Rule):
             first = seen.setdefault((group, name), command)
             if first is not command:
                 line = first.location.line
-                message = f"{command.name}({name}) stands in line {line} already: CMake stops"
+                message = f"{command.name}({name}) is already called in line {line}: CMake stops"
                 yield self.report(command.arguments[0], message)
 
     def _may_skip(self, command: Command) -> bool:

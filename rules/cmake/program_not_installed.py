@@ -77,7 +77,8 @@ class ProgramNotInstalled(Rule):
             },
             Report(
                 "CMakeLists.txt:3:1",
-                "talker/other.py is a node with a main, but not installed: `ros2 run` misses it",
+                "talker/other.py is a node with a main function, but not installed: "
+                "`ros2 run` does not find it",
             ),
         ),
     )
@@ -97,15 +98,16 @@ class ProgramNotInstalled(Rule):
                 continue
             if f"/{module.path}".endswith(used):
                 continue
-            if is_used_by_build(package, module.path) or self._is_misspelt(package, module.path):
+            if is_used_by_build(package, module.path) or self._is_misspelled(package, module.path):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
             message = (
-                f"{module.path} is a node with a main, but not installed: `ros2 run` misses it"
+                f"{module.path} is a node with a main function, but not installed: `ros2 "
+                "run` does not find it"
             )
             yield self.report(place, message)
 
-    def _is_misspelt(self, package: Package, path: str) -> bool:
+    def _is_misspelled(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""
         missing = [one.path for one in programs(package) if not package.has(one.path)]
         return bool(nearest(package, path, missing, 0.8))

@@ -67,7 +67,7 @@ class ProgramWithoutShebang(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"\ufeff{SHEBANG}\nimport rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "a byte order mark stands in front: the kernel does not see the shebang",
+                "a byte order mark comes before the shebang: the kernel does not recognize it",
                 fix="begin with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
@@ -85,7 +85,7 @@ class ProgramWithoutShebang(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/opt/bin/python3\nimport rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "'#!/opt/bin/python3' starts no Python on other machines; write "
+                "'#!/opt/bin/python3' does not exist on other machines; write "
                 "#!/usr/bin/env python3",
                 fix="begin with #!/usr/bin/env python3",
             ),
@@ -104,7 +104,9 @@ class ProgramWithoutShebang(Rule):
             end = len(line)
             if line.startswith("\ufeff"):
                 end = 1
-                what = "a byte order mark stands in front: the kernel does not see the shebang"
+                what = (
+                    "a byte order mark comes before the shebang: the kernel does not recognize it"
+                )
             elif not line.startswith("#!"):
                 end = 0
                 what = f"installed as a program, but does not begin with {SHEBANG}"
@@ -114,7 +116,7 @@ class ProgramWithoutShebang(Rule):
                 end = 0
                 what = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
             elif not _starts_python(line.strip()):
-                what = f"{line.strip()!r} starts no Python on other machines; write {SHEBANG}"
+                what = f"{line.strip()!r} does not exist on other machines; write {SHEBANG}"
             else:
                 continue
             text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline

@@ -31,7 +31,7 @@ class PytestFileMissing(Rule):
             {"CMakeLists.txt": _LISTS.format("test_talks.py"), "test/test_talk.py": ""},
             Report(
                 "CMakeLists.txt:2:28",
-                "there is no test file test/test_talks.py; test/test_talk.py is near",
+                "there is no test file test/test_talks.py; closest: test/test_talk.py",
             ),
         ),
     )
@@ -50,5 +50,5 @@ class PytestFileMissing(Rule):
             if package.has(path) or package.has_directory(path):
                 continue
             near = nearest(package, path, package.python_files, 0.7)
-            hint = f"; {near} is near" if near else ""
+            hint = f"; closest: {near}" if near else ""
             yield self.report(argument, f"there is no test file {path}{hint}")

@@ -40,7 +40,7 @@ class PythonPackageFound(Rule):
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
             Report(
                 "CMakeLists.txt:2:14",
-                "'launch_ros' is Python alone and has no CMake files: CMake stops",
+                "'launch_ros' is a pure Python package without CMake files: CMake stops",
             ),
         ),
         Example(
@@ -48,13 +48,15 @@ class PythonPackageFound(Rule):
             {"CMakeLists.txt": _LISTS.format("python3-numpy")},
             Report(
                 "CMakeLists.txt:2:14",
-                "'python3-numpy' is Python alone and has no CMake files: CMake stops",
+                "'python3-numpy' is a pure Python package without CMake files: CMake stops",
             ),
         ),
         Example(
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
-            Report("CMakeLists.txt:3:14", "'catkin' is of ROS 1: CMake stops; find ament_cmake"),
+            Report(
+                "CMakeLists.txt:3:14", "'catkin' belongs to ROS 1: CMake stops; use ament_cmake"
+            ),
         ),
     )
 
@@ -63,7 +65,9 @@ class PythonPackageFound(Rule):
             if not found.required or package.workspace.get(found.name) is not None:
                 continue
             if found.name.startswith(("python3-", "python-")) or found.name in _PURE:
-                message = f"{found.name!r} is Python alone and has no CMake files: CMake stops"
+                message = (
+                    f"{found.name!r} is a pure Python package without CMake files: CMake stops"
+                )
                 yield self.report(found, message)
             elif found.name == "catkin" and found.command.depth == 0 and uses_ament(package):
-                yield self.report(found, "'catkin' is of ROS 1: CMake stops; find ament_cmake")
+                yield self.report(found, "'catkin' belongs to ROS 1: CMake stops; use ament_cmake")

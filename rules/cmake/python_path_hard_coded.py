@@ -30,8 +30,8 @@ class PythonPathHardCoded(Rule):
             {"CMakeLists.txt": _LISTS.format("lib/python3.8/site-packages")},
             Report(
                 "CMakeLists.txt:2:38",
-                "installs Python modules to lib/python3.8/site-packages, where only "
-                "one Python looks",
+                "installs Python modules to lib/python3.8/site-packages, which only "
+                "that version of Python searches",
             ),
         ),
     )
@@ -43,5 +43,8 @@ class PythonPathHardCoded(Rule):
             if argument is None or not re.search(r"python\d[\d.]*/|(site|dist)-packages", where):
                 continue
             if "$" not in argument.raw:
-                message = f"installs Python modules to {where}, where only one Python looks"
+                message = (
+                    f"installs Python modules to {where}, which only that version of "
+                    "Python searches"
+                )
                 yield self.report(argument, message)

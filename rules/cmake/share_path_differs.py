@@ -46,7 +46,7 @@ class SharePathDiffers(Rule):
             {**_FILES, "CMakeLists.txt": _LISTS.format("config/", "")},
             Report(
                 "CMakeLists.txt:2:19",
-                "what is in config/ lands in share/talker/, not in share/talker/config/",
+                "the files of config/ are installed to share/talker/, not in share/talker/config/",
                 fix="keep config/ once",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("config", "")},
@@ -56,8 +56,8 @@ class SharePathDiffers(Rule):
             {**_FILES, "CMakeLists.txt": _LISTS.format("config", "/config")},
             Report(
                 "CMakeLists.txt:2:19",
-                "what is in config/ lands in share/talker/config/config/, not in "
-                "share/talker/config/",
+                "the files of config/ are installed to share/talker/config/config/, "
+                "not in share/talker/config/",
                 fix="keep config/ once",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("config/", "/config")},
@@ -86,5 +86,5 @@ class SharePathDiffers(Rule):
                     lands = f"{target}/{directory}/, not in {target}/"
                 else:
                     continue
-                message = f"what is in {directory}/ lands in {lands}"
+                message = f"the files of {directory}/ are installed to {lands}"
                 yield self.report(item, message, Fix(f"keep {directory}/ once", (edit,)))

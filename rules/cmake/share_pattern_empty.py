@@ -47,7 +47,7 @@ class SharePatternEmpty(Rule):
             {"CMakeLists.txt": _LISTS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
             Report(
                 "CMakeLists.txt:2:19",
-                "the patterns leave nothing of config/, for instance config/talker.yaml",
+                "the patterns match no file of config/, for instance config/talker.yaml",
             ),
         ),
         Example(
@@ -55,7 +55,7 @@ class SharePatternEmpty(Rule):
             {"CMakeLists.txt": _LISTS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
             Report(
                 "CMakeLists.txt:2:19",
-                "the patterns leave nothing of config/, for instance config/talker.yaml",
+                "the patterns match no file of config/, for instance config/talker.yaml",
             ),
         ),
     )
@@ -68,7 +68,7 @@ class SharePatternEmpty(Rule):
                 path = item.path or ""
                 files = [one for one in package.files if path and one.startswith(f"{path}/")]
                 if files and not any(_is_taken(install, one) for one in files):
-                    message = f"the patterns leave nothing of {path}/, for instance {files[0]}"
+                    message = f"the patterns match no file of {path}/, for instance {files[0]}"
                     yield self.report(item, message)
 
 

@@ -44,7 +44,7 @@ class SourceFileMissing(Rule):
             "not there",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
             Report(
-                "CMakeLists.txt:2:23", "there is no file src/a.cpp: CMake stops; src/b.cpp is near"
+                "CMakeLists.txt:2:23", "there is no file src/a.cpp: CMake stops; closest: src/b.cpp"
             ),
         ),
     )
@@ -64,6 +64,6 @@ class SourceFileMissing(Rule):
                 if package.has(path) or path.startswith(("/", "..")) or is_left_out(package, path):
                     continue
                 near = nearest(package, path, package.files, 0.8)
-                hint = f"; {near} is near" if near else ""
+                hint = f"; closest: {near}" if near else ""
                 message = f"there is no file {path}: CMake stops{hint}"
                 yield self.report(argument, message)

@@ -34,7 +34,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS.format("talks")},
-            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
+            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; closest: 'talk'"),
         ),
         Example(
             "Python scripts are no targets",
@@ -56,7 +56,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined, but named elsewhere",
             {"CMakeLists.txt": _LISTS.format("talks") + "message(STATUS talks)\n"},
-            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; 'talk' is near"),
+            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; closest: 'talk'"),
         ),
     )
 
@@ -71,7 +71,7 @@ class TargetUndefined(Rule):
         never_named = targets_named_once(cmake)
         for target, argument in never_named:
             near = nearest(package, target, known, 0.75)
-            hint = f"; {near!r} is near" if near else ": CMake stops"
+            hint = f"; closest: {near!r}" if near else ": CMake stops"
             yield self.report(argument, f"nothing defines the target {target!r}{hint}")
         told = {target for target, _ in never_named}
         for command in cmake.find(*TAKING_TARGETS):
@@ -80,5 +80,5 @@ class TargetUndefined(Rule):
                 continue
             near = nearest(package, name, known, 0.75)
             if near:
-                message = f"nothing defines the target {name!r}; {near!r} is near"
+                message = f"nothing defines the target {name!r}; closest: {near!r}"
                 yield self.report(command.arguments[0], message)

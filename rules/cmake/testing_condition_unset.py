@@ -1,4 +1,4 @@
-"""CM098: tests stand under a condition that is true when tests are built."""
+"""CM098: tests are registered under a condition that is true when tests are built."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ class VariableUnclosed(Rule):
         Example(
             "not closed",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME"), "talker/node.py": ""},
-            Report("CMakeLists.txt:3:15", "lib/${PROJECT_NAME: a } is missing, CMake stops"),
+            Report("CMakeLists.txt:3:15", "missing '}' in 'lib/${PROJECT_NAME': CMake stops"),
         ),
     )
 
@@ -40,7 +40,7 @@ class VariableUnclosed(Rule):
         for command in package.cmake.commands:
             for argument in command.arguments:
                 if not argument.bracket and _is_open(argument):
-                    message = f"{argument.raw.splitlines()[0]}: a }} is missing, CMake stops"
+                    message = f"missing '}}' in {argument.raw.splitlines()[0]!r}: CMake stops"
                     yield self.report(argument, message)
 
 

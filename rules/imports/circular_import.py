@@ -35,13 +35,13 @@ class CircularImport(Rule):
             },
             Report(
                 "talker/node.py:1:1",
-                "talker/text.py:1 imports from this module in turn: ImportError, "
-                "whichever comes first",
+                "circular import: talker/text.py:1 imports from this module as "
+                "well, so one of them fails with ImportError",
             ),
             Report(
                 "talker/text.py:1:1",
-                "talker/node.py:1 imports from this module in turn: ImportError, "
-                "whichever comes first",
+                "circular import: talker/node.py:1 imports from this module as "
+                "well, so one of them fails with ImportError",
             ),
         ),
     )
@@ -60,8 +60,8 @@ class CircularImport(Rule):
                 continue
             if self._takes_names(package, back, path):
                 message = (
-                    f"{other}:{back.location.line} imports from this module in turn: "
-                    "ImportError, whichever comes first"
+                    f"circular import: {other}:{back.location.line} imports from this module as "
+                    "well, so one of them fails with ImportError"
                 )
                 yield self.report(one, message)
 

@@ -38,7 +38,7 @@ class ModuleOfRos1Imported(Rule):
         Example(
             "of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
-            Report("talker/node.py:2:1", "'rospy' is of ROS 1: ROS 2 has rclpy"),
+            Report("talker/node.py:2:1", "'rospy' belongs to ROS 1; use rclpy"),
         ),
     )
 
@@ -51,4 +51,4 @@ class ModuleOfRos1Imported(Rule):
             for root, new in _NEW.items():
                 for one in module.imports_by_root.get(root, ()):
                     if not one.guarded and not one.conditional and not package.has_directory(root):
-                        yield self.report(one, f"{root!r} is of ROS 1: ROS 2 has {new}")
+                        yield self.report(one, f"{root!r} belongs to ROS 1; use {new}")

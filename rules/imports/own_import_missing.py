@@ -23,7 +23,7 @@ _FILES = {"setup.py": _SETUP, "talker/__init__.py": "", "talker/text.py": "def m
 
 
 class OwnImportMissing(Rule):
-    """A module imports another one of its package by a name that it does not have.
+    """A module imports another one of its package by a wrong name.
 
     **Why.** ``ModuleNotFoundError: No module named 'text'`` or ``ImportError: cannot import name``
     when the node is started; only the package itself is on Python's path, not its directory.
@@ -58,7 +58,7 @@ class OwnImportMissing(Rule):
             "no such function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
             Report(
-                "talker/node.py:1:19", "talker/text.py has no 'makes': ImportError; it has 'make'"
+                "talker/node.py:1:19", "talker/text.py has no 'makes': ImportError; closest: 'make'"
             ),
         ),
         Example(
@@ -123,5 +123,5 @@ class OwnImportMissing(Rule):
             if file_of(package, below) or may_be_made(package, below):
                 continue
             near = nearest(package, imported.name, [*module.functions, *module.classes], 0.6)
-            hint = f"; it has {near!r}" if near else ""
+            hint = f"; closest: {near!r}" if near else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

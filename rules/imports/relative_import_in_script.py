@@ -16,7 +16,7 @@ _FILES = {"CMakeLists.txt": _LISTS, "talker/__init__.py": "", "talker/text.py": 
 
 
 class RelativeImportInScript(Rule):
-    """A program that is started as a file imports relatively.
+    """A program that is started as a file uses a relative import.
 
     **Why.** In ``lib/<package>`` it is not a part of a package: ``ImportError: attempted relative
     import with no known parent package``.

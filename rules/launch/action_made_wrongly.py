@@ -28,7 +28,7 @@ def _launch(node: str, actions: str) -> dict[str, str]:
 
 
 class ActionMadeWrongly(LaunchRule):
-    """An action lacks the program that it starts, or a list of actions is none.
+    """An action lacks the program that it starts, or gets one action instead of a list.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
     ``'Node' object is not callable`` where a comma is missing between two actions, ``missing 1
@@ -47,7 +47,7 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "no list",
             _launch(_RIGHT[0], "[GroupAction(node)]"),
-            Report("launch/a.launch.py:8:43", "one Node: write a list of it"),
+            Report("launch/a.launch.py:8:43", "expected a list of actions, not one Node"),
         ),
         Example(
             "several arguments",
@@ -60,7 +60,7 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            Report("launch/a.launch.py:8:31", "a Node is called: a comma is missing after it"),
+            Report("launch/a.launch.py:8:31", "missing comma after this Node: it is called"),
         ),
         Example(
             "no program",
@@ -99,13 +99,15 @@ class ActionMadeWrongly(LaunchRule):
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)
         if isinstance(parent, ast.Call) and parent.func is call.call:
-            yield self.report(call, f"a {call.kind} is called: a comma is missing after it")
+            yield self.report(call, f"missing comma after this {call.kind}: it is called")
         if call.kind in {"GroupAction", "TimerAction"}:
             name = "GroupAction" if call.call.args and call.kind == "GroupAction" else ""
             actions = call.call.args[0] if name else call.given.get("actions")
             found = launch.call_of(actions)
             if actions is not None and found is not None and found.kind in _ACTIONS:
-                yield self.report(launch.location(actions), f"one {found.kind}: write a list of it")
+                yield self.report(
+                    launch.location(actions), f"expected a list of actions, not one {found.kind}"
+                )
             if call.kind == "GroupAction" and "scoped" not in call.given:
                 last = _setting_nothing(launch, actions)
                 if last is not None:

@@ -49,7 +49,8 @@ class ActionNotLaunchedOnce(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("")},
             Report(
                 "launch/a.launch.py:8:13",
-                "a handler watches first, which is in no list: it is never launched",
+                "a handler watches first, which is not in the LaunchDescription: it "
+                "is never launched",
             ),
         ),
     )
@@ -67,7 +68,10 @@ class ActionNotLaunchedOnce(LaunchRule):
                     message = f"{name} is launched twice: here, and in the LaunchDescription"
                     yield self.report(launch.location(one.node), message)
             if loads and all(_is_target(launch, load) for load in loads):
-                message = f"a handler watches {name}, which is in no list: it is never launched"
+                message = (
+                    f"a handler watches {name}, which is not in the LaunchDescription: it "
+                    "is never launched"
+                )
                 yield self.report(launch.location(made), message)
 
 

@@ -56,13 +56,10 @@ class ArgumentsDoNotFit(LaunchRule):
                 "def generate_launch_description():\n"
                 "    return LaunchConfiguration('a', 'b')\n",
             },
-            Report(
-                "launch/a.launch.py:10:31",
-                "TimerAction takes arguments by name only: write the names",
-            ),
+            Report("launch/a.launch.py:10:31", "TimerAction takes keyword arguments only"),
             Report(
                 "launch/b.launch.py:5:12",
-                "LaunchConfiguration takes one argument without a name: variable_name",
+                "LaunchConfiguration takes 1 positional argument: variable_name",
             ),
         ),
     )
@@ -86,6 +83,6 @@ def _too_many(kind: str, positional: tuple[str, ...]) -> str:
     if kind == "PathJoinSubstitution":
         return "PathJoinSubstitution takes one list of parts: put them in [...]"
     if not positional:
-        return f"{kind} takes arguments by name only: write the names"
-    one = "one argument" if len(positional) == 1 else f"{len(positional)} arguments"
-    return f"{kind} takes {one} without a name: {', '.join(positional)}"
+        return f"{kind} takes keyword arguments only"
+    count = f"{len(positional)} positional argument" + "s" * (len(positional) > 1)
+    return f"{kind} takes {count}: {', '.join(positional)}"

@@ -35,7 +35,7 @@ class ArgumentsNotList(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'")},
             Report(
                 "launch/a.launch.py:7:61",
-                "arguments is one string, which launch takes apart letter by letter",
+                "arguments is one string, which launch splits into letters",
                 fix="split it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'.split()")},
@@ -45,7 +45,7 @@ class ArgumentsNotList(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'")},
             Report(
                 "launch/a.launch.py:7:65",
-                "ros_arguments is one string, which launch takes apart letter by letter",
+                "ros_arguments is one string, which launch splits into letters",
                 fix="split it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'.split()")},
@@ -60,5 +60,5 @@ class ArgumentsNotList(LaunchRule):
                     continue
                 _, end = launch.module.span(node)
                 fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
-                message = f"{name} is one string, which launch takes apart letter by letter"
+                message = f"{name} is one string, which launch splits into letters"
                 yield self.report(launch.location(node), message, fix)

@@ -55,8 +55,7 @@ class ConditionUnusable(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
             Report(
                 "launch/a.launch.py:12:65",
-                "Python decides not before the LaunchConfiguration has a value: "
-                "write NotSubstitution",
+                "`not` tests the LaunchConfiguration object, not its value: use NotSubstitution",
             ),
         ),
         Example(
@@ -64,7 +63,7 @@ class ConditionUnusable(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
             Report(
                 "launch/a.launch.py:12:65",
-                "'use' is neither true nor false: LaunchConfiguration('use') is meant",
+                "'use' is neither true nor false; did you mean LaunchConfiguration('use')?",
             ),
         ),
         Example(
@@ -89,7 +88,7 @@ class ConditionUnusable(LaunchRule):
                     "IfCondition", "LaunchConfigurationEquals"
                 ),
             },
-            Report("launch/a.launch.py:12:65", "IfCondition takes a text, not another condition"),
+            Report("launch/a.launch.py:12:65", "IfCondition takes a string, not another condition"),
             Report(
                 "launch/b.launch.py:12:65", "True is not a string: write 'true', or no condition"
             ),
@@ -99,7 +98,7 @@ class ConditionUnusable(LaunchRule):
             ),
             Report(
                 "launch/d.launch.py:12:79",
-                "LaunchConfigurationEquals takes the name of the launch argument, a text",
+                "LaunchConfigurationEquals takes the name of the launch argument, a string",
             ),
         ),
     )
@@ -127,16 +126,18 @@ def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
     kind = found.kind if found is not None else ""
     if call.kind in _BY_NAME:
         is_value = kind == "LaunchConfiguration"
-        return f"{call.kind} takes the name of the launch argument, a text" if is_value else ""
+        return f"{call.kind} takes the name of the launch argument, a string" if is_value else ""
     if kind in _CONDITIONS:
-        return f"{call.kind} takes a text, not another condition"
+        return f"{call.kind} takes a string, not another condition"
     match node:
         case ast.Constant(value=bool() | int() | None as value):
             return f"{value!r} is not a string: write {str(value).lower()!r}, or no condition"
         case ast.UnaryOp(op=ast.Not()) | ast.BoolOp():
             return _by_python(launch, node)
         case ast.Constant(value=str(text)) if text.strip().lower() not in _TRUTHS:
-            hint = f": LaunchConfiguration({text!r}) is meant" if text in launch.declared else ""
+            hint = (
+                f"; did you mean LaunchConfiguration({text!r})?" if text in launch.declared else ""
+            )
             return f"{text!r} is neither true nor false{hint}"
     return ""
 
@@ -147,7 +148,7 @@ def _by_python(launch: LaunchFile, node: ast.UnaryOp | ast.BoolOp) -> str:
     for value in values:
         call = launch.call_of(value)
         if call is not None and call.kind in {"LaunchConfiguration", "PythonExpression"}:
-            what = "not" if isinstance(node, ast.UnaryOp) else "and, or"
+            what = "not" if isinstance(node, ast.UnaryOp) else "and/or"
             use = "NotSubstitution" if what == "not" else "AndSubstitution, OrSubstitution"
-            return f"Python decides {what} before the {call.kind} has a value: write {use}"
+            return f"`{what}` tests the {call.kind} object, not its value: use {use}"
     return ""

@@ -70,11 +70,11 @@ class ConfigurationUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:9:56",
-                "nothing sets the launch configuration 'node'; declared here is nothing",
+                "the launch configuration 'node' is never set; declared here: nothing",
             ),
             Report(
                 "launch/b.launch.py:10:56",
-                "nothing sets the launch configuration 'nod'; declared here is node",
+                "the launch configuration 'nod' is never set; declared here: node",
             ),
         ),
     )
@@ -97,7 +97,7 @@ class ConfigurationUndeclared(Rule):
                 if may_be_set_elsewhere(package, launch, name):
                     continue
                 have = ", ".join(sorted(set(launch.declared))) or "nothing"
-                message = f"nothing sets the launch configuration {name!r}; declared here is {have}"
+                message = f"the launch configuration {name!r} is never set; declared here: {have}"
                 yield self.report(launch.location(call.call), message)
 
 

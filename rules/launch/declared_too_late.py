@@ -38,7 +38,7 @@ class DeclaredTooLate(Rule):
             {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
             Report(
                 "launch/a.launch.py:8:12",
-                "'name' is declared after its use: the Node of line 9 reads it "
+                "'name' is declared after its use: the Node in line 9 reads it "
                 "before it has a value",
             ),
         ),
@@ -53,7 +53,7 @@ class DeclaredTooLate(Rule):
             },
             Report(
                 "launch/a.launch.py:14:12",
-                "'name' is declared after its use: the OpaqueFunction of line 10 "
+                "'name' is declared after its use: the OpaqueFunction in line 10 "
                 "reads it before it has a value",
             ),
         ),
@@ -65,7 +65,7 @@ class DeclaredTooLate(Rule):
             },
             Report(
                 "launch/a.launch.py:8:12",
-                "'name' is declared after its use: the Node of line 9 reads it "
+                "'name' is declared after its use: the Node in line 9 reads it "
                 "before it has a value",
             ),
         ),
@@ -87,6 +87,6 @@ class DeclaredTooLate(Rule):
                         continue
                     reported.add(name)
                     line = step.action.location.line
-                    what = f"the {step.action.kind} of line {line} reads it"
+                    what = f"the {step.action.kind} in line {line} reads it"
                     message = f"{name!r} is declared after its use: {what} before it has a value"
                     yield self.report(launch.location(call.call), message)

@@ -55,7 +55,10 @@ class DescriptionIncomplete(LaunchRule):
                 "launch/a.launch.py:5:5",
                 "`ros2 launch` calls generate_launch_description without arguments: TypeError",
             ),
-            Report("launch/a.launch.py:8:5", "this Node is in no list: it is never executed"),
+            Report(
+                "launch/a.launch.py:8:5",
+                "this Node is not in the LaunchDescription: it is never launched",
+            ),
         ),
         Example(
             "what add_action returns",
@@ -78,7 +81,9 @@ class DescriptionIncomplete(LaunchRule):
         for call in launch.calls:
             is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
             if is_dropped and call.kind in _EXECUTED:
-                yield self.report(call, f"this {call.kind} is in no list: it is never executed")
+                yield self.report(
+                    call, f"this {call.kind} is not in the LaunchDescription: it is never launched"
+                )
         for statement in launch.module.walk(ast.Return):
             if function is None or (
                 launch.module.enclosing_function(statement) is not function.node

@@ -53,11 +53,11 @@ class EventHandlerMisused(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("", "Shutdown", "timer", "[handler]")},
             Report(
                 "launch/a.launch.py:9:29",
-                "this is the action Shutdown, and EmitEvent takes an event of launch.events",
+                "EmitEvent takes an event of launch.events, not the action Shutdown",
             ),
             Report(
                 "launch/a.launch.py:15:43",
-                "OnProcessExit watches processes, and TimerAction starts none of its own",
+                "OnProcessExit watches processes, but TimerAction starts none itself",
             ),
             Report(
                 "launch/a.launch.py:15:58", "launch calls on_exit with event and context: TypeError"
@@ -79,11 +79,12 @@ class EventHandlerMisused(LaunchRule):
                 ).replace("on_exit=on_exit", "on_exit=on_exit()"),
             },
             Report(
-                "launch/a.launch.py:15:43", "OnProcessExit watches one action: give the node itself"
+                "launch/a.launch.py:15:43",
+                "OnProcessExit watches one action: pass the action itself",
             ),
             Report(
                 "launch/a.launch.py:16:59",
-                "this is the action TimerAction, and RegisterEventHandler takes a handler",
+                "RegisterEventHandler takes a handler, not the action TimerAction",
             ),
             Report(
                 "launch/b.launch.py:15:57", "launch calls this with event and context: TypeError"
@@ -109,17 +110,17 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
     if name == "target_action" and call.kind in _OF_PROCESSES:
         value = launch.evaluator.evaluate(node)
         if kind in _NO_PROCESSES:
-            problem = f"{call.kind} watches processes, and {kind} starts none of its own"
+            problem = f"{call.kind} watches processes, but {kind} starts none itself"
         elif isinstance(value, str | list | tuple) or isinstance(node, ast.List | ast.Tuple):
-            problem = f"{call.kind} watches one action: give the node itself"
+            problem = f"{call.kind} watches one action: pass the action itself"
     elif name == "event" and call.kind == "EmitEvent" and kind in ACTIONS:
         event = " of launch.events" if kind == "Shutdown" else ""
-        problem = f"this is the action {kind}, and EmitEvent takes an event{event}"
+        problem = f"EmitEvent takes an event{event}, not the action {kind}"
     elif name == "event_handler" and call.kind == "RegisterEventHandler":
         if isinstance(node, ast.List | ast.Tuple):
             problem = "RegisterEventHandler takes one handler, not a list of them"
         elif kind in ACTIONS:
-            problem = f"this is the action {kind}, and RegisterEventHandler takes a handler"
+            problem = f"RegisterEventHandler takes a handler, not the action {kind}"
     elif call.kind in HANDLERS and name in (*CALLBACKS, *_OUTPUTS):
         problem = _callback_problem(launch, node, 1 if name in _OUTPUTS else 2)
     return problem

@@ -65,14 +65,14 @@ class ImportFromWrongModule(Rule):
             "right", {"launch/a.launch.py": _LAUNCH.format("launch_ros.actions", "TimerAction")}
         ),
         Example(
-            "wrong, and misspelt",
+            "wrong, and misspelled",
             {"launch/a.launch.py": _LAUNCH.format("launch.actions", "TimerActions")},
             Report(
                 "launch/a.launch.py:1:28", "launch.actions has no 'Node'; launch_ros.actions has"
             ),
             Report(
                 "launch/a.launch.py:2:28",
-                "launch.actions has no 'TimerActions'; 'TimerAction' is meant",
+                "launch.actions has no 'TimerActions'; closest: 'TimerAction'",
             ),
         ),
         Example(
@@ -80,7 +80,7 @@ class ImportFromWrongModule(Rule):
             {"launch/a.launch.py": _LAUNCH.format("launch_ros.action", "TimerAction")},
             Report(
                 "launch/a.launch.py:1:1",
-                "there is no launch_ros.action; closest: 'launch_ros.actions'",
+                "no module 'launch_ros.action'; closest: 'launch_ros.actions'",
             ),
         ),
     )
@@ -102,14 +102,14 @@ class ImportFromWrongModule(Rule):
     ) -> Iterator[Diagnostic]:
         near = f"{one.module}s"
         if one.module not in known and near in known and one.root != "launch":
-            yield self.report(one, f"there is no {one.module}; closest: {near!r}")
+            yield self.report(one, f"no module {one.module!r}; closest: {near!r}")
         for name in one.names if one.module in known else ():
             if name.name in known[one.module] or name.name == "*":
                 continue
             place = places.get(name.name)
             alike = get_close_matches(name.name, known[one.module], 1, 0.85)
             if place is None and alike and alike[0].lower() != name.name.lower():
-                hint = f"{alike[0]!r} is meant"
+                hint = f"closest: {alike[0]!r}"
             elif place is not None and place.count(".") >= one.module.count("."):
                 hint = f"{place} has"
             else:

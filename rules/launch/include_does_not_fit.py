@@ -62,7 +62,7 @@ class IncludeDoesNotFit(Rule):
             ),
         ),
         Example(
-            "misspelt",
+            "misspelled",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
             Report(
                 "launch/a.launch.py:13:31",
@@ -72,7 +72,7 @@ class IncludeDoesNotFit(Rule):
         Example(
             "itself",
             _files("a.launch.py", "{}"),
-            Report("launch/a.launch.py:11:9", "this file includes itself, without end"),
+            Report("launch/a.launch.py:11:9", "this file includes itself endlessly"),
         ),
     )
 
@@ -87,21 +87,21 @@ class IncludeDoesNotFit(Rule):
         self, launch: LaunchFile, call: LaunchCall, other: Included
     ) -> Iterator[Diagnostic]:
         if other.path == launch.path and "condition" not in call.given:
-            yield self.report(call, "this file includes itself, without end")
+            yield self.report(call, "this file includes itself endlessly")
             return
         given = given_arguments(launch, call)
         if given is None:
             return
         names = {name for name, _, _ in given}
-        misspelt = False
+        misspelled = False
         for name, node, _ in given:
             near = get_close_matches(name, sorted(other.names - names), 1, 0.75)
             if name not in other.names and near and not other.is_open:
-                misspelt = True
+                misspelled = True
                 message = f"{other.path} has no argument {name!r}; closest: {near[0]!r}"
                 yield self.report(launch.location(node), message)
         missing = sorted(other.required - names)
-        if missing and not misspelt and _is_understood(call):
+        if missing and not misspelled and _is_understood(call):
             message = f"{other.path} requires the argument {missing[0]!r}, which is not given here"
             yield self.report(call, message)
 

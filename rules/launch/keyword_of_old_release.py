@@ -24,7 +24,7 @@ _LAUNCH = (
 
 
 class KeywordOfOldRelease(LaunchRule):
-    """A node has keywords that were renamed in Foxy and are gone since Galactic.
+    """A node has keywords that were renamed in Foxy and removed in Galactic.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required keyword-only argument:
     'executable'``; the name given with ``node_name`` is an unexpected keyword.
@@ -51,11 +51,13 @@ class KeywordOfOldRelease(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
             Report(
                 "launch/a.launch.py:7:32",
-                "Node has no node_executable; it is executable now",
+                "Node has no node_executable: it was renamed to executable",
                 fix="write executable",
             ),
             Report(
-                "launch/a.launch.py:7:56", "Node has no node_name; it is name now", fix="write name"
+                "launch/a.launch.py:7:56",
+                "Node has no node_name: it was renamed to name",
+                fix="write name",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("executable", "name")},
         ),
@@ -75,7 +77,7 @@ class KeywordOfOldRelease(LaunchRule):
                 if new not in call.words:
                     edit = Edit(launch.path, start, start + len(old), new)
                     fix = Fix(f"write {new}", (edit,))
-                yield self.report(at, f"{call.kind} has no {old}; it is {new} now", fix)
+                yield self.report(at, f"{call.kind} has no {old}: it was renamed to {new}", fix)
 
 
 def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:

@@ -37,7 +37,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
             {"launch/a.launch.py": _LAUNCH + "    LaunchDescription([node])\n"},
             Report(
                 "launch/a.launch.py:7:5",
-                "the LaunchDescription is made, but generate_launch_description returns None",
+                "the LaunchDescription is created, but generate_launch_description returns None",
                 fix="return it",
             ),
             fixed={"launch/a.launch.py": _LAUNCH + "    return LaunchDescription([node])\n"},
@@ -55,7 +55,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
             ),
             Report(
                 "launch/b.launch.py:5:5",
-                "generate_launch_description on some way returns None, not a LaunchDescription",
+                "generate_launch_description returns None on some paths, not a LaunchDescription",
             ),
         ),
     )
@@ -85,11 +85,13 @@ class LaunchDescriptionNotReturned(LaunchRule):
         if made is not None and made.kind == "LaunchDescription" and not found:
             start, _ = launch.module.span(last)
             fix = Fix("return it", (Edit(launch.path, start, start, "return "),))
-            message = "the LaunchDescription is made, but generate_launch_description returns None"
+            message = (
+                "the LaunchDescription is created, but generate_launch_description returns None"
+            )
             yield self.report(launch.location(last), message, fix)
         else:
-            some = "on some way returns" if found else "returns"
-            message = f"generate_launch_description {some} None, not a LaunchDescription"
+            some = " on some paths" if found else ""
+            message = f"generate_launch_description returns None{some}, not a LaunchDescription"
             yield self.report(at, message)
 
 

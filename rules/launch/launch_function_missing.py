@@ -27,7 +27,7 @@ class LaunchFunctionMissing(Rule):
     examples = (
         Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
         Example(
-            "misspelt",
+            "misspelled",
             {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
             Report(
                 "launch/a.launch.py:4:5",

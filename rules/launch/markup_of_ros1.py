@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.api.formats import Element, xml_tree
 
-_TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "nothing like it"}
+_TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "no equivalent"}
 _ATTRIBUTES: Mapping[tuple[str, str], str] = {
     ("node", "type"): "exec",
     ("node", "ns"): "namespace",
-    ("node", "clear_params"): "nothing like it",
+    ("node", "clear_params"): "no equivalent",
     ("include", "ns"): "<push_ros_namespace>",
     ("group", "ns"): "<push_ros_namespace>",
     ("arg", "doc"): "description",
@@ -44,14 +44,17 @@ class MarkupOfRos1(Rule):
         Example(
             "of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            Report("launch/a.launch.xml:2:28", "type of <node> is of ROS 1; ROS 2 has exec"),
-            Report("launch/a.launch.xml:2:40", "$(arg ...) is of ROS 1; ROS 2 has $(var name)"),
+            Report("launch/a.launch.xml:2:28", "'type' of <node> belongs to ROS 1; ROS 2 has exec"),
+            Report(
+                "launch/a.launch.xml:2:40", "$(arg ...) belongs to ROS 1; ROS 2 has $(var name)"
+            ),
         ),
         Example(
             "an element of ROS 1",
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
             Report(
-                "launch/a.launch.xml:2:4", "<rosparam> is of ROS 1; ROS 2 has <param from='...'/>"
+                "launch/a.launch.xml:2:4",
+                "<rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>",
             ),
         ),
     )
@@ -71,14 +74,14 @@ class MarkupOfRos1(Rule):
 
     def _check(self, element: Element) -> Iterator[Diagnostic]:
         if element.tag in _TAGS:
-            message = f"<{element.tag}> is of ROS 1; ROS 2 has {_TAGS[element.tag]}"
+            message = f"<{element.tag}> belongs to ROS 1; ROS 2 has {_TAGS[element.tag]}"
             yield self.report(element.name_location, message)
         for name, attribute in element.attributes.items():
             new = _ATTRIBUTES.get((element.tag, name))
             if new is not None:
-                message = f"{name} of <{element.tag}> is of ROS 1; ROS 2 has {new}"
+                message = f"{name!r} of <{element.tag}> belongs to ROS 1; ROS 2 has {new}"
                 yield self.report(attribute.location, message)
             for kind in re.findall(r"\$\((\w+) ", attribute.value):
                 if kind in _SUBSTITUTIONS:
-                    message = f"$({kind} ...) is of ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
+                    message = f"$({kind} ...) belongs to ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
                     yield self.report(attribute.location, message)

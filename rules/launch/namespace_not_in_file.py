@@ -48,7 +48,7 @@ class NamespaceNotInFile(Rule):
             Report(
                 "launch/a.launch.py:10:74",
                 "the node runs as /left/talker, but config/demo.yaml:1 is for "
-                "/talker: it is skipped",
+                "/talker: it is ignored",
             ),
         ),
     )
@@ -74,6 +74,6 @@ def _complaint(node: StartedNode, file: ParameterFile) -> str | None:
         if section.node.rpartition("/")[2] == node.name:
             return (
                 f"the node runs as {full}, but {file.path}:{section.key.location.line} is for "
-                f"{section.node}: it is skipped"
+                f"{section.node}: it is ignored"
             )
     return None

@@ -46,8 +46,8 @@ class NodeNameRepeated(Rule):
                     ", namespace='left'", "eye", ", namespace='/left'"
                 ),
             },
-            Report("launch/a.launch.py:8:48", "the node of line 7 is called /eye too"),
-            Report("launch/b.launch.py:8:48", "the node of line 7 is called /left/eye too"),
+            Report("launch/a.launch.py:8:48", "the node in line 7 is named /eye as well"),
+            Report("launch/b.launch.py:8:48", "the node in line 7 is named /left/eye as well"),
         ),
     )
 
@@ -60,5 +60,5 @@ class NodeNameRepeated(Rule):
             at = node.name_location
             line = first.setdefault((at.path, full), at.line)
             if line != at.line:
-                message = f"the node of line {line} is called {full} too"
+                message = f"the node in line {line} is named {full} as well"
                 yield self.report(at, message)

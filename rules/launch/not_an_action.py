@@ -25,7 +25,7 @@ _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "
 
 
 class NotAnAction(LaunchRule):
-    """A list of actions holds something else.
+    """A list of actions contains something else.
 
     **Why.** ``ros2 launch`` stops: ``'list' object has no attribute 'describe_sub_entities'``;
     the same with ``'LaunchConfiguration'``, ``'OnProcessExit'`` or ``'NoneType'``.
@@ -49,29 +49,29 @@ class NotAnAction(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("[node],\n name,\n handler")},
             Report(
                 "launch/a.launch.py:12:31",
-                "this is a list, and LaunchDescription takes actions: write * in front of it",
+                "this is a list, but LaunchDescription takes actions: unpack it with *",
             ),
             Report(
                 "launch/a.launch.py:13:2",
-                "this is a LaunchConfiguration, and LaunchDescription takes actions",
+                "this is a LaunchConfiguration, but LaunchDescription takes actions",
             ),
             Report(
                 "launch/a.launch.py:14:2",
-                "this is the handler OnProcessExit, and LaunchDescription takes "
-                "actions: put it into RegisterEventHandler(...)",
+                "this is the handler OnProcessExit, but LaunchDescription takes "
+                "actions: wrap it in RegisterEventHandler(...)",
             ),
         ),
         Example(
             "a text, a class, None",
             {"launch/a.launch.py": _LAUNCH.format("'node',\n Node,\n None")},
             Report(
-                "launch/a.launch.py:12:31", "this is a text, and LaunchDescription takes actions"
+                "launch/a.launch.py:12:31", "this is a string, but LaunchDescription takes actions"
             ),
             Report(
                 "launch/a.launch.py:13:2",
-                "this is a class, and LaunchDescription takes actions: call it",
+                "this is a class, but LaunchDescription takes actions: call it",
             ),
-            Report("launch/a.launch.py:14:2", "this is None, and LaunchDescription takes actions"),
+            Report("launch/a.launch.py:14:2", "this is None, but LaunchDescription takes actions"),
         ),
         Example(
             "an event, a source, a node in a container",
@@ -88,16 +88,16 @@ class NotAnAction(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:15:31",
-                "this is an event, and LaunchDescription takes actions: put it into "
+                "this is an event, but LaunchDescription takes actions: wrap it in "
                 "EmitEvent(event=...)",
             ),
             Report(
                 "launch/a.launch.py:16:2",
-                "this is a AnyLaunchDescriptionSource, and LaunchDescription takes "
-                "actions: put it into IncludeLaunchDescription(...)",
+                "this is an AnyLaunchDescriptionSource, but LaunchDescription takes "
+                "actions: wrap it in IncludeLaunchDescription(...)",
             ),
             Report(
-                "launch/a.launch.py:18:33", "this is a Node, and a container takes ComposableNode"
+                "launch/a.launch.py:18:33", "this is a Node, but a container takes ComposableNode"
             ),
         ),
     )
@@ -106,27 +106,27 @@ class NotAnAction(LaunchRule):
         for item in entities(launch):
             what = what_it_is(launch, item.node)
             if what and not (item.is_alone and what in _ALONE):
-                message = f"{what}, and {item.holder} takes actions{_hint(what)}"
+                message = f"{what}, but {item.holder} takes actions{_hint(what)}"
                 yield self.report(launch.location(item.node), message)
         for call in launch.calls:
             listed = call.given.get("composable_node_descriptions")
             for node in listed.elts if isinstance(listed, ast.List) else ():
                 found = launch.call_of(node)
                 if found is not None and found.kind in NODES:
-                    message = f"this is a {found.kind}, and a container takes ComposableNode"
+                    message = f"this is a {found.kind}, but a container takes ComposableNode"
                     yield self.report(launch.location(node), message)
 
 
 def _hint(what: str) -> str:
     """Return what to write instead."""
     if what == "this is a list":
-        return ": write * in front of it"
+        return ": unpack it with *"
     if what == "this is an event":
-        return ": put it into EmitEvent(event=...)"
+        return ": wrap it in EmitEvent(event=...)"
     if "handler" in what:
-        return ": put it into RegisterEventHandler(...)"
+        return ": wrap it in RegisterEventHandler(...)"
     if "Source" in what:
-        return ": put it into IncludeLaunchDescription(...)"
+        return ": wrap it in IncludeLaunchDescription(...)"
     if "class" in what or "function" in what:
         return ": call it"
     return ""

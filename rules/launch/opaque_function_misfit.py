@@ -74,7 +74,7 @@ class OpaqueFunctionMisfit(LaunchRule):
             _launch("context, a", ", args='fast'"),
             Report(
                 "launch/a.launch.py:10:55",
-                "set_up gets a text letter by letter: args=... is a list",
+                "set_up gets a string letter by letter: args=... must be a list",
             ),
         ),
         Example(
@@ -130,7 +130,7 @@ def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
     """Return how the arguments of a function differ from what it is given."""
     args, kwargs = call.given.get("args"), call.given.get("kwargs")
     if isinstance(args, ast.Constant) and isinstance(args.value, str):
-        return "gets a text letter by letter: args=... is a list"
+        return "gets a string letter by letter: args=... must be a list"
     items = args.elts if isinstance(args, ast.List | ast.Tuple) else []
     if (args is not None and _is_unknown(args, items)) or call.is_open:
         return ""

@@ -48,7 +48,7 @@ class ParameterRefusedByLaunch(Rule):
             _launch("[]"),
             Report(
                 "launch/a.launch.py:7:61",
-                "the parameter 'a' is an empty list, whose type nobody knows",
+                "the parameter 'a' is an empty list, whose type is unknown",
             ),
         ),
         Example(
@@ -72,7 +72,7 @@ def _problem(node: ast.expr) -> str:
         case ast.Constant(value=None):
             return "is None, which is not a value of a parameter"
         case ast.List(elts=[]) | ast.Tuple(elts=[]):
-            return "is an empty list, whose type nobody knows"
+            return "is an empty list, whose type is unknown"
         case ast.List(elts=items) | ast.Tuple(elts=items):
             kinds = {type(one.value) if isinstance(one, ast.Constant) else object for one in items}
             if object not in kinds and len(kinds) > 1 and kinds != {int, float}:

@@ -36,7 +36,7 @@ class ParametersNotList(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("{'rate': 2.0}")},
             Report(
                 "launch/a.launch.py:7:62",
-                "parameters is a dictionary; Node takes a list alone",
+                "parameters is a dictionary; Node takes a list",
                 fix="make it a list",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("[{'rate': 2.0}]")},
@@ -49,12 +49,12 @@ class ParametersNotList(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:7:62",
-                "parameters is a single value; Node takes a list alone",
+                "parameters is a single value; Node takes a list",
                 fix="make it a list",
             ),
             Report(
                 "launch/b.launch.py:7:62",
-                "parameters is a tuple; Node takes a list alone",
+                "parameters is a tuple; Node takes a list",
                 fix="make it a list",
             ),
             fixed={
@@ -67,7 +67,7 @@ class ParametersNotList(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'talker' + '.yaml'")},
             Report(
                 "launch/a.launch.py:7:62",
-                "parameters is a path; Node takes a list alone",
+                "parameters is a path; Node takes a list",
                 fix="make it a list",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("['talker' + '.yaml']")},
@@ -83,7 +83,7 @@ class ParametersNotList(LaunchRule):
             start, end = launch.module.span(node)
             star = "*" if what == "a tuple" else ""
             edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
-            message = f"parameters is {what}; {call.kind} takes a list alone"
+            message = f"parameters is {what}; {call.kind} takes a list"
             yield self.report(launch.location(node), message, Fix("make it a list", edits))
 
     def _what(self, launch: LaunchFile, node: ast.expr) -> str | None:

@@ -38,7 +38,7 @@ class PathJoinedWrongly(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
             Report(
                 "launch/a.launch.py:6:28",
-                "'/config' begins with a slash, which drops all in front of it",
+                "'/config' begins with a slash, which discards everything before it",
             ),
         ),
         Example(
@@ -52,7 +52,7 @@ class PathJoinedWrongly(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:7:46",
-                "parts are joined as they are: a slash is missing in front of this",
+                "parts are concatenated: missing slash before this one",
             ),
         ),
         Example(
@@ -60,7 +60,7 @@ class PathJoinedWrongly(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
             Report(
                 "launch/a.launch.py:6:8",
-                "a slash is missing between the share directory and 'config/a.yaml'",
+                "missing slash between the share directory and 'config/a.yaml'",
             ),
         ),
     )
@@ -73,15 +73,15 @@ class PathJoinedWrongly(LaunchRule):
             for part in call.args[1:]:
                 text = _text(launch, part)
                 if text.startswith("/") and not text.startswith(SHARE) and first:
-                    message = f"{text!r} begins with a slash, which drops all in front of it"
+                    message = f"{text!r} begins with a slash, which discards everything before it"
                     yield self.report(launch.location(part), message)
         for sum_ in launch.module.walk(ast.BinOp):
             if isinstance(sum_.op, ast.Add) and _runs_on(launch, sum_.left, sum_.right):
                 right = _text(launch, sum_.right)
-                message = f"a slash is missing between the share directory and {right!r}"
+                message = f"missing slash between the share directory and {right!r}"
                 yield self.report(launch.location(sum_), message)
         for node in _run_on_in_lists(launch):
-            message = "parts are joined as they are: a slash is missing in front of this"
+            message = "parts are concatenated: missing slash before this one"
             yield self.report(launch.location(node), message)
 
 

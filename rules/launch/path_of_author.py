@@ -62,7 +62,8 @@ class PathOfAuthor(Rule):
             ),
             Report(
                 "launch/d.launch.py:7:63",
-                "'config/talker.yaml' is looked for where `ros2 launch` is started, not here",
+                "'config/talker.yaml' is relative to the directory of `ros2 launch`, "
+                "not to this file",
             ),
         ),
     )
@@ -79,7 +80,9 @@ class PathOfAuthor(Rule):
                 if not isinstance(value, str) or value.startswith(("/", "~")):
                     continue
                 if package.has(value) or value.startswith("src/"):
-                    message = f"{value!r} is looked for where `ros2 launch` is started, not here"
+                    message = (
+                        f"{value!r} is relative to the directory of `ros2 launch`, not to this file"
+                    )
                     yield self.report(node.launch.location(item), message)
 
 

@@ -85,17 +85,17 @@ class SharePathMissing(Rule):
             },
             Report(
                 "launch/a.launch.py:12:26",
-                "share/talker/config/talk.yaml is not there: talker has no such "
-                "file; config/talker.yaml is",
+                "share/talker/config/talk.yaml does not exist: talker has no such "
+                "file; closest: config/talker.yaml",
             ),
             Report(
                 "launch/b.launch.py:12:26",
-                "share/talker/talker.yaml is not there: it is installed as "
+                "share/talker/talker.yaml does not exist: it is installed as "
                 "share/talker/config/talker.yaml",
             ),
             Report(
                 "launch/c.launch.py:12:26",
-                "share/talker/config/other.json is not there: setup.py of talker "
+                "share/talker/config/other.json does not exist: setup.py of talker "
                 "does not install config/other.json",
             ),
         ),
@@ -105,5 +105,5 @@ class SharePathMissing(Rule):
         for path in paths_of(package):
             why = why_missing(package, path)
             if why is not None:
-                message = f"share/{path.package}/{path.path} is not there: {why}"
+                message = f"share/{path.package}/{path.path} does not exist: {why}"
                 yield self.report(path.location, message)

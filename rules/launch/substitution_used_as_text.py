@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import LaunchFile, text_uses
+from scaffold.api.launch import CONDITION, LaunchFile, text_uses
 
-_SHOWN = frozenset({"in an f-string", "for str()", "to be filled in", "for format()"})
+_SHOWN = frozenset({"in an f-string", "in str()", "in a % format", "in format()"})
 """Uses that do not fail: the text tells what the object is."""
 _LAUNCH = (
     "import os\n\nfrom launch import LaunchDescription\n"
@@ -55,13 +55,13 @@ class SubstitutionUsedAsText(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
             Report(
                 "launch/a.launch.py:10:30",
-                "a LaunchConfiguration has no text yet for os.path.join(): it is "
-                "filled in when actions run",
+                "the value of a LaunchConfiguration is not known yet in "
+                "os.path.join(): it is evaluated later",
             ),
             Report(
                 "launch/a.launch.py:12:74",
-                "a LaunchConfiguration has no text yet to be added to: it is filled "
-                "in when actions run",
+                "the value of a LaunchConfiguration is not known yet in a sum: it "
+                "is evaluated later",
             ),
         ),
         Example(
@@ -69,12 +69,13 @@ class SubstitutionUsedAsText(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
             Report(
                 "launch/a.launch.py:10:21",
-                "a LaunchConfiguration has no text yet to be filled in: it is "
-                "filled in when actions run",
+                "the value of a LaunchConfiguration is not known yet in a % format: "
+                "it is evaluated later",
             ),
             Report(
                 "launch/a.launch.py:12:81",
-                "a LaunchConfiguration has no text yet to decide by: it is always true",
+                "the LaunchConfiguration object is tested, not its value: always "
+                "true; use IfCondition",
             ),
         ),
         Example(
@@ -82,8 +83,8 @@ class SubstitutionUsedAsText(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
             Report(
                 "launch/a.launch.py:12:74",
-                "a LaunchConfiguration has no text yet in an f-string: it is filled "
-                "in when actions run",
+                "the value of a LaunchConfiguration is not known yet in an "
+                "f-string: it is evaluated later",
             ),
         ),
     )
@@ -92,9 +93,11 @@ class SubstitutionUsedAsText(LaunchRule):
         for node, kind, what in text_uses(launch):
             if what in _SHOWN and _is_printed(launch, node):
                 continue
-            message = f"a {kind} has no text yet {what}"
-            if not what.endswith("true"):
-                message += ": it is filled in when actions run"
+            message = f"the value of a {kind} is not known yet {what}: it is evaluated later"
+            if what == CONDITION:
+                message = (
+                    f"the {kind} object is tested, not its value: always true; use IfCondition"
+                )
             yield self.report(launch.location(node), message)
 
 

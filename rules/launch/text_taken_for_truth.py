@@ -24,7 +24,7 @@ _LAUNCH = (
 
 
 class TextTakenForTruth(LaunchRule):
-    """The text of a launch argument decides as if it were a truth value.
+    """The value of a launch argument, a string, is used as a bool.
 
     **Why.** ``use:=false`` gives the text ``'false'``, which Python takes for true; ``'true' ==
     True`` is false. The branch is always taken, or never, without a word.
@@ -44,14 +44,13 @@ class TextTakenForTruth(LaunchRule):
             "its truth",
             {"launch/a.launch.py": _LAUNCH.format("use", "false")},
             Report(
-                "launch/a.launch.py:8:18",
-                "this is a text such as 'false', which is always true for Python",
+                "launch/a.launch.py:8:18", "this is a string such as 'false', which is always true"
             ),
         ),
         Example(
             "compared with a truth value",
             {"launch/a.launch.py": _LAUNCH.format("use == True", "false")},
-            Report("launch/a.launch.py:8:18", "this is a text, which never equals True"),
+            Report("launch/a.launch.py:8:18", "this is a string, which never equals True"),
         ),
     )
 
@@ -59,12 +58,12 @@ class TextTakenForTruth(LaunchRule):
         for node in [*truth_tests(launch.module), *_made_bool(launch)]:
             text = _default(launch, node)
             if text is not None and text.lower() in _TRUTHS:
-                message = f"this is a text such as {text!r}, which is always true for Python"
+                message = f"this is a string such as {text!r}, which is always true"
                 yield self.report(launch.location(node), message)
         for comparison in launch.module.walk(ast.Compare):
             other = _compared_with(comparison)
             if other and _performed(launch, comparison.left) is not None:
-                message = f"this is a text, which never equals {other}"
+                message = f"this is a string, which never equals {other}"
                 yield self.report(launch.location(comparison), message)
 
 

@@ -41,14 +41,12 @@ class ValueRefusedByLaunch(LaunchRule):
         Example(
             "refused",
             {"launch/a.launch.py": _LAUNCH.format("fst", "'ls -l'", "1")},
-            Report("launch/a.launch.py:9:68", "the default 'fst' is none of them"),
+            Report("launch/a.launch.py:9:68", "the default 'fst' is not among the choices"),
             Report(
                 "launch/a.launch.py:10:28",
-                "launch goes through a text letter by letter: write a list of words",
+                "launch splits a string into letters: write a list of words",
             ),
-            Report(
-                "launch/a.launch.py:11:28", "launch takes no whole number as a period: write 1.0"
-            ),
+            Report("launch/a.launch.py:11:28", "a period must be a float: write 1.0"),
         ),
         Example(
             "two words in one",
@@ -71,19 +69,17 @@ class ValueRefusedByLaunch(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:10:44",
-                "respawn is a truth value, not a text: write True or False",
+                "respawn must be a bool, not a string: write True or False",
             ),
-            Report("launch/a.launch.py:11:28", "a period is a number of seconds such as 1.0"),
+            Report("launch/a.launch.py:11:28", "a period must be a number of seconds, such as 1.0"),
             Report(
                 "launch/b.launch.py:9:69",
-                "choices are a list of texts; this is one, and every letter is a choice",
+                "choices must be a list of strings: every letter of this string is a choice",
             ),
-            Report(
-                "launch/b.launch.py:11:28", "a period is a number of seconds, and 'soon' is none"
-            ),
+            Report("launch/b.launch.py:11:28", "a period must be a number of seconds, not 'soon'"),
             Report(
                 "launch/c.launch.py:9:66",
-                "choices are texts: what is given on the command line never equals a number",
+                "choices must be strings: a value of the command line never equals a number",
             ),
         ),
     )
@@ -106,42 +102,42 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
             return _command_problem(launch, call, node)
         case kind, "respawn" if kind in {*NODES, "ExecuteProcess"}:
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                return "respawn is a truth value, not a text: write True or False"
+                return "respawn must be a bool, not a string: write True or False"
     return ""
 
 
 def _period_problem(node: ast.expr) -> str:
     match node:
         case ast.Constant(value=bool() | None):
-            return "a period is a number of seconds such as 1.0"
+            return "a period must be a number of seconds, such as 1.0"
         case ast.Constant(value=int(number)):
-            return f"launch takes no whole number as a period: write {number}.0"
+            return f"a period must be a float: write {number}.0"
         case ast.Constant(value=str(text)):
             try:
                 float(text)
             except ValueError:
-                return f"a period is a number of seconds, and {text!r} is none"
+                return f"a period must be a number of seconds, not {text!r}"
     return ""
 
 
 def _choices_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
     choices = launch.evaluator.evaluate(node)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        return "choices are a list of texts; this is one, and every letter is a choice"
+        return "choices must be a list of strings: every letter of this string is a choice"
     if not isinstance(choices, list | tuple) or not all(map(is_known, choices)):
         return ""
     if any(type(choice) in {bool, int, float} for choice in choices):
-        return "choices are texts: what is given on the command line never equals a number"
+        return "choices must be strings: a value of the command line never equals a number"
     default = launch.text(call, "default_value")
     if isinstance(default, str) and default not in choices:
-        return f"the default {default!r} is none of them"
+        return f"the default {default!r} is not among the choices"
     return ""
 
 
 def _command_problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
     value = launch.evaluator.evaluate(node)
     if isinstance(value, str) or isinstance(node, ast.JoinedStr):
-        return "launch goes through a text letter by letter: write a list of words"
+        return "launch splits a string into letters: write a list of words"
     if not isinstance(node, ast.List) or not node.elts or "shell" in call.given or call.is_open:
         return ""
     first = node.elts[0]

@@ -46,9 +46,9 @@ class ValueUnusable(LaunchRule):
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
             Report(
-                "launch/a.launch.py:8:53", "a default is text, and this is a float: write '2.0'"
+                "launch/a.launch.py:8:53", "a default must be a string, not a float: write '2.0'"
             ),
-            Report("launch/a.launch.py:9:61", "an argument is text: write '3'"),
+            Report("launch/a.launch.py:9:61", "an argument must be a string: write '3'"),
         ),
         Example(
             "other arguments of a node",
@@ -62,19 +62,17 @@ class ValueUnusable(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:10:21",
-                "there is no output 'console', but both, full, log, own_log, screen",
+                "unknown output 'console'; choose from both, full, log, own_log, screen",
             ),
-            Report("launch/a.launch.py:10:46", "a delay is a number, and this is a str"),
-            Report(
-                "launch/a.launch.py:10:66", "the environment is a dictionary, and this is a list"
-            ),
+            Report("launch/a.launch.py:10:46", "respawn_delay must be a number, not a str"),
+            Report("launch/a.launch.py:10:66", "the environment must be a dictionary, not a list"),
             Report(
                 "launch/a.launch.py:11:24",
-                "a condition is an object such as IfCondition(...), not a value",
+                "a condition must be an object such as IfCondition(...), not a value",
             ),
             Report(
                 "launch/a.launch.py:11:43",
-                "a parameter entry is a file or a dictionary {'name': value}, not a list or pair",
+                "parameters must be files or dictionaries {'name': value}, not lists or pairs",
             ),
         ),
     )
@@ -93,20 +91,22 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
     problem = ""
     if call.kind == "DeclareLaunchArgument" and name == "default_value":
         is_wrong = type(value) in {int, float, bool}
-        problem = f"a default is text, and this is {kind}: write {str(value)!r}" if is_wrong else ""
+        problem = (
+            f"a default must be a string, not {kind}: write {str(value)!r}" if is_wrong else ""
+        )
     elif name == "condition" and call.kind != "IfElseSubstitution":
         problem = _condition_problem(launch, node, value)
     elif call.kind not in NODES:
         return ""
     elif name in {"arguments", "ros_arguments"} and isinstance(node, ast.List | ast.Tuple):
         numbers = [one for one in node.elts if _is_number(one)]
-        problem = f"an argument is text: write {_text(numbers[0])!r}" if numbers else ""
+        problem = f"an argument must be a string: write {_text(numbers[0])!r}" if numbers else ""
     elif name == "output" and isinstance(value, str) and value not in _OUTPUTS:
-        problem = f"there is no output {value!r}, but {', '.join(sorted(_OUTPUTS))}"
+        problem = f"unknown output {value!r}; choose from {', '.join(sorted(_OUTPUTS))}"
     elif name == "respawn_delay" and isinstance(value, str):
-        problem = f"a delay is a number, and this is {kind}"
+        problem = f"respawn_delay must be a number, not {kind}"
     elif name in {"env", "additional_env"} and isinstance(value, list):
-        problem = "the environment is a dictionary, and this is a list"
+        problem = "the environment must be a dictionary, not a list"
     elif name == "parameters" and isinstance(node, ast.List):
         problem = _parameter_problem(node)
     return problem
@@ -131,11 +131,11 @@ def _condition_problem(launch: LaunchFile, node: ast.expr, value: object) -> str
     )
     if value is None or not is_text:
         return ""
-    return "a condition is an object such as IfCondition(...), not a value"
+    return "a condition must be an object such as IfCondition(...), not a value"
 
 
 def _parameter_problem(node: ast.List) -> str:
     for one in node.elts:
         if isinstance(one, ast.Tuple | ast.List):
-            return "a parameter entry is a file or a dictionary {'name': value}, not a list or pair"
+            return "parameters must be files or dictionaries {'name': value}, not lists or pairs"
     return ""

@@ -65,7 +65,7 @@ class WordsRunTogether(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
             Report(
                 "launch/a.launch.py:7:62",
-                "Python joins this to '--ros-args-r': a comma is missing between the texts",
+                "Python joins this to '--ros-args-r': missing comma between the strings",
             ),
         ),
         Example(
@@ -73,7 +73,7 @@ class WordsRunTogether(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
             Report(
                 "launch/a.launch.py:7:85",
-                "launch joins the parts of a prefix as they are: a space is missing",
+                "launch concatenates the parts of a prefix: missing space",
             ),
         ),
         Example(
@@ -81,7 +81,7 @@ class WordsRunTogether(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
             Report(
                 "launch/a.launch.py:7:62",
-                "this is one argument with spaces in it: write one text for each word",
+                "this is one argument with spaces in it: write one string for each word",
             ),
         ),
         Example("a command with a space", _command("['xacro ', 'a.urdf']")),
@@ -90,7 +90,7 @@ class WordsRunTogether(LaunchRule):
             _command("['xacro', 'a']"),
             Report(
                 "launch/a.launch.py:7:12",
-                "launch joins the parts of a command as they are: write 'xacro '",
+                "launch concatenates the parts of a command: write 'xacro '",
             ),
         ),
         Example(
@@ -98,7 +98,7 @@ class WordsRunTogether(LaunchRule):
             _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
             Report(
                 "launch/a.launch.py:7:12",
-                "launch joins the parts of a command as they are: write ' ' after it",
+                "launch concatenates the parts of a command: write ' ' after it",
             ),
         ),
     )
@@ -112,7 +112,7 @@ class WordsRunTogether(LaunchRule):
             if "shell" in call.given:
                 continue
             for item in _joined_parts(call.given.get("prefix")):
-                message = "launch joins the parts of a prefix as they are: a space is missing"
+                message = "launch concatenates the parts of a prefix: missing space"
                 yield self.report(launch.location(item), message)
             for name in _LISTS:
                 node = call.given.get(name)
@@ -137,11 +137,11 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
     if not isinstance(item, ast.Constant) or not isinstance(item.value, str):
         return ""
     if item.value.startswith("--ros-args "):
-        return "this is one argument with spaces in it: write one text for each word"
+        return "this is one argument with spaces in it: write one string for each word"
     # linear: the quote that ends the first text is not among its characters
     written = re.match(_TWO_TEXTS, launch.module.text(item))
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
-        return f"Python joins this to {item.value!r}: a comma is missing between the texts"
+        return f"Python joins this to {item.value!r}: missing comma between the strings"
     return ""
 
 
@@ -161,7 +161,7 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
     if word not in _PROGRAMS or _begins_with_space(launch, second):
         return ""
     what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
-    return f"launch joins the parts of a command as they are: write {what}"
+    return f"launch concatenates the parts of a command: write {what}"
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:

@@ -36,7 +36,9 @@ class ChangelogOfOtherPackage(Rule):
         Example(
             "of another one",
             {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
-            Report("CHANGELOG.rst:2:23", "the changelog is of 'other', the package is 'talker'"),
+            Report(
+                "CHANGELOG.rst:2:23", "the changelog belongs to 'other', the package is 'talker'"
+            ),
         ),
     )
 
@@ -47,5 +49,7 @@ class ChangelogOfOtherPackage(Rule):
             return
         at = source.location(title.start(1), title.end(1))
         if title[1] != package.manifest.name:
-            message = f"the changelog is of {title[1]!r}, the package is {package.manifest.name!r}"
+            message = (
+                f"the changelog belongs to {title[1]!r}, the package is {package.manifest.name!r}"
+            )
             yield self.report(at, message)

@@ -44,7 +44,7 @@ class InterfaceNameInvalid(Rule):
             {**_LISTS, "msg/my_beat.msg": "int32 count\n"},
             Report(
                 "msg/my_beat.msg:1:1",
-                "the file name 'my_beat' is no type name: rosidl wants letters and "
+                "the file name 'my_beat' is not a valid type name: rosidl requires letters and "
                 "digits only, a capital first, as in 'MyBeat.msg'",
             ),
         ),
@@ -57,12 +57,12 @@ class InterfaceNameInvalid(Rule):
             },
             Report(
                 "msg/Beat.msg:2:9",
-                "'maxSpeed' is no field name: rosidl wants lower-case letters, "
+                "'maxSpeed' is not a valid field name: rosidl requires lower-case letters, "
                 "digits and single underscores, a letter first, as in 'max_speed'",
             ),
             Report(
                 "msg/Beat.msg:3:7",
-                "'next_' is no field name: rosidl wants lower-case letters, digits "
+                "'next_' is not a valid field name: rosidl requires lower-case letters, digits "
                 "and single underscores, a letter first, as in 'next'",
             ),
         ),
@@ -78,17 +78,17 @@ class InterfaceNameInvalid(Rule):
             },
             Report(
                 "msg/Beat.msg:1:7",
-                "the '=' makes this line a constant, and 'max' is no name of one: "
-                "rosidl wants capitals, digits and single underscores, a letter "
-                "first, as in 'MAX'",
+                "the '=' makes this line a constant, and 'max' is not a valid name "
+                "for one: rosidl requires capitals, digits and single underscores, "
+                "a letter first, as in 'MAX'",
             ),
             Report(
                 "msg/Beat.msg:2:7",
-                "the '=' makes this line a constant, and 'count' is no name of one: "
-                "rosidl wants capitals, digits and single underscores, a letter "
-                "first, as in 'COUNT'",
+                "the '=' makes this line a constant, and 'count' is not a valid "
+                "name for one: rosidl requires capitals, digits and single "
+                "underscores, a letter first, as in 'COUNT'",
             ),
-            Report("msg/Beat.msg:3:8", "a bound is written without blanks, as in 'string<=10'"),
+            Report("msg/Beat.msg:3:8", "a bound is written without spaces, as in 'string<=10'"),
         ),
         Example(
             "the same name in request and response",

@@ -15,7 +15,7 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n
 
 
 class BuildToolMissing(Rule):
-    """An ament_cmake package declares no dependency that brings ament_cmake.
+    """An ament_cmake package declares no dependency that provides ament_cmake.
 
     **Why.** On a clean machine, and on the build farm, CMake stops: ``Could not find a package
     configuration file provided by "ament_cmake"``.

@@ -37,7 +37,7 @@ class BuildTypeMissing(Rule):
             {"package.xml": "<package>\n  <name>talker</name>\n</package>\n", "setup.py": ""},
             Report(
                 "package.xml:1:2",
-                "no <build_type>: colcon takes the package for catkin; write "
+                "no <build_type>: colcon treats the package as catkin; write "
                 "<build_type>ament_python</build_type> in <export>",
                 fix="declare ament_python",
             ),
@@ -58,7 +58,7 @@ class BuildTypeMissing(Rule):
             },
             Report(
                 "package.xml:2:4",
-                "no <build_type>: colcon takes the package for catkin; write "
+                "no <build_type>: colcon treats the package as catkin; write "
                 "<build_type>ament_cmake</build_type> in <export>",
                 fix="declare ament_cmake",
             ),
@@ -95,6 +95,6 @@ class BuildTypeMissing(Rule):
             inside = export.open_end
             at = export.name_location
             edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
-        message = f"no <build_type>: colcon takes the package for catkin; write {line} in <export>"
+        message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
         fix = Fix(f"declare {meant}", (edit,)) if export is None or export.children else None
         yield self.report(at, message, fix)

@@ -33,7 +33,8 @@ class BuildTypeRepeated(Rule):
             "two",
             {"package.xml": _MANIFEST.format("")},
             Report(
-                "package.xml:4:5", "another build type stands in line 3: colcon ignores the package"
+                "package.xml:4:5",
+                "a second build type, after the one in line 3: colcon ignores the package",
             ),
         ),
     )
@@ -49,5 +50,7 @@ class BuildTypeRepeated(Rule):
                 return
         for element in active[1:]:
             line = active[0].location.line
-            message = f"another build type stands in line {line}: colcon ignores the package"
+            message = (
+                f"a second build type, after the one in line {line}: colcon ignores the package"
+            )
             yield self.report(element, message)

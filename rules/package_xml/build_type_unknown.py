@@ -11,7 +11,7 @@ KNOWN = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "pytho
 
 
 class BuildTypeUnknown(Rule):
-    """``<build_type>`` is misspelt.
+    """``<build_type>`` is misspelled.
 
     **Why.** colcon has no task for it: the package is skipped or built by the wrong one.
 
@@ -28,7 +28,7 @@ class BuildTypeUnknown(Rule):
             {"package.xml": "<package><export><build_type>cmake</build_type></export></package>\n"},
         ),
         Example(
-            "misspelt",
+            "misspelled",
             {
                 "package.xml": "<package><export>\n"
                 "  <build_type>ament_pyton</build_type>\n"
@@ -36,7 +36,8 @@ class BuildTypeUnknown(Rule):
             },
             Report(
                 "package.xml:2:15",
-                "colcon knows no build type 'ament_pyton'; closest: 'ament_python'",
+                "unknown build type 'ament_pyton': colcon skips the package; "
+                "closest: 'ament_python'",
                 fix="write ament_python",
             ),
             fixed={
@@ -52,6 +53,9 @@ class BuildTypeUnknown(Rule):
             near = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
             if element.text in KNOWN or not near:
                 continue
-            message = f"colcon knows no build type {element.text!r}; closest: {near[0]!r}"
+            message = (
+                f"unknown build type {element.text!r}: colcon skips the package; closest: "
+                f"{near[0]!r}"
+            )
             edit = Edit("package.xml", *element.text_span, near[0])
             yield self.report(element.text_location, message, Fix(f"write {near[0]}", (edit,)))

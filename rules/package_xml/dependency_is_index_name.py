@@ -9,7 +9,7 @@ from scaffold.api.catalog import keys_of_module, module_of_key
 
 
 class DependencyIsIndexName(Rule):
-    """A dependency is named as Python's package index does, not as rosdep does.
+    """A dependency has the name of the package on PyPI instead of its rosdep key.
 
     **Why.** rosdep finds no rule for ``numpy``: ``rosdep install`` and the release stop.
 

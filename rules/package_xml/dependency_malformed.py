@@ -53,7 +53,7 @@ class DependencyMalformed(Rule):
             {"package.xml": _MANIFEST.format("numpy&gt;=1.2")},
             Report(
                 "package.xml:3:16",
-                "'numpy>=1.2' holds a version: rosdep takes all for the name; use "
+                "'numpy>=1.2' contains a version, which rosdep treats as part of the name; use "
                 "version_gte='...'",
             ),
         ),
@@ -62,7 +62,7 @@ class DependencyMalformed(Rule):
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
             Report(
                 "package.xml:3:16",
-                "'ros-jazzy-std-msgs' is a package of Debian; rosdep knows it as 'std_msgs'",
+                "'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'",
             ),
         ),
         Example(
@@ -70,7 +70,8 @@ class DependencyMalformed(Rule):
             {"package.xml": _MANIFEST.format("ament_python")},
             Report(
                 "package.xml:3:16",
-                "'ament_python' is a build type, no package: rosdep cannot resolve it; remove it",
+                "'ament_python' is a build type, not a package: rosdep cannot "
+                "resolve it; remove it",
             ),
         ),
         Example(
@@ -92,10 +93,9 @@ class DependencyMalformed(Rule):
                 "package.xml:3:16",
                 "'rclpy std_msgs' is more than one name: write an element for each",
             ),
-            Report("package.xml:4:16", "keys of rosdep have dashes: 'python3-numpy'"),
+            Report("package.xml:4:16", "rosdep keys have dashes: use 'python3-numpy'"),
             Report(
-                "package.xml:5:16",
-                "'python-numpy' is of Python 2, which is gone; closest: 'python3-numpy'",
+                "package.xml:5:16", "'python-numpy' belongs to Python 2; closest: 'python3-numpy'"
             ),
         ),
     )
@@ -118,17 +118,20 @@ def _problem(name: str) -> str:
     problem = ""
     if debian:
         meant = debian[2].replace("-", "_")
-        problem = f"{name!r} is a package of Debian; rosdep knows it as {meant!r}"
+        problem = f"{name!r} is a Debian package; its rosdep key is {meant!r}"
     elif re.search(r"[<>=~!]", name):
-        problem = f"{name!r} holds a version: rosdep takes all for the name; use version_gte='...'"
+        problem = (
+            f"{name!r} contains a version, which rosdep treats as part of the name; use "
+            "version_gte='...'"
+        )
     elif len(name.split()) > 1:
         problem = f"{name!r} is more than one name: write an element for each"
     elif name.endswith(_MODULES):
         problem = f"{name!r} is a module; the package is {name.rpartition('.')[0]!r}"
     elif name.startswith("python3_"):
-        problem = f"keys of rosdep have dashes: {name.replace('_', '-')!r}"
+        problem = f"rosdep keys have dashes: use {name.replace('_', '-')!r}"
     elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
-        problem = f"{name!r} is of Python 2, which is gone; closest: {'python3-' + name[7:]!r}"
+        problem = f"{name!r} belongs to Python 2; closest: {'python3-' + name[7:]!r}"
     elif name in _NO_KEYS:
-        problem = f"{name!r} is a build type, no package: rosdep cannot resolve it; remove it"
+        problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
     return problem

@@ -50,8 +50,8 @@ class DependencyOfRos1(Rule):
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            Report("package.xml:2:21", "'catkin' is of ROS 1; ROS 2 has ament_cmake instead"),
-            Report("package.xml:3:11", "'rospy' is of ROS 1; ROS 2 has rclpy instead"),
+            Report("package.xml:2:21", "'catkin' belongs to ROS 1; use ament_cmake"),
+            Report("package.xml:3:11", "'rospy' belongs to ROS 1; use rclpy"),
         ),
     )
 
@@ -64,7 +64,7 @@ class DependencyOfRos1(Rule):
             heir = ROS1_PACKAGES.get(name)
             if heir and dependency.active and package.workspace.get(name) is None:
                 which = "Gazebo classic, which Jazzy lacks" if name in _CLASSIC else "ROS 1"
-                message = f"{name!r} is of {which}; ROS 2 has {heir} instead"
+                message = f"{name!r} belongs to {which}; use {heir}"
                 yield self.report(dependency, message)
 
 

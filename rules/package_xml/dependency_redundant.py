@@ -61,7 +61,7 @@ class DependencyRedundant(Rule):
             },
             Report(
                 "package.xml:3:16",
-                "<exec_depend> 'std_msgs' stands in line 2 already",
+                "<exec_depend> 'std_msgs' is already declared in line 2",
                 fix="remove it",
                 severity=Severity.WARNING,
             ),
@@ -89,7 +89,7 @@ class DependencyRedundant(Rule):
             elif dependency.element is not manifest.depends(kind)[name].element and name:
                 if first == dependency.location.line:
                     continue
-                message = f"<{kind}> {name!r} stands in line {first} already"
+                message = f"<{kind}> {name!r} is already declared in line {first}"
             else:
                 continue
             fix = Fix("remove it", (manifest.remove(dependency.element),))

@@ -23,7 +23,7 @@ class DependencyUnresolvable(Rule):
     """rosdep has no rule for a dependency, and no package at hand has the name.
 
     Said only where ``rosdep update`` was run for Jazzy. A key counts as known if it has a rule for
-    any system: then it is spelt right, and who checks may well mean another system than this one.
+    any system: then it is spelled right, and who checks may well mean another system than this one.
     A name that may be that of a package counts only in a sourced environment, where it is known
     what is installed: else it may come from a repository that is not at hand.
 

@@ -9,7 +9,7 @@ from scaffold.api.manifest import is_placeholder
 
 
 class DescriptionPlaceholder(Rule):
-    """``<description>`` is empty or still waits for its text.
+    """``<description>`` is empty or a placeholder.
 
     **Why.** catkin_pkg, and with it colcon and bloom, refuses an empty description; a placeholder
     becomes the text of the Debian package.

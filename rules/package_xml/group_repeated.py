@@ -29,7 +29,7 @@ class GroupRepeated(Rule):
         Example(
             "one group",
             {"package.xml": _MANIFEST.format("drivers")},
-            Report("package.xml:3:3", "member of the group 'drivers' that line 2 depends on"),
+            Report("package.xml:3:3", "member of the group 'drivers', which line 2 depends on"),
         ),
     )
 
@@ -40,5 +40,5 @@ class GroupRepeated(Rule):
             other = needed.get(element.text)
             if other is not None:
                 line = other.location.line
-                message = f"member of the group {element.text!r} that line {line} depends on"
+                message = f"member of the group {element.text!r}, which line {line} depends on"
                 yield self.report(element, message)

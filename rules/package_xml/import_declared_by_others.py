@@ -16,7 +16,7 @@ _RCLPY = "  <exec_depend>rclpy</exec_depend>\n"
 
 
 class ImportDeclaredByOthers(Rule):
-    """rclpy or messages are imported that only the dependency of a dependency brings along.
+    """rclpy or messages are imported that only a dependency of a dependency declares.
 
     **Why.** It works until that package needs it no more; bloom and reviewers see no dependency.
     REP 149 asks for every package that the code uses directly.
@@ -36,8 +36,8 @@ class ImportDeclaredByOthers(Rule):
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
             Report(
                 "package.xml:3:4",
-                "talker/node.py:1 imports 'rclpy', which only launch_ros brings "
-                "along; add <exec_depend>rclpy</exec_depend>",
+                "talker/node.py:1 imports 'rclpy', which only launch_ros depends "
+                "on; add <exec_depend>rclpy</exec_depend>",
                 fix="declare rclpy",
             ),
             fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
@@ -56,12 +56,12 @@ class ImportDeclaredByOthers(Rule):
             if not along or not manifest.dependencies:
                 continue
             if any(similar_package(one) == along[0] for one in there.direct):
-                continue  # misspelt, as another rule says
+                continue  # misspelled, as another rule says
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
             by = next((one for one in sorted(there.direct) if along[0] in provided_by({one})), "")
             message = (
                 f"{need.location.path}:{need.location.line} imports {need.module!r}, which only "
-                f"{by or 'another package'} brings along; add <{tag}>{along[0]}</{tag}>"
+                f"{by or 'another package'} depends on; add <{tag}>{along[0]}</{tag}>"
             )
             last = manifest.dependencies[-1].element
             fix = Fix(f"declare {along[0]}", (manifest.insert(tag, along[0]),))

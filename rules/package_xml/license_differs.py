@@ -1,4 +1,4 @@
-"""PX083: the LICENSE file holds the licence that the manifest names."""
+"""PX083: the LICENSE file holds the license that the manifest names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TEXTS: Mapping[str, tuple[str, ...]] = {
     "lgpl": ("gnu lesser general public license",),
     "mpl": ("mozilla public license",),
 }
-"""What a licence text surely holds, by family."""
+"""What the text of a license contains, by family."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <license>{}</license>\n</package>\n'
 _FILE = {"LICENSE": "                 Apache License\n           Version 2.0, January 2004\n"}
 
@@ -24,7 +24,7 @@ class LicenseDiffers(Rule):
 
     **Why.** Who uses the package reads two different terms; reviewers of a release refuse it.
 
-    **Fix.** Name the licence of the file.
+    **Fix.** Name the license of the file.
 
     **Source.** REP 149, ``license``; ROS 2 documentation, "Indexing your packages".
     """
@@ -45,7 +45,7 @@ class LicenseDiffers(Rule):
             "another",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
             Report(
-                "package.xml:3:3", "'MIT' is declared, but LICENSE holds the Apache License 2.0"
+                "package.xml:3:3", "'MIT' is declared, but LICENSE contains the Apache License 2.0"
             ),
         ),
     )
@@ -61,14 +61,14 @@ class LicenseDiffers(Rule):
             found.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
         if named and len(found) == 1 and named not in found:
             held = found.pop()
-            message = f"{licenses[0].text!r} is declared, but LICENSE holds {_NAMES[held]}"
+            message = f"{licenses[0].text!r} is declared, but LICENSE contains {_NAMES[held]}"
             yield self.report(licenses[0], message)
 
 
 _NAMES = {
     "apache": "the Apache License 2.0",
     "mit": "the MIT License",
-    "bsd": "a BSD licence",
+    "bsd": "a BSD license",
     "gpl": "the GNU GPL",
     "lgpl": "the GNU LGPL",
     "mpl": "the Mozilla Public License",
@@ -76,7 +76,7 @@ _NAMES = {
 
 
 def _family(name: str) -> str:
-    """Return the family of a declared licence, or nothing."""
+    """Return the family of a declared license, or nothing."""
     text = name.lower()
     if " or " in text or " and " in text or "/" in text or "," in text:
         return ""

@@ -1,4 +1,4 @@
-"""PX006: the licence file that the manifest names exists."""
+"""PX006: the license file that the manifest names exists."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PX005: licences are named as SPDX names them."""
+"""PX005: licenses are named as SPDX names them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class LicenseNotSpdx(Rule):
     """``<license>`` has another spelling than the SPDX identifier.
 
     **Why.** The release guide asks for the short identifier, which tools compare; ``BSD`` alone
-    does not even say which licence is meant.
+    does not even say which license it is.
 
     **Fix.** Write the identifier.
 

@@ -59,7 +59,7 @@ class LintersUndeclared(Rule):
             {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
             Report(
                 "package.xml:3:4",
-                "CMakeLists.txt:5 runs the linters that <test_depend> names, and "
+                "CMakeLists.txt:5 runs the linters that <test_depend> names, but "
                 "none is named; add <test_depend>ament_lint_common</test_depend>",
                 fix="declare ament_lint_common",
             ),
@@ -82,7 +82,7 @@ class LintersUndeclared(Rule):
         last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
         line = calls[0].location.line
         message = (
-            f"CMakeLists.txt:{line} runs the linters that <test_depend> names, and none is "
+            f"CMakeLists.txt:{line} runs the linters that <test_depend> names, but none is "
             "named; add <test_depend>ament_lint_common</test_depend>"
         )
         edit = manifest.insert("test_depend", "ament_lint_common")

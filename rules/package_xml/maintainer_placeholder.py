@@ -9,7 +9,7 @@ from scaffold.api.manifest import is_placeholder, is_placeholder_address
 
 
 class MaintainerPlaceholder(Rule):
-    """``<maintainer>`` or ``<author>`` has no name, or an address that reaches nobody.
+    """``<maintainer>`` or ``<author>`` has no name, or a placeholder as name or email address.
 
     **Why.** The build farm writes to this address when the package breaks.
 
@@ -36,7 +36,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="root@todo.todo">root</maintainer>\n'
                 "</package>\n"
             },
-            Report("package.xml:2:22", "'root@todo.todo' of <maintainer> reaches nobody"),
+            Report("package.xml:2:22", "maintainer email 'root@todo.todo' is a placeholder"),
         ),
         Example(
             "no name",
@@ -63,7 +63,7 @@ class MaintainerPlaceholder(Rule):
             for element in package.manifest.all(tag):
                 address = element.attributes.get("email")
                 if address and is_placeholder_address(address.value):
-                    yield self.report(address, f"{address.value!r} of <{tag}> reaches nobody")
+                    yield self.report(address, f"{tag} email {address.value!r} is a placeholder")
                 if not element.text:
                     yield self.report(element, f"<{tag}> has no name")
                 elif is_placeholder(element.text):

@@ -12,7 +12,7 @@ _FILES = {"CMakeLists.txt": "project(talker)\n", "talker/__init__.py": ""}
 
 
 class NameDiffersFromFiles(Rule):
-    """The name in package.xml is another one than that of all other files.
+    """The name in package.xml differs from the one in all other files.
 
     **Why.** ``ament_package()`` stops the build; for ament_python ``ros2 run`` looks below the one
     name and finds nothing, since the executables are below the other.

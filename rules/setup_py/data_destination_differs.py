@@ -23,7 +23,7 @@ _GLOB = "['launch/talk.launch.py']"
 
 
 class DataDestinationDiffers(Rule):
-    """An entry of ``data_files`` is not a pair, or installs where nobody looks.
+    """An entry of ``data_files`` is not a pair, or has a wrong destination.
 
     **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
     found in the share directory of package 'talker'``. An absolute path leaves the workspace, or
@@ -44,7 +44,7 @@ class DataDestinationDiffers(Rule):
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
             Report(
                 "setup.py:6:10",
-                "installs launch/talk.launch.py to share/launch; it is looked for in share/talker/",
+                "installs launch/talk.launch.py to share/launch; ROS 2 looks in share/talker/",
             ),
         ),
         Example(
@@ -69,7 +69,7 @@ class DataDestinationDiffers(Rule):
                     "]),", f"])\n        ('share/talker/launch', {_GLOB}),"
                 ),
             },
-            Report("setup.py:6:9", "a comma is missing after this: 'tuple' object is not callable"),
+            Report("setup.py:6:9", "missing comma after this: 'tuple' object is not callable"),
         ),
     )
 
@@ -89,7 +89,7 @@ class DataDestinationDiffers(Rule):
         keyword = setup.keywords.get("data_files")
         for call in ast.walk(keyword.node) if keyword else ():
             if isinstance(call, ast.Call) and isinstance(call.func, ast.Tuple):
-                message = "a comma is missing after this: 'tuple' object is not callable"
+                message = "missing comma after this: 'tuple' object is not callable"
                 yield self.report(setup.module.location(call.func), message)
 
 
@@ -105,7 +105,7 @@ def _problem(data: DataFile, share: str) -> str:
         for one in sources
     )
     if is_data and target.rstrip("/") != share and not target.startswith(f"{share}/"):
-        return f"installs {sources[0]} to {target}; it is looked for in {share}/"
+        return f"installs {sources[0]} to {target}; ROS 2 looks in {share}/"
     return ""
 
 

@@ -64,7 +64,7 @@ class DataFileMissing(Rule):
             Report("setup.py:8:42", "data_files names LICENCE, which is not there"),
             Report(
                 "setup.py:9:33",
-                "the pattern launch/*_launch.py matches no file; launch/talk.launch.py is there",
+                "the pattern launch/*_launch.py matches no file; closest: launch/talk.launch.py",
             ),
         ),
     )
@@ -104,4 +104,4 @@ class DataFileMissing(Rule):
         globs = [one for one in sources if isinstance(one, Glob)]
         if {path for one in globs for path in matches(one, package.files)}.issuperset(beside):
             return None  # other lines install them
-        return f"the pattern {pattern.pattern} matches no file; {beside[0]} is there"
+        return f"the pattern {pattern.pattern} matches no file; closest: {beside[0]}"

@@ -37,7 +37,7 @@ class EntryPointMalformed(Rule):
             },
             Report(
                 "setup.py:5:9",
-                "a comma is missing after this console script: it is joined to the next",
+                "missing comma after this console script: it is joined to the next",
             ),
         ),
         Example(
@@ -55,7 +55,7 @@ class EntryPointMalformed(Rule):
         for entry in package.setup_py.console_scripts:
             if len(entry.joined) > 1 and entry.text.count("=") > 1:
                 at = entry.joined[0]
-                message = "a comma is missing after this console script: it is joined to the next"
+                message = "missing comma after this console script: it is joined to the next"
                 yield self.report(at, message)
             elif entry.malformed:
                 yield self.report(entry, f"console script {entry.text!r}: {entry.malformed}")

@@ -45,10 +45,10 @@ class EntryPointMissing(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            Report("setup.py:5:9", "talker/node.py has no 'run': `ros2 run` of 'talker' fails"),
+            Report("setup.py:5:9", "`ros2 run` of 'talker' fails: talker/node.py has no 'run'"),
             Report(
                 "setup.py:6:9",
-                "there is no talker/nodes.py; talker/node.py is near: `ros2 run` of 'other' fails",
+                "`ros2 run` of 'other' fails: there is no talker/nodes.py; closest: talker/node.py",
             ),
         ),
         Example(
@@ -62,9 +62,9 @@ class EntryPointMissing(Rule):
             },
             Report(
                 "setup.py:5:9",
-                "the package has no module 'talkr'; talker is near: `ros2 run` of 'a' fails",
+                "`ros2 run` of 'a' fails: the package has no module 'talkr'; closest: talker",
             ),
-            Report("setup.py:6:9", "there is no directory listener/: `ros2 run` of 'b' fails"),
+            Report("setup.py:6:9", "`ros2 run` of 'b' fails: there is no directory listener/"),
         ),
     )
 
@@ -76,7 +76,7 @@ class EntryPointMissing(Rule):
                 continue
             problem = self._problem(package, entry)
             if problem:
-                message = f"{problem}: `ros2 run` of {entry.name!r} fails"
+                message = f"`ros2 run` of {entry.name!r} fails: {problem}"
                 yield self.report(entry, message)
 
     def _problem(self, package: Package, entry: EntryPoint) -> str | None:
@@ -87,7 +87,7 @@ class EntryPointMissing(Rule):
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
             near = get_close_matches(f"{base}.py", package.python_files, n=1)
-            hint = f"; {near[0]} is near" if near else ""
+            hint = f"; closest: {near[0]}" if near else ""
             return f"there is no {base}.py{hint}"
         try:
             module = package.module(path)
@@ -106,6 +106,6 @@ class EntryPointMissing(Rule):
         if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
             near = get_close_matches(root, own, n=1)
             if where is None and near and not package.has(f"{root}.py"):
-                return f"the package has no module {root!r}; {near[0]} is near"
+                return f"the package has no module {root!r}; closest: {near[0]}"
             return None
         return f"there is no directory {root}/"

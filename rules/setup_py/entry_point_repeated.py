@@ -33,7 +33,9 @@ class EntryPointRepeated(Rule):
         Example(
             "one name",
             {"setup.py": _SETUP.format("talker")},
-            Report("setup.py:8:9", "'talker' is the name of another entry point: only one is made"),
+            Report(
+                "setup.py:8:9", "'talker' is the name of another entry point: only one is installed"
+            ),
         ),
     )
 
@@ -42,5 +44,7 @@ class EntryPointRepeated(Rule):
         for entry in package.setup_py.console_scripts:
             first = seen.setdefault(entry.name, entry)
             if first is not entry and entry.name:
-                message = f"{entry.name!r} is the name of another entry point: only one is made"
+                message = (
+                    f"{entry.name!r} is the name of another entry point: only one is installed"
+                )
                 yield self.report(entry, message)

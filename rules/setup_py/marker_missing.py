@@ -64,7 +64,7 @@ class MarkerMissing(Rule):
                 "setup.py": _SETUP.format(_BOTH.replace("resource/talker", "resource/listener")),
                 "resource/listener": "",
             },
-            Report("setup.py:5:18", "installs listener as marker; the package is 'talker'"),
+            Report("setup.py:5:18", "installs listener as marker, but the package is 'talker'"),
         ),
     )
 
@@ -87,7 +87,9 @@ class MarkerMissing(Rule):
             names = [source.rpartition("/")[2] for source in known]
             complete = data.complete and len(known) == len(data.sources)
             if complete and package.name not in names and not other_name(package):
-                message = f"installs {', '.join(names)} as marker; the package is {package.name!r}"
+                message = (
+                    f"installs {', '.join(names)} as marker, but the package is {package.name!r}"
+                )
                 if all(package.has(source) for source in known):
                     yield self.report(data.destination_location, message)
         if not installed and setup.call is not None and setup.data_files_complete:

@@ -16,7 +16,7 @@ _FILES = {"talker/__init__.py": "", "talker/node.py": "def main():\n    pass\n"}
 
 
 class ModuleNotPacked(Rule):
-    """``packages`` leaves out the package that the entry points start, or names one not there.
+    """``packages`` lacks the package that the entry points start, or names a missing one.
 
     **Why.** The executables are made, the code is not installed: ``ModuleNotFoundError`` when they
     are started. For a package that does not exist the build stops: ``package directory 'demo' does

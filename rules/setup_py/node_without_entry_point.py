@@ -57,8 +57,8 @@ class NodeWithoutEntryPoint(Rule):
             {"setup.py": _SETUP.format(""), **_FILES},
             Report(
                 "setup.py:6:18",
-                "talker/other.py is a node with a main, but no entry point starts "
-                "it; add 'other = talker.other:main'",
+                "talker/other.py is a node with a main function, but no entry point "
+                "starts it; add 'other = talker.other:main'",
             ),
         ),
     )
@@ -82,7 +82,7 @@ class NodeWithoutEntryPoint(Rule):
             if module.path.count("/") == 1 and root in {one.partition(".")[0] for one in started}:
                 stem = module.path.rpartition("/")[2].removesuffix(".py")
                 message = (
-                    f"{module.path} is a node with a main, but no entry point starts it; "
+                    f"{module.path} is a node with a main function, but no entry point starts it; "
                     f"add '{stem} = {name}:main'"
                 )
                 yield self.report(keyword, message)

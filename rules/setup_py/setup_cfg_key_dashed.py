@@ -1,4 +1,4 @@
-"""SP005: options of setup.cfg are spelt with underscores."""
+"""SP005: options of setup.cfg have underscores."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _CFG = "[develop]\nscript{0}dir=$base/lib/talker\n[install]\ninstall{0}scripts=$
 
 
 class SetupCfgKeyDashed(Rule):
-    """An option of setup.cfg is spelt with a dash.
+    """An option of setup.cfg contains a dash.
 
     **Why.** setuptools warns in every build, and newer versions stop: ``Usage of dash-separated
     'script-dir' will not be supported``.
@@ -29,13 +29,11 @@ class SetupCfgKeyDashed(Rule):
             "dashes",
             {"setup.py": "", "setup.cfg": _CFG.format("-")},
             Report(
-                "setup.cfg:2:1",
-                "setuptools wants 'script_dir' instead of 'script-dir'",
-                fix="write script_dir",
+                "setup.cfg:2:1", "use 'script_dir' instead of 'script-dir'", fix="write script_dir"
             ),
             Report(
                 "setup.cfg:4:1",
-                "setuptools wants 'install_scripts' instead of 'install-scripts'",
+                "use 'install_scripts' instead of 'install-scripts'",
                 fix="write install_scripts",
             ),
             fixed={"setup.cfg": _CFG.format("_")},
@@ -51,6 +49,6 @@ class SetupCfgKeyDashed(Rule):
                 continue
             if "-" in option.key:
                 right = option.key.replace("-", "_")
-                message = f"setuptools wants {right!r} instead of {option.key!r}"
+                message = f"use {right!r} instead of {option.key!r}"
                 fix = Fix(f"write {right}", (cfg.rename(option, right),))
                 yield self.report(option.key_location, message, fix)

@@ -52,7 +52,8 @@ class SetupCfgMissing(Rule):
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             Report(
                 "setup.cfg:1:1",
-                "no setup.cfg: 'talker' of setup.py lands in bin/, where `ros2 run` does not look",
+                "no setup.cfg: 'talker' of setup.py is installed to bin/, where "
+                "`ros2 run` does not look",
                 fix="write setup.cfg",
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
@@ -67,7 +68,7 @@ class SetupCfgMissing(Rule):
             return
         fix = Fix("write setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
         message = (
-            f"no setup.cfg: {scripts[0].name!r} of setup.py lands in bin/, where `ros2 run` "
+            f"no setup.cfg: {scripts[0].name!r} of setup.py is installed to bin/, where `ros2 run` "
             "does not look"
         )
         yield self.report(package.start_of("setup.cfg"), message, fix)

@@ -45,9 +45,8 @@ class SetupOfCatkin(Rule):
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
             Report(
                 "setup.py:2:1",
-                "generate_distutils_setup() is of catkin: package.xml, build type "
-                "ament_python, needs a setup() of its own with data_files and "
-                "entry_points",
+                "generate_distutils_setup() belongs to catkin: the build type "
+                "ament_python needs setup() with data_files and entry_points",
             ),
         ),
     )
@@ -58,7 +57,8 @@ class SetupOfCatkin(Rule):
         for import_ in package.setup_py.module.imports:
             if import_.module == "catkin_pkg.python_setup" and import_.top_level:
                 message = (
-                    "generate_distutils_setup() is of catkin: package.xml, build type "
-                    "ament_python, needs a setup() of its own with data_files and entry_points"
+                    "generate_distutils_setup() belongs to catkin: the build type "
+                    "ament_python needs "
+                    "setup() with data_files and entry_points"
                 )
                 yield self.report(import_, message)

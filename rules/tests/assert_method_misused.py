@@ -48,14 +48,16 @@ class AssertMethodMisused(TestRule):
         Example(
             "gone",
             {"test/test_text.py": _TEST.format("assertEquals")},
-            Report("test/test_text.py:6:9", "assertEquals is gone in Python 3.12; use assertEqual"),
+            Report(
+                "test/test_text.py:6:9", "assertEquals was removed in Python 3.12; use assertEqual"
+            ),
         ),
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
             Report(
                 "test/test_text.py:6:9",
-                "assertTrue takes one value, the second is a message; compare them",
+                "assertTrue checks one value, the second is a message; use assertEqual",
             ),
         ),
     )
@@ -71,10 +73,12 @@ class AssertMethodMisused(TestRule):
             match node:
                 case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name)):
                     if name in _GONE and name not in own:
-                        message = f"{name} is gone in Python 3.12; use {_GONE[name]}"
+                        message = f"{name} was removed in Python 3.12; use {_GONE[name]}"
                         yield self.report(module.location(node.func), message)
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
-                        message = f"{name} takes one value, the second is a message; compare them"
+                        message = (
+                            f"{name} checks one value, the second is a message; use assertEqual"
+                        )
                         yield self.report(module.location(node.func), message)
 
 

@@ -50,7 +50,7 @@ class AssertionWithoutEffect(TestRule):
             },
             Report(
                 "test/test_text.py:9:5",
-                "nothing looks at this comparison: write assert in front of it",
+                "the result of this comparison is ignored: write assert before it",
             ),
             Report(
                 "test/test_text.py:10:5", "nothing is called here: write `with pytest.raises(...):`"
@@ -65,7 +65,7 @@ class AssertionWithoutEffect(TestRule):
             },
             Report(
                 "test/test_text.py:11:5",
-                "this drops the AssertionError: the test passes all the same",
+                "this discards the AssertionError: the test always passes",
             ),
         ),
         Example("a function that is called", {"test/test_text.py": _ASSERTION.format("ready()")}),
@@ -90,14 +90,14 @@ class AssertionWithoutEffect(TestRule):
                 "test/test_c.py": _ASSERTION.format("ready.called_once()"),
                 "test/test_d.py": _ASSERTION.format("'ready'"),
             },
-            Report("test/test_a.py:9:5", "pytest.skip is not called: parentheses are missing"),
+            Report("test/test_a.py:9:5", "pytest.skip is not called: missing parentheses"),
             Report("test/test_b.py:9:5", "rclpy.ok is a function, which is always true: call it"),
             Report(
                 "test/test_c.py:6:5",
-                "a mock has no called_once(): it fails, or is always true; "
-                "assert_called_once() is meant",
+                "a mock has no called_once(): it fails, or is always true; use "
+                "assert_called_once()",
             ),
-            Report("test/test_d.py:6:5", "a text is always true: nothing is asserted"),
+            Report("test/test_d.py:6:5", "a non-empty string is always true: nothing is asserted"),
         ),
     )
 
@@ -121,14 +121,14 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
         ):
             for handler in handlers:
                 if _drops(module, handler):
-                    return handler, "this drops the AssertionError: the test passes all the same"
+                    return handler, "this discards the AssertionError: the test always passes"
     return node, problem
 
 
 def _statement_problem(module: PythonModule, value: ast.expr) -> str:
     match value:
         case ast.Compare() if not _in_with(module, value):
-            return "nothing looks at this comparison: write assert in front of it"
+            return "the result of this comparison is ignored: write assert before it"
         case ast.Call(args=[_], keywords=[]) if (
             module.qualified_name(value.func) == "pytest.raises"
         ):
@@ -136,7 +136,7 @@ def _statement_problem(module: PythonModule, value: ast.expr) -> str:
         case ast.Attribute(attr=name) if (
             name.startswith("assert_") or module.qualified_name(value) in _ENDS
         ):
-            return f"{module.text(value)} is not called: parentheses are missing"
+            return f"{module.text(value)} is not called: missing parentheses"
     return ""
 
 
@@ -157,11 +157,11 @@ def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
     """Return why a condition is always true."""
     match condition:
         case ast.Constant(value=str(text)) if text:
-            return "a text is always true: nothing is asserted"
+            return "a non-empty string is always true: nothing is asserted"
         case ast.BoolOp(op=ast.Or(), values=values) if any(map(_is_true, values)):
             return "one side of this `or` is always true: compare with it as well"
         case ast.Call(func=ast.Attribute(attr=name)) if name in _MOCKED:
-            return f"a mock has no {name}(): it fails, or is always true; assert_{name}() is meant"
+            return f"a mock has no {name}(): it fails, or is always true; use assert_{name}()"
         case ast.Name(id=name):
             function = module.functions.get(name)
             found = module.index.lookup(name, condition)

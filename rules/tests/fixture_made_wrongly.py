@@ -38,7 +38,7 @@ class FixtureMadeWrongly(Rule):
             {"test/test_text.py": _TEST.format("modul", "")},
             Report(
                 "test/test_text.py:9:2",
-                "there is no scope 'modul', but function, class, module, package, session",
+                "unknown scope 'modul'; choose from function, class, module, package, session",
             ),
         ),
         Example(
@@ -46,7 +46,7 @@ class FixtureMadeWrongly(Rule):
             {"test/test_text.py": _TEST.format("module", "")},
             Report(
                 "test/test_text.py:9:2",
-                "the scope is 'module', and it takes word of scope 'function'",
+                "a fixture of scope 'module' cannot use word of scope 'function'",
             ),
         ),
         Example(
@@ -74,7 +74,7 @@ def _problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
     if not fixture.scope:
         return ""
     if fixture.scope not in _SCOPES:
-        return f"there is no scope {fixture.scope!r}, but {', '.join(_SCOPES)}"
+        return f"unknown scope {fixture.scope!r}; choose from {', '.join(_SCOPES)}"
     if sum(map(_yields, fixture.node.body)) > 1:
         return f"the fixture {fixture.name} yields twice: pytest takes one value"
     for name in arguments(fixture.node):
@@ -82,7 +82,9 @@ def _problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
         if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:
             continue
         if _SCOPES.index(inner.scope) < _SCOPES.index(fixture.scope):
-            return f"the scope is {fixture.scope!r}, and it takes {name} of scope {inner.scope!r}"
+            return (
+                f"a fixture of scope {fixture.scope!r} cannot use {name} of scope {inner.scope!r}"
+            )
     return ""
 
 

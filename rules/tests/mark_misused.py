@@ -46,7 +46,7 @@ class MarkMisused(TestRule):
     examples = (
         Example("right", {"test/test_text.py": _TEST.format("parametrize", "[('a', 1)]")}),
         Example(
-            "misspelt",
+            "misspelled",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
             Report(
                 "test/test_text.py:4:2", "pytest has no mark 'parameterize'; closest: 'parametrize'"

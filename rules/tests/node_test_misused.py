@@ -59,7 +59,7 @@ class NodeTestMisused(Rule):
             },
             Report(
                 "test/test_node.py:9:5",
-                "the test of line 5 calls init() as well, and nothing shuts down",
+                "the test in line 5 calls init() as well, but nothing calls shutdown()",
             ),
         ),
     )
@@ -84,7 +84,7 @@ def _problem(
         inits.append(call)
         if len(inits) > 1:
             line = module.location(inits[0]).line
-            return f"the test of line {line} calls init() as well, and nothing shuts down"
+            return f"the test in line {line} calls init() as well, but nothing calls shutdown()"
     elif name in {"rclpy.node.Node", "rclpy.create_node"} and own and "init" not in texts:
         words = {word.arg for word in call.keywords}
         if words.isdisjoint({"context", None}):

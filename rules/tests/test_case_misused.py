@@ -50,15 +50,14 @@ class TestCaseMisused(TestRule):
             Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
             Report(
                 "test/test_text.py:8:9",
-                "unittest gives test_text no arguments, and it takes 'tmp_path': TypeError",
+                "unittest gives test_text no arguments, but it takes 'tmp_path': TypeError",
             ),
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
             Report(
-                "test/test_text.py:5:9",
-                "pytest calls setUp in a TestCase only; here it is setup_method",
+                "test/test_text.py:5:9", "pytest calls setUp in a TestCase only; use setup_method"
             ),
         ),
         Example(
@@ -74,7 +73,7 @@ class TestCaseMisused(TestRule):
             },
             Report(
                 "test/test_a.py:5:9",
-                "unittest calls setUp with self alone, and it takes 2 arguments",
+                "unittest calls setUp with self only, but it takes 2 arguments",
             ),
             Report(
                 "test/test_b.py:5:9",
@@ -119,7 +118,7 @@ def _has_no_base(class_: ast.ClassDef) -> bool:
 
 def _plain(method: FunctionNode) -> str:
     name = _PLAIN.get(method.name)
-    return f"pytest calls {method.name} in a TestCase only; here it is {name}" if name else ""
+    return f"pytest calls {method.name} in a TestCase only; use {name}" if name else ""
 
 
 def _case_problem(module: PythonModule, method: FunctionNode) -> str:
@@ -134,12 +133,12 @@ def _case_problem(module: PythonModule, method: FunctionNode) -> str:
     if name in {"setUpClass", "tearDownClass"} and not decorated:
         problem = f"unittest calls {name} on the class: @classmethod is missing"
     elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
-        problem = f"unittest calls {name} with self alone, and it takes {len(given)} arguments"
+        problem = f"unittest calls {name} with self only, but it takes {len(given)} arguments"
     elif name == "__init__" and len(method.args.args) == 1 and not method.args.vararg:
         problem = "unittest gives __init__ the name of a test: use setUp instead"
     elif name.startswith("test") and not launched and not static:
         if any(mark == "parametrize" for mark, _ in marks(module, method)):
             problem = f"parametrize does nothing in a TestCase: {name} fails with TypeError"
         elif len(given) > 1 and not decorated:
-            problem = f"unittest gives {name} no arguments, and it takes {given[1]!r}: TypeError"
+            problem = f"unittest gives {name} no arguments, but it takes {given[1]!r}: TypeError"
     return problem

@@ -1,4 +1,4 @@
-"""TS050: tests find the helpers beside them."""
+"""TS050: tests find the helpers in their directory."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _HELPER = {"test/helpers.py": "def make():\n    return 1\n"}
 
 
 class TestImportFails(Rule):
-    """A test imports a helper beside it in a way that pytest cannot follow.
+    """A test imports a helper of its directory in a way that fails in pytest.
 
     **Why.** pytest stops with ``ImportError: attempted relative import with no known parent
     package`` in a directory without ``__init__.py``, with ``No module named 'helpers'`` in one that
@@ -43,7 +43,8 @@ class TestImportFails(Rule):
             },
             Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
             Report(
-                "test/test_b.py:1:1", "test is a package of Python: write `from helpers import ...`"
+                "test/test_b.py:1:1",
+                "test is a package of Python itself: write `from helpers import ...`",
             ),
         ),
         Example(
@@ -81,7 +82,7 @@ def _problem(package: Package, module: PythonModule, directory: str, one: Import
     helper = rest.partition(".")[0] or (one.names[0].name if one.names else "")
     if one.level == 0 and first == "test" == directory and not is_package:
         if package.has(f"test/{helper}.py"):
-            return f"test is a package of Python: write `from {helper} import ...`"
+            return f"test is a package of Python itself: write `from {helper} import ...`"
     elif one.level == 0 and is_package and package.has(f"{directory}/{first}.py"):
         is_elsewhere = package.has(f"{first}.py") or package.has(f"{first}/__init__.py")
         if not is_elsewhere and first != module.path.rpartition("/")[2][:-3]:

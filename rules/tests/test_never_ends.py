@@ -46,7 +46,7 @@ class TestNeverEnds(Rule):
             },
             Report(
                 "test/test_node.py:9:5",
-                "call() waits for an answer while nothing spins: use call_async, "
+                "call() waits for a response while nothing spins: use call_async, "
                 "and spin until it is done",
             ),
         ),
@@ -69,7 +69,7 @@ class TestNeverEnds(Rule):
                     if not isinstance(node, ast.Call):
                         continue
                     if _waits(module, node):
-                        message = "call() waits for an answer while nothing spins"
+                        message = "call() waits for a response while nothing spins"
                         at = module.location(node)
                         yield self.report(
                             at, f"{message}: use call_async, and spin until it is done"

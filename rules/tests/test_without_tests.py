@@ -49,7 +49,7 @@ class TestWithoutTests(Rule):
         Example(
             "a comparison that is returned",
             {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
-            Report("test/test_text.py:2:5", "what a test returns is not looked at: write assert"),
+            Report("test/test_text.py:2:5", "the return value of a test is ignored: use assert"),
         ),
     )
 
@@ -75,7 +75,7 @@ class TestWithoutTests(Rule):
                 continue
             for node in inner:
                 if isinstance(node, ast.Return) and isinstance(node.value, ast.Compare):
-                    message = "what a test returns is not looked at: write assert"
+                    message = "the return value of a test is ignored: use assert"
                     yield self.report(module.location(node), message)
 
 

@@ -35,11 +35,12 @@ from scaffold.model.launch.python_file import (
 from scaffold.model.launch.references import Use, exists, meant_package, package_uses
 from scaffold.model.launch.share_paths import paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
-from scaffold.model.launch.substitutions import failure, text_uses, truth_tests
+from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
 
 __all__ = [
     "ACTIONS",
     "CALLBACKS",
+    "CONDITION",
     "DATA_DIRECTORIES",
     "FUNCTION",
     "HANDLERS",

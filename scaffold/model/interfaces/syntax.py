@@ -152,8 +152,8 @@ def parse(source: Source, package: str, kind: str, name: str) -> Definition:
 
 def _bad_type_name(name: str, kind: str) -> str:
     return (
-        f"the file name {name!r} is no type name: rosidl wants letters and digits only, "
-        f"a capital first, as in '{suggest_type_name(name) or 'MyType'}.{kind}'"
+        f"the file name {name!r} is not a valid type name: rosidl requires letters and digits "
+        f"only, a capital first, as in '{suggest_type_name(name) or 'MyType'}.{kind}'"
     )
 
 
@@ -351,8 +351,8 @@ def _heading(lines: Iterable[_Line]) -> str:
 
 def _bad_field_name(name: str) -> str:
     message = (
-        f"{name!r} is no field name: rosidl wants lower-case letters, digits and single "
-        "underscores, a letter first"
+        f"{name!r} is not a valid field name: rosidl requires lower-case letters, digits and "
+        "single underscores, a letter first"
     )
     better = suggest_field_name(name)
     return f"{message}, as in {better!r}" if better else message
@@ -360,15 +360,15 @@ def _bad_field_name(name: str) -> str:
 
 def _bad_constant_name(name: str, type_text: str) -> str:
     if name.startswith("<"):
-        return f"a bound is written without blanks, as in '{type_text}<=10'"
+        return f"a bound is written without spaces, as in '{type_text}<=10'"
     if " " in name:
         return (
-            f"the '=' makes this line a constant, and {name!r} is no name of one; "
-            "a default value stands behind the name, without '='"
+            f"the '=' makes this line a constant, and {name!r} is not a valid name for "
+            "one; a default value comes after the name, without '='"
         )
     message = (
-        f"the '=' makes this line a constant, and {name!r} is no name of one: rosidl wants "
-        "capitals, digits and single underscores, a letter first"
+        f"the '=' makes this line a constant, and {name!r} is not a valid name for one: "
+        "rosidl requires capitals, digits and single underscores, a letter first"
     )
     better = suggest_constant_name(name)
     return f"{message}, as in {better!r}" if better else message

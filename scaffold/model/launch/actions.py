@@ -136,7 +136,7 @@ def _literal(node: ast.expr) -> str:
         case ast.Constant(value=None):
             what = "this is None"
         case ast.Constant(value=str()) | ast.JoinedStr():
-            what = "this is a text"
+            what = "this is a string"
         case ast.Constant(value=bool() | int() | float()):
             what = "this is a number"
     return what
@@ -151,5 +151,6 @@ def _called(launch: LaunchFile, node: ast.Call) -> str:
     if kind in HANDLERS:
         return f"this is the handler {kind}"
     if kind in _VALUES or kind.endswith(("Substitution", "Source", "Expression")):
-        return f"this is a {kind}"
-    return "this is a text" if kind == "get_package_share_directory" else ""
+        article = "an" if kind.startswith(tuple("AEIOU")) else "a"
+        return f"this is {article} {kind}"
+    return "this is a string" if kind == "get_package_share_directory" else ""

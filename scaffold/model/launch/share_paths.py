@@ -110,7 +110,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     if is_left_out(owner, path):
         return None  # made on each machine
     near = get_close_matches(path, files, 1, 0.6)
-    hint = f"; {near[0]} is" if near else ""
+    hint = f"; closest: {near[0]}" if near else ""
     return f"{owner.name} has no such file{hint}"
 
 

@@ -26,6 +26,7 @@ _TEXT_FUNCTIONS = frozenset(
     | {"bool", "len", "range"}
 )
 _METHODS = frozenset({"lower", "upper", "replace", "split", "strip", "format", "startswith"})
+CONDITION = "in a condition"
 _CONDITIONS = ("IfCondition", "UnlessCondition")
 
 
@@ -52,10 +53,10 @@ def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
         yield from _in_comparison(launch, comparison)
     for item in module.walk(ast.Subscript):
         if isinstance(_value_of(launch, item.value), ast.Dict):
-            yield from _one(launch, item.slice, "to be looked up")
+            yield from _one(launch, item.slice, "as a key")
     for test in truth_tests(module):
         if not _is_reported_as_condition(launch, test):
-            yield from _one(launch, test, "to decide by: it is always true")
+            yield from _one(launch, test, CONDITION)
 
 
 def truth_tests(module: PythonModule) -> Iterator[ast.expr]:
@@ -82,11 +83,11 @@ def _in_sum(launch: LaunchFile, sum_: ast.BinOp) -> Iterator[TextUse]:
         values = sum_.right.elts if isinstance(sum_.right, ast.Tuple) else [sum_.right]
         if isinstance(sum_.left, ast.JoinedStr) or isinstance(sum_.left.value, str):
             for value in values:
-                yield from _one(launch, value, "to be filled in")
+                yield from _one(launch, value, "in a % format")
     for node, other in ((sum_.left, sum_.right), (sum_.right, sum_.left)):
         kind = _kind(launch, node) if isinstance(sum_.op, ast.Add) else ""
         if kind and isinstance(launch.evaluator.evaluate(other), str):
-            yield TextUse(sum_, kind, "to be added to")
+            yield TextUse(sum_, kind, "in a sum")
             return
 
 
@@ -94,18 +95,18 @@ def _in_call(launch: LaunchFile, call: ast.Call) -> Iterator[TextUse]:
     name = launch.module.qualified_name(call.func)
     if name in _TEXT_FUNCTIONS or (name == "str" and len(call.args) == 1):
         for node in call.args:
-            yield from _one(launch, node, f"for {launch.module.text(call.func)}()")
+            yield from _one(launch, node, f"in {launch.module.text(call.func)}()")
     match call.func:
         case ast.Attribute(value=ast.Constant(value=str()), attr="format"):
             for node in [*call.args, *(word.value for word in call.keywords)]:
-                yield from _one(launch, node, "for format()")
+                yield from _one(launch, node, "in format()")
         case ast.Attribute(value=ast.Constant(value=str()), attr="join"):
             for node in _joined(call):
-                yield from _one(launch, node, "for join()")
+                yield from _one(launch, node, "in join()")
         case ast.Attribute(value=holder, attr=method):
             kind = _kind(launch, holder)
             if kind and method in _METHODS:
-                yield TextUse(holder, kind, f"for {method}()")
+                yield TextUse(holder, kind, f"in {method}()")
             elif kind and method == "perform" and not call.args and not call.keywords:
                 yield TextUse(call, kind, "without a context")
 
@@ -127,11 +128,11 @@ def _in_comparison(launch: LaunchFile, comparison: ast.Compare) -> Iterator[Text
     ):
         return
     for side in sides:
-        yield from _one(launch, side, "to compare")
+        yield from _one(launch, side, "in a comparison")
 
 
 def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether an expression stands in an IfCondition, of which another rule tells more."""
+    """Tell whether an expression is in an IfCondition, which has a rule of its own."""
     for parent in launch.module.parents(node):
         if isinstance(parent, ast.stmt):
             return False
@@ -176,7 +177,7 @@ def failure(launch: LaunchFile, node: ast.expr | None) -> str:
             warnings.simplefilter("ignore")
             tree = ast.parse(text.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return f"with the defaults this is {text!r}, which is no expression of Python"
+        return f"with the defaults this is {text!r}, which is not a Python expression"
     own = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name) and _is_set(one)}
     own |= {one.arg for one in ast.walk(tree) if isinstance(one, ast.arg)}
     for one in ast.walk(tree):

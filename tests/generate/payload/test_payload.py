@@ -583,7 +583,7 @@ def test_broken_definitions_are_named_with_their_line(own: Fill, tmp_path: Path)
         own("int32 good\nWheel[] wheels\n", Wheel="float32 Speed\n")
     wheel = file.with_name("Wheel.msg")
     assert f"{file}:2: the field 'wheels' cannot be filled: " in str(told.value)
-    assert f"{wheel}:1: 'Speed' is no field name" in str(told.value)
+    assert f"{wheel}:1: 'Speed' is not a valid field name" in str(told.value)
     with pytest.raises(InputError) as told:
         own("geometry_msgs/Pont place\n")
     assert f"{file}:1: " in str(told.value)

@@ -397,7 +397,7 @@ def test_broken_definition_is_not_known() -> None:
     definitions = Workspace([own]).interfaces
     assert definitions.find("my_msgs/msg/Status") is None
     with pytest.raises(
-        InputError, match=r"my_msgs/msg/Status: msg/Status.msg:1: 'Code' is no field"
+        InputError, match=r"my_msgs/msg/Status: msg/Status.msg:1: 'Code' is not a valid field"
     ):
         definitions.resolve("Status")
 

@@ -22,18 +22,18 @@ _FILES = {
 }
 
 
-class PackageMisspelt(Rule):
-    """A launch file names a package that nobody knows, and another one is plainly meant.
+class PackageMisspelled(Rule):
+    """A launch file misspells the name of a package.
 
     **Why.** ``ros2 launch`` stops: ``package 'talker_dmeo' not found, searching: [...]``.
 
-    **Fix.** Write the name in package.xml of the package that is meant.
+    **Fix.** Use the name in its package.xml.
 
     **Source.** ``launch_ros/substitutions/find_package.py``.
     """
 
     code = "LF004"
-    name = "package-misspelt"
+    name = "package-misspelled"
     examples = (
         Example(
             "itself, a known one, a declared one, and one that nobody can judge",
@@ -54,17 +54,17 @@ class PackageMisspelt(Rule):
             },
             Report(
                 "launch/a.launch.py:7:22",
-                "no package 'talker_dmeo' is known; 'talker_demo' is meant: this package",
+                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (this package)?",
                 unsafe_fix="write talker_demo",
             ),
             Report(
                 "launch/b.launch.py:7:22",
-                "no package 'demo' is known; 'talker_demo' is meant: it has the program 'talk'",
+                "unknown package 'demo'; did you mean 'talker_demo' (it has the program 'talk')?",
                 unsafe_fix="write talker_demo",
             ),
             Report(
                 "launch/c.launch.xml:2:14",
-                "no package 'rivz2' is known; 'rviz2' is meant: a package of ROS",
+                "unknown package 'rivz2'; did you mean 'rviz2' (a package of ROS)?",
                 unsafe_fix="write rviz2",
             ),
             fixed={
@@ -83,7 +83,7 @@ class PackageMisspelt(Rule):
             if meant is None:
                 continue
             fix = self._fix(package, use, meant.name)
-            message = f"no package {use.name!r} is known; {meant.name!r} is meant: {meant.reason}"
+            message = f"unknown package {use.name!r}; did you mean {meant.name!r} ({meant.reason})?"
             yield self.report(use.location, message, fix)
 
     def _fix(self, package: Package, use: Use, name: str) -> Fix | None:

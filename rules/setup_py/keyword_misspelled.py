@@ -30,8 +30,8 @@ _SETUP = (
 )
 
 
-class KeywordMisspelt(Rule):
-    """``setup`` gets a keyword, or ``entry_points`` a group, that nobody reads.
+class KeywordMisspelled(Rule):
+    """``setup`` gets an unknown keyword, or ``entry_points`` an unknown group.
 
     **Why.** setuptools only warns ``Unknown distribution option``, or says nothing: no executable
     is made, no file installed.
@@ -42,7 +42,7 @@ class KeywordMisspelt(Rule):
     """
 
     code = "SP050"
-    name = "keyword-misspelt"
+    name = "keyword-misspelled"
     examples = (
         Example("known", {"setup.py": _SETUP.format("entry_points", _GROUP)}),
         Example(
@@ -50,7 +50,7 @@ class KeywordMisspelt(Rule):
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
             Report(
                 "setup.py:6:5",
-                "setup() has no 'entry_point': nobody reads it; closest: 'entry_points'",
+                "setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'",
             ),
         ),
         Example(
@@ -58,7 +58,7 @@ class KeywordMisspelt(Rule):
             {"setup.py": _SETUP.format("entry_points", "console_script")},
             Report(
                 "setup.py:7:9",
-                "nobody reads the group 'console_script': 'console_scripts' makes executables",
+                "setuptools ignores the unknown group 'console_script'; closest: 'console_scripts'",
             ),
         ),
     )
@@ -70,12 +70,14 @@ class KeywordMisspelt(Rule):
                 continue
             near = get_close_matches(word.arg, _KNOWN, 1, 0.8)
             if near:
-                message = f"setup() has no {word.arg!r}: nobody reads it; closest: {near[0]!r}"
+                message = f"setup() ignores the unknown keyword {word.arg!r}; closest: {near[0]!r}"
                 yield self.report(setup.module.location(word), message)
         keyword = setup.keyword("entry_points")
         node = keyword.node if keyword else None
         if isinstance(node, ast.Dict):
             for key in node.keys:
                 if isinstance(key, ast.Constant) and key.value in _WRONG_GROUPS:
-                    message = f"nobody reads the group {key.value!r}: {_GROUP!r} makes executables"
+                    message = (
+                        f"setuptools ignores the unknown group {key.value!r}; closest: {_GROUP!r}"
+                    )
                     yield self.report(setup.module.location(key), message)

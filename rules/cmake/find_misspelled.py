@@ -1,4 +1,4 @@
-"""CM023: packages to find are spelt right."""
+"""CM023: packages to find are spelled correctly."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from scaffold.api.cmake import Argument
 _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 
 
-class FindMisspelt(Rule):
-    """``find_package`` looks for a name that is a well-known package with a letter wrong.
+class FindMisspelled(Rule):
+    """``find_package`` looks for a package whose name is misspelled.
 
     **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``; after
     ``ament_export_dependencies``, in every package that finds this one.
@@ -23,7 +23,7 @@ class FindMisspelt(Rule):
     """
 
     code = "CM023"
-    name = "find-misspelt"
+    name = "find-misspelled"
     examples = (
         Example("right", {"CMakeLists.txt": _LISTS.format("std_msgs")}),
         Example(

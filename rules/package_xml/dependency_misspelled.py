@@ -1,4 +1,4 @@
-"""PX022: dependencies are spelt right."""
+"""PX022: dependencies are spelled correctly."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.catalog import similar_package
 
 
-class DependencyMisspelt(Rule):
-    """A dependency has the name of a well-known package with a letter wrong.
+class DependencyMisspelled(Rule):
+    """The name of a dependency is misspelled.
 
     **Why.** rosdep finds no rule for it: ``rosdep install`` and the release stop.
 
@@ -19,7 +19,7 @@ class DependencyMisspelt(Rule):
     """
 
     code = "PX022"
-    name = "dependency-misspelt"
+    name = "dependency-misspelled"
     examples = (
         Example(
             "right, and one that nobody knows",

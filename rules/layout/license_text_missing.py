@@ -11,10 +11,10 @@ NAMES = ("LICENSE", "LICENCE", "COPYING")
 _DEPTH = 5
 
 
-class LicenceFileMissing(Rule):
+class LicenseTextMissing(Rule):
     """Neither the package nor its repository has the text of the license.
 
-    **Why.** Most licences ask that their text comes along; rosdistro asks for it at the first
+    **Why.** Most licenses ask that their text comes along; rosdistro asks for it at the first
     release.
 
     **Fix.** Add a LICENSE file with the full text.
@@ -23,7 +23,7 @@ class LicenceFileMissing(Rule):
     """
 
     code = "LY006"
-    name = "licence-file-missing"
+    name = "license-text-missing"
     severity = Severity.INFO
     examples = (
         Example("there", {"package.xml": "<package/>\n", "setup.py": "", "LICENSE": "..."}),

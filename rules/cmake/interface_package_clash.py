@@ -14,20 +14,20 @@ _LISTS = (
 _FILES = {"msg/Beat.msg": "int32 count\n", "my_robot/__init__.py": ""}
 
 
-class InterfacesBesidePythonPackage(Rule):
+class InterfacePackageClash(Rule):
     """A package generates interfaces and installs a Python package of the same name.
 
     **Why.** Both are the Python package ``my_robot``: CMake stops because the target
     ``ament_cmake_python_copy_my_robot`` exists already.
 
-    **Fix.** Move the interfaces to a package of their own, such as ``my_robot_msgs``.
+    **Fix.** Move the interfaces to a separate package, such as ``my_robot_msgs``.
 
     **Source.** ROS 2 documentation, "ament_cmake_python user documentation";
     https://github.com/ros2/rosidl_python/issues/141.
     """
 
     code = "CM063"
-    name = "interfaces-beside-python-package"
+    name = "interface-package-clash"
     examples = (
         Example("another name", {"CMakeLists.txt": _LISTS % "my_robot_tools", **_FILES}),
         Example(

@@ -25,7 +25,7 @@ _NODE = (
 _MANIFEST = "<package format='3'><name>talker_py</name></package>\n"
 
 
-class ShareOfMisspeltPackage(Rule):
+class ShareOfMisspelledPackage(Rule):
     """A node looks up the files of a package whose name is misspelled.
 
     **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is reached.
@@ -36,7 +36,7 @@ class ShareOfMisspeltPackage(Rule):
     """
 
     code = "ND072"
-    name = "share-of-misspelt-package"
+    name = "share-of-misspelled-package"
     examples = (
         Example(
             "this package",

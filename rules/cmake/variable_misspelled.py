@@ -1,4 +1,4 @@
-"""CM091: a variable that stands for the name of the package is PROJECT_NAME."""
+"""CM091: the variable with the name of the package is PROJECT_NAME."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
 _LISTS = "project(talker)\n{}install(FILES a.yaml DESTINATION share/${{{}}})\nament_package()\n"
 
 
-class VariableMisspelt(Rule):
+class VariableMisspelled(Rule):
     """A variable is used in place of ``PROJECT_NAME`` that nothing sets.
 
     **Why.** CMake takes it for empty, without a word: files are installed in ``lib/`` or
@@ -26,7 +26,7 @@ class VariableMisspelt(Rule):
     """
 
     code = "CM091"
-    name = "variable-misspelt"
+    name = "variable-misspelled"
     examples = (
         Example(
             "set",
@@ -40,7 +40,7 @@ class VariableMisspelt(Rule):
             {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
             Report(
                 "CMakeLists.txt:2:34",
-                "nothing sets project_name: it is empty; ${PROJECT_NAME} is meant",
+                "project_name is never set, so it is empty; did you mean ${PROJECT_NAME}?",
                 fix="write PROJECT_NAME",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
@@ -65,7 +65,7 @@ class VariableMisspelt(Rule):
             start = argument.start + at + 2
             edit = Edit("CMakeLists.txt", start, start + len(name), _WANTED)
             fix = Fix(f"write {_WANTED}", (edit,))
-        message = f"nothing sets {name}: it is empty; ${{{_WANTED}}} is meant"
+        message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
         return self.report(argument, message, fix)
 
 
