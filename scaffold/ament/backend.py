@@ -85,7 +85,7 @@ class StyleCheck:
         found: list[Diagnostic] = []
         counts: dict[str, int] = {}
         for file in self._files.pop(id(package), ()):
-            findings = self._findings(file)
+            findings = self._findings(file, package)
             package.is_repeatable &= not file.ran_out_of_time
             for one in findings:
                 counts[one.code] = count = counts.get(one.code, 0) + 1
@@ -93,7 +93,7 @@ class StyleCheck:
                     found.append(_diagnostic(package, file.path, one))
         return found
 
-    def _findings(self, file: _File) -> list[Finding]:
+    def _findings(self, file: _File, package: Package) -> list[Finding]:
         if file.findings is not None:
             return file.findings
         from scaffold.ament.verdict import check
@@ -104,7 +104,8 @@ class StyleCheck:
         name = file.path.rpartition("/")[2]
         try:
             with time_limit.limited():
-                findings = check(name, file.data, said, file.linters)
+                parsed = package.parsed_module(file.path)
+                findings = check(name, file.data, said, file.linters, parsed)
         except ScaffoldError:
             raise
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all

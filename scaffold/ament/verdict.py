@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from scaffold.ament.codes import CODES
 from scaffold.ament.finding import FLAKE8, PEP257, UNPARSABLE, Finding, Replacement
@@ -24,9 +25,12 @@ from scaffold.ament.flake8.pycodestyle import (
 from scaffold.ament.flake8.pyflakes import flakes, literals, redefinitions
 from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.python_text.logical import LogicalLine
-from scaffold.ament.python_text.text import PythonText, decode
+from scaffold.ament.python_text.text import BOM, PythonText, decode
 from scaffold.ament.ruff import MOST_OF_A_LINE, Said
 from scaffold.errors import exhausted
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
 
 MOST_EDITS = 200
 """Of one fix; a line with more is mended in several rounds, if at all."""
@@ -52,7 +56,11 @@ _OWN = (
 
 
 def check(
-    name: str, data: bytes, ask_ruff: Callable[[], Sequence[Said]], linters: int
+    name: str,
+    data: bytes,
+    ask_ruff: Callable[[], Sequence[Said]],
+    linters: int,
+    parsed: PythonModule | None = None,
 ) -> list[Finding]:
     """Return the findings of one file.
 
@@ -62,9 +70,11 @@ def check(
         ask_ruff: Waits for ruff and returns what it says about the file; asked after the own
             rules, which run at the same time as ruff.
         linters: Which of the two linters look at the file.
+        parsed: The file, where it has been parsed before.
     """
     decoded = decode(data)
-    text = PythonText(name, decoded.text)
+    is_same = parsed is not None and parsed.source.text.removeprefix(BOM) == decoded.text
+    text = PythonText(name, decoded.text, parsed.index if parsed and is_same else None)
     own = list(_own(text))
     said = ask_ruff()
     broken = _broken(text, said, is_clean=decoded.is_clean)

@@ -220,11 +220,22 @@ class Package:
 
         return self._view(("module", path), parse)
 
-    def modules(self) -> Iterator[PythonModule]:
-        """All Python files that can be parsed; the others are reported by the runner."""
+    def parsed_module(self, path: str) -> PythonModule | None:
+        """Return a Python file if somebody has asked for it before."""
+        known = self._views.get(("module", path))
+        return None if isinstance(known, ViewError) else cast("PythonModule | None", known)
+
+    def modules(self, mentioning: Sequence[str] = ()) -> Iterator[PythonModule]:
+        """All Python files that can be parsed; the others are reported by the runner.
+
+        Args:
+            mentioning: Words without which a file is of no interest; it is not even parsed.
+        """
+        words = [word.encode() for word in mentioning]
         for path in self.python_files:
             try:
-                yield self.module(path)
+                if all(word in self.data(path) for word in words):
+                    yield self.module(path)
             except ViewError:
                 continue
 
@@ -238,11 +249,15 @@ class Package:
     @property
     def name(self) -> str:
         """The name in the manifest; without one, the name of the directory."""
-        try:
-            name = self.manifest.name
-        except ViewError:
-            name = ""
-        return name or self.directory.rstrip("/").rpartition("/")[2]
+
+        def find() -> str:
+            try:
+                name = self.manifest.name
+            except ViewError:
+                name = ""
+            return name or self.directory.rstrip("/").rpartition("/")[2]
+
+        return self._view("name", find)
 
     @property
     def identity(self) -> Identity:

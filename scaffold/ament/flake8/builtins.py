@@ -58,14 +58,11 @@ def check(text: PythonText) -> Iterator[Finding]:
     """Yield the names that hide a builtin."""
     in_class = {
         id(child)
-        for node in text.nodes
-        if isinstance(node, ast.ClassDef)
+        for node in text.nodes(ast.ClassDef)
         for child in node.body
         if isinstance(child, (ast.Assign, ast.AnnAssign, *_Function))
     }
-    for node in text.nodes:
-        if not isinstance(node, _BINDING):
-            continue
+    for node in text.nodes(*_BINDING):
         code = "A003" if id(node) in in_class else "A001"
         for name, line, column in _bound(node):
             if name in BUILTINS:

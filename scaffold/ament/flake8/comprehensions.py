@@ -18,23 +18,29 @@ _CASTS = {
     "list": {"list", "tuple"},
     "tuple": {"list", "tuple"},
 }
-_COPY = (ast.ListComp, ast.SetComp, ast.DictComp)
+_Copy = ast.ListComp | ast.SetComp | ast.DictComp
 
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the calls and comprehensions that can be written shorter."""
     inner_maps: set[ast.AST] = set()
-    for node in text.nodes:
-        code = ""
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            code = _call(node, node.func.id, inner_maps)
-        elif isinstance(node, _COPY) and _copies(node):
-            code = "C416"
-        if code and isinstance(node, ast.expr):
-            column = text.column(node.lineno, node.col_offset)
-            end = node.end_lineno or node.lineno
-            end_column = text.column(end, node.end_col_offset or 0)
-            yield Finding(code, node.lineno, column, "", end, end_column)
+    for call in text.nodes(ast.Call):
+        if isinstance(call.func, ast.Name) and (code := _call(call, call.func.id, inner_maps)):
+            yield _finding(text, code, call)
+    copies: list[_Copy] = [
+        *text.nodes(ast.ListComp),
+        *text.nodes(ast.SetComp),
+        *text.nodes(ast.DictComp),
+    ]
+    for copy in copies:
+        if _copies(copy):
+            yield _finding(text, "C416", copy)
+
+
+def _finding(text: PythonText, code: str, node: ast.expr) -> Finding:
+    column = text.column(node.lineno, node.col_offset)
+    end = node.end_lineno or node.lineno
+    return Finding(code, node.lineno, column, "", end, text.column(end, node.end_col_offset or 0))
 
 
 def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
@@ -131,7 +137,7 @@ def _is_minus_one(node: ast.expr | None) -> bool:
     )
 
 
-def _copies(node: ast.ListComp | ast.SetComp | ast.DictComp) -> bool:
+def _copies(node: _Copy) -> bool:
     """Tell whether a comprehension yields just what it iterates over."""
     if len(node.generators) != 1 or node.generators[0].ifs or node.generators[0].is_async:
         return False

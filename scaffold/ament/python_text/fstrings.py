@@ -25,7 +25,7 @@ def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
     """Return the tokens with every f-string cut into its parts."""
     result: list[TokenInfo] = []
     for token in tokens:
-        if _is_f_string(token):
+        if token.type == tokenize.STRING and _is_f_string(token):
             result.extend(_Opened(token).tokens())
         else:
             result.append(token)
@@ -33,8 +33,8 @@ def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
 
 
 def _is_f_string(token: TokenInfo) -> bool:
-    """Tell whether a token is an f-string that the tokenizer did not cut."""
-    return token.type == tokenize.STRING and "f" in _prefix(token.string).lower()
+    """Tell whether a string is an f-string that the tokenizer did not cut."""
+    return "f" in _prefix(token.string).lower()
 
 
 def _prefix(literal: str) -> str:

@@ -8,12 +8,13 @@ import re
 import tokenize
 import warnings
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cached_property
 
 from scaffold.ament.python_text.logical import LogicalLine, split
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 from scaffold.errors import EXHAUSTED
+from scaffold.model.python.scopes import FunctionNode, Node, SyntaxIndex
 from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
@@ -52,19 +53,16 @@ def _universal_newlines(text: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
 
-def _children(nodes: Sequence[ast.AST], start: int, end: int) -> Iterator[ast.AST]:
-    for at in range(start, end):
-        for value in nodes[at].__dict__.values():
-            if isinstance(value, list):
-                yield from (child for child in value if isinstance(child, ast.AST))
-            elif isinstance(value, ast.AST) and value._fields:
-                yield value
-
-
 class PythonText:
-    """The views that the checks share; each is made when first asked for."""
+    """The views that the checks share; each is made when first asked for.
 
-    def __init__(self, name: str, text: str) -> None:
+    Args:
+        name: The name of the file without its directory.
+        text: Its text, with universal newlines and without a byte order mark.
+        index: The nodes of its syntax tree, where it has been parsed before.
+    """
+
+    def __init__(self, name: str, text: str, index: SyntaxIndex | None = None) -> None:
         self.name = name
         """The name of the file without its directory."""
         self.text = text
@@ -73,6 +71,7 @@ class PythonText:
         r"""With their ``\n``; the last one may be without."""
         if rest:
             self.lines.append(rest)
+        self._given_index = index
 
     @cached_property
     def tree(self) -> ast.Module | None:
@@ -80,20 +79,40 @@ class PythonText:
 
         Also when it is deeper than visitors can follow; see ``is_too_deep``.
         """
-        return None if self.is_too_deep else self._parsed[0]
+        return self.index.tree if self.index is not None else None
 
     @cached_property
     def is_too_deep(self) -> bool:
         """Whether the file is nested deeper than anybody writes."""
         return self._parsed[1]
 
-    @cached_property
-    def nodes(self) -> list[ast.AST]:
-        """All nodes of the syntax tree but contexts and operators, parents first."""
-        return self._nodes if self.tree else []
+    @property
+    def index(self) -> SyntaxIndex | None:
+        """The nodes of the syntax tree, if there is one."""
+        return self._parsed[0]
+
+    def nodes(self, *kinds: type[Node]) -> Iterator[Node]:
+        """Yield the nodes of some types, one type after the other, each before those below it."""
+        return self.index.of_types(*kinds) if self.index is not None else iter(())
+
+    @property
+    def functions(self) -> list[FunctionNode]:
+        """The functions and methods."""
+        return [*self.nodes(ast.FunctionDef), *self.nodes(ast.AsyncFunctionDef)]
+
+    @property
+    def imports(self) -> list[ast.Import | ast.ImportFrom]:
+        """The import statements."""
+        return [*self.nodes(ast.Import), *self.nodes(ast.ImportFrom)]
+
+    def parents(self, node: ast.AST) -> Iterator[ast.AST]:
+        """Yield the nodes around another, from the inside out."""
+        return self.index.parents(node) if self.index is not None else iter(())
 
     @cached_property
-    def _parsed(self) -> tuple[ast.Module | None, bool]:
+    def _parsed(self) -> tuple[SyntaxIndex | None, bool]:
+        if self._given_index is not None:
+            return self._given_index, False
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
@@ -102,15 +121,8 @@ class PythonText:
                 return None, False
             except EXHAUSTED:
                 return None, True
-        self._nodes: list[ast.AST] = [tree]
-        start = 0
-        for _ in range(MAX_DEPTH):
-            end = len(self._nodes)
-            if start == end:
-                return tree, False
-            self._nodes.extend([*_children(self._nodes, start, end)])
-            start = end
-        return tree, True
+        index = SyntaxIndex(tree)
+        return (index, False) if index.build(MAX_DEPTH) else (None, True)
 
     @cached_property
     def tokens(self) -> list[Token]:

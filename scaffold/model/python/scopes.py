@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 from bisect import bisect_left, bisect_right
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import TypeVar, cast
 
 from scaffold.record import NamedTuple
@@ -50,43 +52,40 @@ class SyntaxIndex:
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
         self._parents: dict[ast.AST, ast.AST] = {}
-        self._numbers: dict[ast.AST, int] = {}
-        """Of all nodes, each before what is below it."""
+        self._nodes: list[ast.AST] = []
+        """All nodes, each before what is below it."""
         self._numbers_of: dict[type[ast.AST], list[int]] = {}
-        self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
+        self._by_type: defaultdict[type[ast.AST], list[ast.AST]] = defaultdict(list)
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
-        self._around: dict[ast.AST, ast.AST] = {}
+        self._around: dict[ast.AST, ast.AST] = {tree: tree}
+        self._looked_up: dict[tuple[str, ast.AST], tuple[ast.AST, Sequence[Binding]] | None] = {}
         self._blocks: dict[ast.AST, dict[ast.AST, tuple[str, int]]] = {}
         self._names: dict[str, list[ast.Name]] | None = None
         self._attributes: dict[str, list[ast.Attribute]] | None = None
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
-        parents, by_type, numbers = self._parents, self._by_type, self._numbers
-        pending: list[tuple[ast.AST, int]] = [(self.tree, 1)]
-        while pending:
-            node, depth = pending.pop()
-            if depth > deepest:
-                return False
+        parents, by_type, nodes = self._parents, self._by_type, self._nodes
+
+        def visit(node: ast.AST, levels: int) -> bool:
             kind = type(node)
-            numbers[node] = len(numbers)
-            by_type.setdefault(kind, []).append(node)
-            below: list[tuple[ast.AST, int]] = []
-            for field in _fields(kind):
+            nodes.append(node)
+            by_type[kind].append(node)
+            for field in _FIELDS[kind]:
                 value = getattr(node, field, None)
-                if isinstance(value, list):
-                    for item in value:
-                        if isinstance(item, ast.AST):
-                            parents[item] = node
-                            below.append((item, depth + 1))
-                elif isinstance(value, ast.AST):
-                    parents[value] = node
-                    below.append((value, depth + 1))
-            if below:
-                below.reverse()
-                pending += below
-        return True
+                for item in value if type(value) is list else (value,):
+                    if isinstance(item, ast.AST):
+                        parents[item] = node
+                        if not levels or not visit(item, levels - 1):
+                            return False
+            return True
+
+        return visit(self.tree, deepest - 1)
+
+    @cached_property
+    def _numbers(self) -> Mapping[ast.AST, int]:
+        return {node: number for number, node in enumerate(self._nodes)}
 
     def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
         """Yield a node and those below it that are of some types, one type after the other.
@@ -110,7 +109,7 @@ class SyntaxIndex:
         """Return the number of the last node below another."""
         while True:
             last: ast.AST | None = None
-            for field in _fields(type(node)):
+            for field in _FIELDS[type(node)]:
                 value = getattr(node, field, None)
                 if isinstance(value, list):
                     last = next((one for one in reversed(value) if isinstance(one, ast.AST)), last)
@@ -119,6 +118,11 @@ class SyntaxIndex:
             if last is None:
                 return self._numbers[node]
             node = last
+
+    def of_types(self, *kinds: type[Node]) -> Iterator[Node]:
+        """Yield the nodes of some types, one type after the other, each before what is below it."""
+        for kind in kinds:
+            yield from cast("list[Node]", self._by_type.get(kind, ()))
 
     def all_of(self, kind: type[Node]) -> Sequence[Node]:
         """Return the nodes of a type in the order of the text."""
@@ -170,17 +174,29 @@ class SyntaxIndex:
 
     def scope_of(self, node: ast.AST) -> ast.AST:
         """Return the scope that a node is evaluated in: a module, class, function ..."""
-        if node not in self._around:
-            self._around[node] = self._find_scope(node)
-        return self._around[node]
+        scope = self._around.get(node)
+        return self._find_scope(node) if scope is None else scope
 
     def _find_scope(self, node: ast.AST) -> ast.AST:
-        child = below = node
-        for parent in self.parents(node):
-            if isinstance(parent, _SCOPES) and _is_inside(parent, child, below):
-                return parent
-            child, below = parent, child
-        return self.tree
+        around = self._around
+        inside: list[ast.AST] = []
+        while node not in around:
+            inside.append(node)
+            parent = self._parents.get(node, self.tree)
+            if isinstance(parent, _SCOPES) and _is_inside(parent, node):
+                around[node] = parent
+            else:
+                node = self._parents[parent] if self._is_first_iterable(parent, node) else parent
+        scope = around[node]
+        around.update(dict.fromkeys(inside, scope))
+        return scope
+
+    def _is_first_iterable(self, generator: ast.AST, node: ast.AST) -> bool:
+        """Tell whether a node is what a comprehension goes over first, evaluated around it."""
+        if not isinstance(generator, ast.comprehension) or node is not generator.iter:
+            return False
+        holder = self._parents[generator]
+        return isinstance(holder, _COMPREHENSIONS) and holder.generators[0] is generator
 
     def bindings(self, scope: ast.AST) -> Mapping[str, Sequence[Binding]]:
         """Return what a scope binds itself, by name."""
@@ -196,7 +212,12 @@ class SyntaxIndex:
 
     def lookup(self, name: str, at: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         """Return the scope that binds a name seen from a node, and its bindings there."""
-        scope = self.scope_of(at)
+        key = name, self.scope_of(at)
+        if key not in self._looked_up:
+            self._looked_up[key] = self._look_up(*key)
+        return self._looked_up[key]
+
+    def _look_up(self, name: str, scope: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         first = True
         while True:
             # A class body's names are seen by the body alone, not by the functions in it.
@@ -325,28 +346,34 @@ def _order(node: ast.AST) -> tuple[int, int]:
     return getattr(node, "lineno", 0), getattr(node, "col_offset", 0)
 
 
-_FIELDS: dict[type[ast.AST], tuple[str, ...]] = {}
+def children(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the nodes that a node holds, without contexts and operators."""
+    for field in _FIELDS[type(node)]:
+        value = getattr(node, field, None)
+        for item in value if type(value) is list else (value,):
+            if isinstance(item, ast.AST):
+                yield item
 
 
-def _fields(kind: type[ast.AST]) -> tuple[str, ...]:
-    """Return the fields of a node type that can hold nodes worth visiting."""
-    fields = _FIELDS.get(kind)
-    if fields is None:
-        fields = () if kind in _LEAVES else tuple(f for f in kind._fields if f not in _NOT_NODES)
-        _FIELDS[kind] = fields
-    return fields
+class _Fields(dict[type[ast.AST], tuple[str, ...]]):
+    """The fields of a node type that can hold nodes worth visiting."""
+
+    def __missing__(self, kind: type[ast.AST]) -> tuple[str, ...]:
+        names = () if kind in _LEAVES else tuple(f for f in kind._fields if f not in _NOT_NODES)
+        self[kind] = names
+        return names
 
 
-def _is_inside(scope: ast.AST, child: ast.AST, below: ast.AST) -> bool:
+_FIELDS = _Fields()
+
+
+def _is_inside(scope: ast.AST, child: ast.AST) -> bool:
     """Tell whether a direct child of a scope is evaluated in it, not around it."""
     match scope:
         case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
             return isinstance(child, ast.stmt)
         case ast.Lambda(body=body):
             return child is body
-        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
-            first = scope.generators[0]
-            return child is not first or below is not first.iter
         case _:
             return True
 

@@ -92,10 +92,8 @@ class _Stricter:
     def _tuple_formats(self) -> set[int]:
         return {
             node.lineno
-            for node in self._text.nodes
-            if isinstance(node, ast.BinOp)
-            and isinstance(node.op, ast.Mod)
-            and isinstance(node.right, ast.Tuple)
+            for node in self._text.nodes(ast.BinOp)
+            if isinstance(node.op, ast.Mod) and isinstance(node.right, ast.Tuple)
         }
 
     @cached_property
@@ -111,20 +109,11 @@ class _Stricter:
         """The places of ``del name`` that may not run: pyflakes does not look at them."""
         if "del " not in self._text.text:
             return set()
-        pending: list[ast.AST] = [
-            node for node in self._text.nodes if isinstance(node, (ast.If, ast.While))
-        ]
-        seen: set[ast.AST] = set()
-        found: set[tuple[int, int]] = set()
-        while pending:
-            part = pending.pop()
-            if part in seen:
-                continue
-            seen.add(part)
-            pending.extend(ast.iter_child_nodes(part))
-            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del):
-                found.add((part.lineno, self._text.column(part.lineno, part.col_offset)))
-        return found
+        return {
+            (name.lineno, self._text.column(name.lineno, name.col_offset))
+            for name, is_certain, _ in local_names.deletions(self._text)
+            if not is_certain
+        }
 
 
 def _at(
@@ -138,8 +127,8 @@ def _at(
 def _handler_lines(text: PythonText) -> dict[int, ast.ExceptHandler]:
     """Return each ``except ... as name`` by the lines between its first and its body."""
     found: dict[int, ast.ExceptHandler] = {}
-    for node in text.nodes:
-        if isinstance(node, ast.ExceptHandler) and node.name:
+    for node in text.nodes(ast.ExceptHandler):
+        if node.name:
             for line in range(node.lineno + 1, node.body[0].lineno):
                 found.setdefault(line, node)
     return found
@@ -148,10 +137,9 @@ def _handler_lines(text: PythonText) -> dict[int, ast.ExceptHandler]:
 def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
     """Return the import statement that covers a line; the first of several."""
     found: dict[int, ast.stmt] = {}
-    for node in text.nodes:
-        if isinstance(node, (ast.Import, ast.ImportFrom)):
-            for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
-                found.setdefault(line, node)
+    for node in sorted(text.imports, key=lambda node: (node.lineno, node.col_offset)):
+        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+            found.setdefault(line, node)
     return found
 
 

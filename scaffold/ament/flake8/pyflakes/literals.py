@@ -12,17 +12,15 @@ from scaffold.ament.python_text.text import PythonText
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield what is wrong with f-strings and dict literals."""
-    nested: set[ast.AST] = set()
-    for node in text.nodes:
-        if isinstance(node, ast.JoinedStr):
-            # Parents come first: formats within an f-string are f-strings to ``ast``.
-            nested.update(one for one in ast.walk(node) if one is not node)
-            if node not in nested and not any(
-                isinstance(one, ast.FormattedValue) for one in node.values
-            ):
-                yield _finding(text, "F541", node, "an f-string without placeholders")
-        elif isinstance(node, ast.Dict):
-            yield from _repeated(text, node)
+    for node in text.nodes(ast.JoinedStr):
+        has_placeholder = any(isinstance(one, ast.FormattedValue) for one in node.values)
+        # Formats within an f-string are f-strings to ``ast``.
+        if not has_placeholder and not any(
+            isinstance(parent, ast.JoinedStr) for parent in text.parents(node)
+        ):
+            yield _finding(text, "F541", node, "an f-string without placeholders")
+    for literal in text.nodes(ast.Dict):
+        yield from _repeated(text, literal)
 
 
 def _repeated(text: PythonText, node: ast.Dict) -> Iterator[Finding]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
+from scaffold.model.python.scopes import FunctionNode
 
 Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 _Inner = (*Function, ast.Lambda, ast.ClassDef, ast.ListComp, ast.SetComp, ast.DictComp)
@@ -30,8 +31,8 @@ def used_by_alias(text: PythonText) -> set[tuple[int, str]]:
     aliases = {alias.asname: alias.name for _, alias in imports if alias.asname != alias.name}
     used = {
         aliases[node.id]
-        for node in text.nodes
-        if isinstance(node, ast.Name) and node.id in aliases and isinstance(node.ctx, ast.Load)
+        for node in text.nodes(ast.Name)
+        if node.id in aliases and isinstance(node.ctx, ast.Load)
     }
     return {(line, one.name) for line, one in imports if not one.asname and one.name in used}
 
@@ -41,9 +42,8 @@ def at_last_use(text: PythonText, finding: Finding) -> Finding:
     name = finding.message.partition("`")[2].partition("`")[0]
     around = [
         node
-        for node in text.nodes
-        if isinstance(node, Function)
-        and node.lineno <= finding.line <= (node.end_lineno or node.lineno)
+        for node in text.functions
+        if node.lineno <= finding.line <= (node.end_lineno or node.lineno)
     ]
     for function in reversed(around):
         last: ast.Name | None = None
@@ -64,8 +64,8 @@ def read_after_rebinding(text: PythonText) -> set[tuple[int, str]]:
     To pyflakes that is one variable, to ruff the exception itself is not used.
     """
     found: set[tuple[int, str]] = set()
-    for handler in text.nodes:
-        if not isinstance(handler, ast.ExceptHandler) or handler.name is None:
+    for handler in text.nodes(ast.ExceptHandler):
+        if handler.name is None:
             continue
         uses: set[type[ast.expr_context]] = set()
         pending: list[ast.AST] = list(handler.body)
@@ -85,33 +85,25 @@ def deleted_unused(text: PythonText) -> Iterator[Finding]:
 
     To ruff the deletion is a use.
     """
-    if "del " not in text.text:
-        return
-    pending: list[tuple[ast.AST, bool]] = [(node, False) for node in text.nodes[:1]]
-    while pending:
-        part, may_not_happen = pending.pop()
-        may_not_happen |= isinstance(part, _Conditional)
-        if isinstance(part, Function):
-            yield from _deleted_in(text, part, may_not_happen=may_not_happen)
-        pending.extend((child, may_not_happen) for child in ast.iter_child_nodes(part))
+    uncertain: dict[FunctionNode, set[str]] = {}
+    certain: dict[FunctionNode, set[str]] = {}
+    for name, is_certain, parents in deletions(text):
+        scope = next((parent for parent in parents if isinstance(parent, _Inner)), None)
+        if isinstance(scope, Function):
+            (certain if is_certain else uncertain).setdefault(scope, set()).add(name.id)
+    for function, deleted in uncertain.items():
+        yield from _never_read(text, function, deleted - certain.get(function, set()))
 
 
-def _deleted_in(
-    text: PythonText, function: ast.FunctionDef | ast.AsyncFunctionDef, *, may_not_happen: bool
-) -> Iterator[Finding]:
-    deleted: set[str] = set()
-    certain: set[str] = set()
-    pending: list[tuple[ast.AST, bool]] = [(one, may_not_happen) for one in function.body]
-    while pending:
-        part, is_conditional = pending.pop()
-        is_conditional |= isinstance(part, _Conditional)
-        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del):
-            (deleted if is_conditional else certain).add(part.id)
-        if not isinstance(part, _Inner):
-            pending.extend((child, is_conditional) for child in ast.iter_child_nodes(part))
-    deleted -= certain
-    if not deleted:
-        return
+def deletions(text: PythonText) -> Iterator[tuple[ast.Name, bool, list[ast.AST]]]:
+    """Yield each name that ``del`` deletes, whether it surely does, and the nodes around it."""
+    for name in text.nodes(ast.Name):
+        if isinstance(name.ctx, ast.Del):
+            parents = [*text.parents(name)]
+            yield name, not any(isinstance(parent, _Conditional) for parent in parents), parents
+
+
+def _never_read(text: PythonText, function: FunctionNode, deleted: set[str]) -> Iterator[Finding]:
     for node in ast.walk(function):
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             deleted -= {node.id} if node.id != "locals" else deleted

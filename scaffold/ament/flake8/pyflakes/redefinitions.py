@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
+from scaffold.model.python.scopes import SyntaxIndex, children
 
 ASSIGNED, DEFINED, IMPORTED, SUBMODULE, ANNOTATED, BOUND = range(6)
 """BOUND: an argument, a loop variable, an element of a tuple that is unpacked."""
@@ -27,11 +28,11 @@ _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the definitions, imports and assignments that replace something unused."""
-    if text.tree is None:
+    if text.index is None:
         return
-    aliased = _repeated_aliases(text.nodes)
-    if aliased or _is_worth_a_walk(text.nodes):
-        walk = _Walk(text.tree)
+    aliased = _repeated_aliases(text)
+    if aliased or _is_worth_a_walk(text):
+        walk = _Walk(text.index)
         for node, name, line in walk.run():
             message = f"'{name}' is defined again; its definition in line {line} was never used"
             yield Finding("F811", node.lineno, text.column(node.lineno, node.col_offset), message)
@@ -87,12 +88,12 @@ Said = tuple[Place, str, int]
 class _Walk:
     """One walk over a module."""
 
-    def __init__(self, tree: ast.Module) -> None:
-        self.tree = tree
+    def __init__(self, index: SyntaxIndex) -> None:
+        self.index = index
+        self.tree = index.tree
         self.scopes = [_Scope()]
         self.ended = list(self.scopes)
         """The scopes of the module and of functions."""
-        self.parents: dict[ast.AST, ast.AST] = {}
         self.forks: dict[ast.AST | None, list[frozenset[ast.AST]]] = {}
         """The branches of statements that were asked about."""
         self.deferred: list[tuple[Callable[[], None], list[_Scope]]] = []
@@ -102,13 +103,8 @@ class _Walk:
             isinstance(node, ast.ImportFrom)
             and node.module == "__future__"
             and any(alias.name == "annotations" for alias in node.names)
-            for node in tree.body
+            for node in self.tree.body
         )
-        nodes: list[ast.AST] = [tree]
-        for node in nodes:  # grows on the way
-            children = list(ast.iter_child_nodes(node))
-            self.parents.update(dict.fromkeys(children, node))
-            nodes += children
 
     def run(self) -> list[Said]:
         """Walk, and return the findings: node, name, line of what is replaced."""
@@ -151,7 +147,7 @@ class _Walk:
         elif isinstance(node, _Comprehension):
             self.comprehension(node)
         else:
-            for child in ast.iter_child_nodes(node):
+            for child in children(node):
                 self.visit(child)
 
     def on_FunctionDef(self, node: ast.FunctionDef) -> None:  # noqa: N802  as ast names it
@@ -310,11 +306,9 @@ class _Walk:
             self.delete(node)
 
     def delete(self, node: ast.Name) -> None:
-        parent = self.parents.get(node)
-        while parent is not None:
-            if isinstance(parent, (ast.If, ast.While, ast.IfExp)):
-                return
-            parent = self.parents.get(parent)
+        conditional = (ast.If, ast.While, ast.IfExp)
+        if any(isinstance(parent, conditional) for parent in self.index.parents(node)):
+            return
         self.scopes[-1].names.pop(node.id, None)
 
     def annotation(self, node: ast.expr) -> None:
@@ -400,9 +394,9 @@ class _Walk:
 
     def kind_of(self, node: ast.Name) -> tuple[int, bool]:
         """Return how a stored name is bound, and whether by a ``for`` statement."""
-        direct = parent = self.parents.get(node)
+        direct = parent = self.index.parent(node)
         while isinstance(parent, (ast.Tuple, ast.List, ast.Starred)):
-            parent = self.parents.get(parent)
+            parent = self.index.parent(parent)
         for_loop = isinstance(parent, (ast.For, ast.AsyncFor))
         if for_loop or isinstance(parent, ast.comprehension):
             return BOUND, for_loop
@@ -425,10 +419,7 @@ class _Walk:
         )
 
     def path(self, node: ast.AST) -> list[ast.AST]:
-        found = [node]
-        while found[-1] in self.parents:
-            found.append(self.parents[found[-1]])
-        return found[::-1]
+        return [node, *self.index.parents(node)][::-1]
 
 
 def _unpacks_literal(node: ast.AST | None) -> bool:
@@ -472,31 +463,23 @@ def _last_name(node: ast.expr) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def _repeated_aliases(nodes: Sequence[ast.AST]) -> set[tuple[str, ast.AST]]:
+def _repeated_aliases(text: PythonText) -> set[tuple[str, ast.AST]]:
     """Return the imports of the form ``import x as x``, which ruff takes for exports."""
     return {
         (alias.name, node)
-        for node in nodes
-        if isinstance(node, (ast.Import, ast.ImportFrom))
+        for node in text.imports
         for alias in node.names
         if alias.asname == alias.name
     }
 
 
-def _is_worth_a_walk(nodes: Sequence[ast.AST]) -> bool:
+def _is_worth_a_walk(text: PythonText) -> bool:
     """Tell whether some name is bound twice in the file, once at least by a definition."""
-    defined: Counter[str] = Counter()
-    others: set[str] = set()
-    for node in nodes:
-        if isinstance(node, (*_Function, ast.ClassDef)):
-            defined[node.name] += 1
-        elif isinstance(node, (ast.Import, ast.ImportFrom)):
-            defined.update(one.asname or one.name.partition(".")[0] for one in node.names)
-        elif isinstance(node, ast.Name):
-            if isinstance(node.ctx, ast.Store):
-                others.add(node.id)
-        elif isinstance(node, ast.arg):
-            others.add(node.arg)
-        elif isinstance(node, ast.ExceptHandler) and node.name:
-            others.add(node.name)
+    defined = Counter(function.name for function in text.functions)
+    defined.update(class_.name for class_ in text.nodes(ast.ClassDef))
+    for imported in text.imports:
+        defined.update(one.asname or one.name.partition(".")[0] for one in imported.names)
+    others = {node.id for node in text.nodes(ast.Name) if isinstance(node.ctx, ast.Store)}
+    others |= {node.arg for node in text.nodes(ast.arg)}
+    others |= {node.name for node in text.nodes(ast.ExceptHandler) if node.name}
     return any(count > 1 or name in others for name, count in defined.items())
