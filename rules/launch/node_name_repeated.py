@@ -54,8 +54,8 @@ class NodeNameRepeated(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         first: dict[tuple[str, str], int] = {}
         for node in started_nodes(package):
-            full = node.full_name
-            if full is None or not node.is_certain:
+            full = node.full_name if node.is_certain else None
+            if full is None:
                 continue
             at = node.name_location
             line = first.setdefault((at.path, full), at.line)

@@ -77,13 +77,11 @@ class NameOfRclpyUnknown(Rule):
 
     def _check_uses(self, module: PythonModule) -> Iterator[Diagnostic]:
         for node in module.walk(ast.Attribute):
-            if isinstance(module.parent(node), ast.Attribute) or is_harmless(
-                module, node, "AttributeError"
-            ):
+            if isinstance(module.parent(node), ast.Attribute):
                 continue
             name = module.qualified_name(node) or ""
             unknown = first_unknown(name) if name.startswith("rclpy.") else None
-            if unknown is not None:
+            if unknown is not None and not is_harmless(module, node, "AttributeError"):
                 yield self.report(module.location(node), _message(*unknown, "AttributeError"))
 
 

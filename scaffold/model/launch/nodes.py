@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile, share_path
@@ -56,13 +57,14 @@ class StartedNode:
     @property
     def full_name(self) -> str | None:
         """Name and namespace, ``/robot1/talker``; ``None`` when one of them is not known."""
-        if not isinstance(self.name, str) or self.namespace is UNKNOWN:
+        name = self.name
+        if not isinstance(name, str) or self.namespace is UNKNOWN:
             return None
         namespace = (self.namespace or "").strip("/")
-        owner = self._own_code
-        if self.namespace is None and owner is not None and owner.namespace is not None:
+        owner = self._own_code if self.namespace is None else None
+        if owner is not None and owner.namespace is not None:
             return None
-        return f"/{namespace}/{self.name}" if namespace else f"/{self.name}"
+        return f"/{namespace}/{name}" if namespace else f"/{name}"
 
     @property
     def name_location(self) -> Location:
@@ -88,7 +90,7 @@ class StartedNode:
             return False
         return _is_listed(self.launch, self.call.call)
 
-    @property
+    @cached_property
     def parameters(self) -> Sequence[ast.expr]:
         """The items of ``parameters=``, where they are written; see ``parameters_complete``."""
         node = self.call.given.get("parameters")
@@ -96,7 +98,7 @@ class StartedNode:
             return ()
         return [item.node for item in self.launch.evaluator.elements(node).items]
 
-    @property
+    @cached_property
     def parameter_files(self) -> Sequence[tuple[str, ast.expr]]:
         """The parameter files of the own package, relative to its share directory.
 

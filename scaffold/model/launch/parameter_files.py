@@ -34,6 +34,10 @@ class FileUse(NamedTuple):
 
 def use_of(package: Package, path: str) -> FileUse:
     """Return who reads a parameter file, as far as the package itself says."""
+    return package.remember(("file_use", path), lambda: _use_of(package, path))
+
+
+def _use_of(package: Package, path: str) -> FileUse:
     installed = share_of(package).files
     found: list[StartedNode] = []
     named_by: list[tuple[StartedNode, ast.expr]] = []

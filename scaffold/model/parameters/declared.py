@@ -45,14 +45,18 @@ def has_always(name: str) -> bool:
 
 def declared_by(owner: NodeOwner, package: Package) -> Declared:
     """Return what a node declares: in its class, in base classes, and where it is made."""
-    package = home_of(owner, package)
+    home = home_of(owner, package)
+    return home.remember(("declared_parameters", owner), lambda: _declared_by(owner, home))
+
+
+def _declared_by(owner: NodeOwner, package: Package) -> Declared:
     types: dict[str, str | None] = {}
     places: dict[str, Parameter] = {}
     complete = True
     current: NodeOwner | None = owner
     while current is not None:
         is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
-        for parameter in (*current.parameters, *_from_outside(package).get(current, ())):
+        for parameter in (*current.parameters, *_from_outside(current, package)):
             name = parameter.name
             if not isinstance(name, str) or parameter.has_unknown_arguments:
                 complete = False
@@ -152,19 +156,12 @@ def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
     return frozenset(found)
 
 
-def _from_outside(package: Package) -> dict[NodeOwner, list[Parameter]]:
-    """Return what other files declare on nodes: ``node = Talker(); node.declare_parameter()``."""
-
-    def find() -> dict[NodeOwner, list[Parameter]]:
-        found: dict[NodeOwner, list[Parameter]] = {}
-        for facts in rclpy_files(package):
-            for parameter in facts.parameters:
-                owner = parameter.owner
-                if owner is not None and owner.facts is not facts:
-                    found.setdefault(owner, []).append(parameter)
-        return found
-
-    return package.remember("parameters_from_outside", find)
+def _from_outside(owner: NodeOwner, package: Package) -> Iterator[Parameter]:
+    """Yield what other files declare on a node: ``node = Talker(); node.declare_parameter()``."""
+    if isinstance(owner, NodeClass):
+        for facts in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
+            if facts is not owner.facts:
+                yield from (one for one in facts.parameters if one.owner is owner)
 
 
 def own_nodes(package: Package) -> tuple[list[NodeOwner], bool]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import keys_of_module
@@ -82,8 +82,12 @@ def _made_by_others(package: Package, path: str) -> Iterator[NodeOwner]:
                 yield from (node for node in nodes if isinstance(node, NodeObject))
 
 
-def _imported(package: Package, path: str) -> Iterator[str]:
-    """Yield the files of the package that a file imports from."""
+def _imported(package: Package, path: str) -> Sequence[str]:
+    """Return the files of the package that a file imports from."""
+    return package.remember(("imported_files", path), lambda: [*_find_imported(package, path)])
+
+
+def _find_imported(package: Package, path: str) -> Iterator[str]:
     roots = ("", "src/", f"{path.rpartition('/')[0]}/")
     for one in package.module(path).imports:
         if one.level or one.in_function:

@@ -38,6 +38,8 @@ class SelfEvaluator(Evaluator):
         self.related = related
         self._stores: dict[str, list[Store]] | None = None
         self._classes: dict[ast.Name, ast.ClassDef | None] = {}
+        self._values: dict[tuple[ast.ClassDef, str], Sequence[ast.expr] | None] = {}
+        self._single: dict[ast.expr, ast.expr] = {}
 
     def self_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class whose instance a name such as ``self`` is."""
@@ -87,7 +89,13 @@ class SelfEvaluator(Evaluator):
         class_ = self.self_class(node.value) or self.named_class(node.value)
         if class_ is None:
             return None
-        stores = self.stores(node.attr)
+        key = class_, node.attr
+        if key not in self._values:
+            self._values[key] = self._values_of(*key)
+        return self._values[key]
+
+    def _values_of(self, class_: ast.ClassDef, name: str) -> Sequence[ast.expr] | None:
+        stores = self.stores(name)
         if len(stores) > MOST_ASSIGNMENTS:
             return None
         family = self.related(class_)
@@ -99,7 +107,7 @@ class SelfEvaluator(Evaluator):
                 return None
             values.append(store.value)
         for member in family:
-            for binding in self.module.index.bindings(member).get(node.attr, ()):
+            for binding in self.module.index.bindings(member).get(name, ()):
                 if binding.kind == "annotation":
                     continue
                 if binding.value is None:
@@ -132,6 +140,13 @@ class SelfEvaluator(Evaluator):
 
         ``None`` does not count: who uses the object waits for the other assignment.
         """
+        if not isinstance(node, ast.Name | ast.Attribute):
+            return node
+        if node not in self._single:
+            self._single[node] = self._follow(node)
+        return self._single[node]
+
+    def _follow(self, node: ast.expr) -> ast.expr:
         for _ in range(10):
             values: Iterable[ast.expr | None] | None = None
             if isinstance(node, ast.Name):

@@ -92,6 +92,10 @@ class PythonModule:
         self._positions = Positions(source)
         self._names: dict[ast.AST, frozenset[str]] = {}
         """The full names of expressions that were asked about."""
+        self._name: dict[ast.AST, str | None] = {}
+        """The only full name of expressions that were asked about."""
+        self._roots: dict[tuple[str, ast.AST], frozenset[str]] = {}
+        """What a name is imported as, by the scope that it is seen from."""
         self._words: dict[ast.expr, frozenset[str]] = {}
         self._mentions: dict[str, bool] = {}
 
@@ -346,8 +350,10 @@ class PythonModule:
         as it is; relative imports keep their dots. ``None`` for what the module makes itself
         and for what cannot be told.
         """
-        names = self.qualified_names(node)
-        return next(iter(names)) if len(names) == 1 else None
+        if node not in self._name:
+            names = self.qualified_names(node)
+            self._name[node] = next(iter(names)) if len(names) == 1 else None
+        return self._name[node]
 
     def qualified_names(self, node: ast.AST) -> frozenset[str]:
         """Return all full names that an expression may have: imports in ``try`` give several.
@@ -366,7 +372,10 @@ class PythonModule:
             node = node.value
         if not isinstance(node, ast.Name):
             return frozenset()
-        roots = self._imported_as(node)
+        key = node.id, self.index.scope_of(node)
+        if key not in self._roots:
+            self._roots[key] = self._imported_as(node)
+        roots = self._roots[key]
         if not parts:
             return roots
         return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)

@@ -81,7 +81,7 @@ def reached(
     while pending:
         found.update(dict.fromkeys(pending))
         called = [
-            resolve(facts, call.func).function
+            facts.callback(call.func).function
             for current in pending
             for call in facts.calls_in(current)
         ]

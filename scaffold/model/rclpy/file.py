@@ -77,9 +77,14 @@ def node_facts(modules: Modules, path: str) -> RclpyFile:
     return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
 
 
-def rclpy_files(package: Package) -> Iterator[RclpyFile]:
-    """Yield what the Python files that import rclpy say; tests try what nodes must not do."""
-    for module in package.modules():
+def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator[RclpyFile]:
+    """Yield what the Python files that import rclpy say; tests try what nodes must not do.
+
+    Args:
+        package: The package.
+        mentioning: Words without which a file is of no interest; it is not even parsed.
+    """
+    for module in package.modules(mentioning):
         if "rclpy" in module.imports_by_root and not module.in_tests:
             yield node_facts(package, module.path)
 
@@ -96,6 +101,8 @@ class RclpyFile:
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
         self._creation = Creation(self)
+        self._owners: dict[ast.expr, NodeOwner | None] = {}
+        self._callbacks: dict[ast.expr, Callback] = {}
         self._base_depth = 0
 
     @classmethod
@@ -228,6 +235,11 @@ class RclpyFile:
 
     def owner_of(self, node: ast.expr) -> NodeOwner | None:
         """Return the node that an expression such as ``self`` stands for."""
+        if node not in self._owners:
+            self._owners[node] = self._find_owner(node)
+        return self._owners[node]
+
+    def _find_owner(self, node: ast.expr) -> NodeOwner | None:
         class_ = self.evaluator.self_class(node)
         if class_ is not None:
             return self.node_class(class_)
@@ -392,7 +404,9 @@ class RclpyFile:
 
     def callback(self, node: ast.expr) -> Callback:
         """Return what an expression stands for as a callback."""
-        return node_callbacks.resolve(self, node)
+        if node not in self._callbacks:
+            self._callbacks[node] = node_callbacks.resolve(self, node)
+        return self._callbacks[node]
 
     @cached_property
     def callbacks(self) -> Sequence[tuple[Entity, Callback]]:
