@@ -13,10 +13,14 @@ what else the machine does. `check` is measured in three states:
 Printed are, each as a ratio:
 
 - the smallest package against the floor: a bare Python start and one call of ruff on its files;
-- all packages against ruff alone on the same files, and what an edit in one of them costs;
+- all packages against ruff alone on the same files, what an edit in one of them costs, the memory,
+  and with ``--ament`` against ament_flake8, ament_pep257 and ament_copyright;
 - with ``--ament``: ten packages against the ament linters found there;
 - growth: the time for a package among 10, 40, 160 and 600 copies of the ten under new names,
   against that among 10, and the memory of the largest process.
+
+``--only large`` prints the second of them alone: what a new `check` of the directory costs, as a
+ratio to the linters, and its memory. All programs run from compiled modules, as installed ones do.
 """
 
 from __future__ import annotations
@@ -26,7 +30,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -34,8 +38,10 @@ from typing import NamedTuple
 from scaffold.model.discovery import targets
 
 LINTERS = ("ament_flake8", "ament_pep257", "ament_copyright", "ament_lint_cmake", "ament_xmllint")
+PYTHON_LINTERS = ("ament_flake8", "ament_pep257", "ament_copyright")
 SAMPLE = 10
 GROWTH = (10, 40, 160, 600)
+PARTS = ("small", "large", "linters", "growth")
 
 
 class Cost(NamedTuple):
@@ -54,17 +60,27 @@ def main() -> None:
     parser.add_argument("--repeat", type=int, default=7)
     parser.add_argument("--ament", type=Path, action="append", default=[])
     parser.add_argument("--up-to", type=int, default=GROWTH[-1], help="packages of the growth")
+    parser.add_argument("--only", choices=PARTS, action="append", help="what to measure")
     options = parser.parse_args()
+    wanted = options.only or PARTS
     found = targets.find([str(options.directory.resolve())])
     packages = [Path(target.package.directory) for target in found]
     with TemporaryDirectory() as scratch:
         os.environ["XDG_CACHE_HOME"] = os.path.join(scratch, "cache")
-        os.environ.pop("SCAFFOLD_NO_CACHE", None)
-        _print_small(min(packages, key=_python_size), options.repeat)
-        _print_large(options.directory, packages, Path(scratch), max(1, options.repeat // 3))
+        os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(scratch, "bytecode")
+        for variable in ("SCAFFOLD_NO_CACHE", "PYTHONDONTWRITEBYTECODE"):
+            os.environ.pop(variable, None)
+        linters = _linters(options.ament)
         sample = packages[:: max(1, len(packages) // SAMPLE)][:SAMPLE]
-        _print_linters(sample, options.ament)
-        _print_growth(sample, options.up_to, Path(scratch))
+        if "small" in wanted:
+            _print_small(min(packages, key=_python_size), options.repeat)
+        if "large" in wanted:
+            large = _copied(options.directory, Path(scratch))
+            _print_large(large, len(packages), linters, max(2, options.repeat // 3))
+        if "linters" in wanted and linters:
+            _print_linters(sample, linters)
+        if "growth" in wanted:
+            _print_growth(sample, options.up_to, Path(scratch))
 
 
 def cost(
@@ -126,9 +142,14 @@ def _print_small(package: Path, repeat: int) -> None:
     print(*States.of([package], repeat).lines(floor), sep="\n", flush=True)
 
 
-def _print_large(directory: Path, packages: Sequence[Path], scratch: Path, repeat: int) -> None:
+def _copied(directory: Path, scratch: Path) -> Path:
     copy = scratch / "large"
     shutil.copytree(directory, copy, symlinks=True, ignore=shutil.ignore_patterns(".git"))
+    return copy
+
+
+def _print_large(copy: Path, packages: int, linters: Mapping[str, Path], repeat: int) -> None:
+    """Measure a directory of packages, and edit a file in it."""
     files = _python_files([copy])
     ruff = cost(_ruff(files), repeat=repeat).seconds
     states = States.of([copy], repeat)
@@ -140,26 +161,35 @@ def _print_large(directory: Path, packages: Sequence[Path], scratch: Path, repea
             file.write("# edited\n")
 
     once = cost(_check([copy]), repeat=repeat, before=edit).seconds
-    print(f"{len(packages)} packages, {len(files)} Python files")
+    print(f"{packages} packages, {len(files)} Python files")
     print(f"  ruff alone            1.00  ({ruff * 1000:.0f} ms)")
     print(*states.lines(ruff), sep="\n")
-    print(f"  check, one edited {once / ruff:8.2f}  ({once * 1000:.0f} ms)", flush=True)
+    print(f"  check, one edited {once / ruff:8.2f}  ({once * 1000:.0f} ms)")
+    print(f"  memory of check, new  {states.new.megabytes:.0f} MB", flush=True)
+    of_python = {name: program for name, program in linters.items() if name in PYTHON_LINTERS}
+    if of_python:
+        commands = [[str(program), str(copy)] for program in of_python.values()]
+        together = cost(*commands, repeat=repeat).seconds
+        print(f"  {', '.join(of_python)}: {together * 1000:.0f} ms")
+        print(f"  check, new, against them  {states.new.seconds / together:.2f}", flush=True)
     shutil.rmtree(copy)
 
 
-def _print_linters(packages: Sequence[Path], places: Sequence[Path]) -> None:
-    found = {
+def _linters(places: Sequence[Path]) -> dict[str, Path]:
+    """Return the programs of the ament linters, each from the first place that has it."""
+    return {
         name: place / name
         for name in LINTERS
         for place in reversed(places)
         if (place / name).exists()
     }
-    if not found:
-        return
-    commands = [[str(one), str(package)] for one in found.values() for package in packages]
+
+
+def _print_linters(packages: Sequence[Path], linters: Mapping[str, Path]) -> None:
+    commands = [[str(one), str(package)] for one in linters.values() for package in packages]
     together = cost(*commands).seconds
     states = States.of(packages)
-    print(f"{len(packages)} packages, each with {', '.join(found)}")
+    print(f"{len(packages)} packages, each with {', '.join(linters)}")
     print(f"  the linters           1.00  ({together * 1000:.0f} ms)")
     for name, one in states._asdict().items():
         print(f"  check, {name:10} {together / one.seconds:8.1f} times faster", flush=True)
