@@ -101,4 +101,4 @@ class FoundUndeclared(Rule):
                 f"here names; add <{tag}>{name}</{tag}>"
             )
             fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
-            yield self.report(last.name_location, message, fix)
+            yield self.report(last.name_location, message, fix, cause=f"dependency {name}")

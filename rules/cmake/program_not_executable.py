@@ -70,4 +70,4 @@ class ProgramNotExecutable(Rule):
                 "bit: `colcon build --symlink-install` makes an executable that does not start"
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
-            yield self.report(package.start_of(path), message, fix)
+            yield self.report(package.start_of(path), message, fix, cause="not executable")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, nearest
 from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
 from scaffold.api.install import is_started, paths_imported_by
 
@@ -32,6 +32,9 @@ class ProgramNotInstalled(Rule):
 
     code = "CM012"
     name = "program-not-installed"
+    other_severities = {
+        Severity.WARNING: "no other program of its directory is installed: it may be a helper",
+    }
     examples = (
         Example(
             "both listed, and a module that nobody starts",
@@ -81,6 +84,19 @@ class ProgramNotInstalled(Rule):
                 "`ros2 run` does not find it",
             ),
         ),
+        Example(
+            "a node in a directory of its own",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                **dict.fromkeys(("talker/node.py", "extra/other.py"), _NODE),
+            },
+            Report(
+                "CMakeLists.txt:3:1",
+                "extra/other.py is a node with a main function, but not installed: "
+                "`ros2 run` does not find it",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -105,7 +121,10 @@ class ProgramNotInstalled(Rule):
                 f"{module.path} is a node with a main function, but not installed: `ros2 "
                 "run` does not find it"
             )
-            yield self.report(place, message)
+            directory = module.path.rpartition("/")[0]
+            has_neighbor = any(path.rpartition("/")[0] == directory for path in known)
+            severity = Severity.ERROR if has_neighbor else Severity.WARNING
+            yield self.report(place, message, severity=severity)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.launch import started_nodes
 
 _LAUNCH = (
@@ -30,6 +30,7 @@ class NodeNameRepeated(Rule):
 
     code = "LF012"
     name = "node-name-repeated"
+    severity = Severity.WARNING
     examples = (
         Example(
             "two names; two namespaces",

@@ -32,7 +32,7 @@ class PackageUndeclared(Rule):
 
     code = "LF005"
     name = "package-undeclared"
-    severity = Severity.WARNING
+    other_severities = {Severity.WARNING: "the package is in the workspace"}
     examples = (
         Example(
             "declared",
@@ -59,6 +59,28 @@ class PackageUndeclared(Rule):
                 )
             },
         ),
+        Example(
+            "a package of the same workspace",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH.replace("rviz2", "arm"),
+            },
+            Report(
+                "package.xml:3:4",
+                "launch/a.launch.py:8 starts a node of 'arm', which no dependency "
+                "here provides; add <exec_depend>arm</exec_depend>",
+                fix="declare arm",
+                severity=Severity.WARNING,
+            ),
+            neighbours={
+                "arm": {"package.xml": '<package format="3">\n  <name>arm</name>\n</package>\n'}
+            },
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>arm</exec_depend>\n  <exec_depend>launch_ros</exec_depend>\n"
+                )
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -79,5 +101,11 @@ class PackageUndeclared(Rule):
                 f"{at.path}:{at.line} {does} {use.name!r}, which no dependency here provides; "
                 f"add <{tag}>{use.name}</{tag}>"
             )
-            fix = Fix(f"declare {use.name}", (manifest.insert(tag, use.name),))
-            yield self.report(last.name_location, message, fix)
+            is_near = package.workspace.get(use.name) is not None
+            yield self.report(
+                last.name_location,
+                message,
+                Fix(f"declare {use.name}", (manifest.insert(tag, use.name),)),
+                severity=Severity.WARNING if is_near else Severity.ERROR,
+                cause=f"dependency {use.name}",
+            )

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, Severity
 from scaffold.api.launch import LaunchFile, consumers, markup_files
 
 _HOME = (
@@ -34,6 +34,7 @@ class PathOfAuthor(Rule):
 
     code = "LF013"
     name = "path-of-author"
+    severity = Severity.WARNING
     examples = (
         Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
         Example(

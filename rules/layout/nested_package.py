@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
 
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
 """Directories of code of others."""
@@ -23,6 +23,7 @@ class NestedPackage(Rule):
 
     code = "LY002"
     name = "nested-package"
+    severity = Severity.WARNING
     examples = (
         Example("one package", {"package.xml": "<package/>\n", "msgs/readme.txt": ""}),
         Example(

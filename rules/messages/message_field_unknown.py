@@ -116,7 +116,8 @@ class MessageFieldUnknown(MessageRule):
             if message and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
-                yield self.report(at, message)
+                cause = f"fields of {message.partition(' has no ')[0]}"
+                yield self.report(at, message, cause=cause)
 
 
 def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:

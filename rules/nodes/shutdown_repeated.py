@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _MAIN = (
@@ -28,6 +28,7 @@ class ShutdownRepeated(RclpyRule):
 
     code = "ND009"
     name = "shutdown-repeated"
+    severity = Severity.WARNING
     examples = (
         Example("try_shutdown", {"talker.py": _MAIN.format("try_shutdown")}),
         Example(
@@ -58,7 +59,7 @@ class ShutdownRepeated(RclpyRule):
             if facts.module.source.text[start:end] == "shutdown":
                 fix = Fix("use try_shutdown()", (edit,))
             message = "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()"
-            yield self.report(call, message, fix)
+            yield self.report(call, message, fix, cause="unclean shutdown")
 
     def _is_caught(self, handlers: frozenset[str]) -> bool:
         return not handlers.isdisjoint({"Exception", "BaseException"})

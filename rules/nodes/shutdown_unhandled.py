@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
@@ -34,6 +34,7 @@ class ShutdownUnhandled(RclpyRule):
 
     code = "ND008"
     name = "shutdown-unhandled"
+    severity = Severity.WARNING
     examples = (
         Example(
             "both caught",
@@ -79,7 +80,7 @@ class ShutdownUnhandled(RclpyRule):
                 continue
             missing = self._missing(facts, call)
             if missing:
-                yield self.report(call, missing)
+                yield self.report(call, missing, cause="unclean shutdown")
 
     def _runs_in_thread(self, facts: RclpyFile, call: RclpyCall) -> bool:
         """Return whether ``rclpy.init`` is called in another function: this may be a thread."""

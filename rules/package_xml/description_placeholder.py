@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.manifest import is_placeholder
 
 
@@ -21,6 +21,8 @@ class DescriptionPlaceholder(Rule):
 
     code = "PX002"
     name = "description-placeholder"
+    severity = Severity.WARNING
+    other_severities = {Severity.ERROR: "there is no description: the package is not built"}
     examples = (
         Example(
             "a sentence", {"package.xml": "<package><description>Talks.</description></package>\n"}
@@ -39,7 +41,11 @@ class DescriptionPlaceholder(Rule):
         Example(
             "nothing",
             {"package.xml": "<package>\n  <description> </description>\n</package>\n"},
-            Report("package.xml:2:3", "the description is empty: colcon refuses the package"),
+            Report(
+                "package.xml:2:3",
+                "the description is empty: colcon refuses the package",
+                severity=Severity.ERROR,
+            ),
         ),
     )
 
@@ -48,4 +54,5 @@ class DescriptionPlaceholder(Rule):
             if is_placeholder(element.text):
                 yield self.report(element, f"the description is a placeholder, {element.text!r}")
             elif not element.text:
-                yield self.report(element, "the description is empty: colcon refuses the package")
+                message = "the description is empty: colcon refuses the package"
+                yield self.report(element, message, severity=Severity.ERROR)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.manifest import declared, needs
+
+_LAUNCH = frozenset({"launch", "launch_ros"})
+"""Whoever can start a launch file has them."""
 
 
 class ImportUndeclared(Rule):
@@ -22,6 +25,9 @@ class ImportUndeclared(Rule):
 
     code = "PX020"
     name = "import-undeclared"
+    other_severities = {
+        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`",
+    }
     examples = (
         Example(
             "declared; the standard library, own modules and guarded imports need nothing",
@@ -78,6 +84,30 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a launch file, in a package that does not declare launch",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "launch/a.launch.py": "from launch import LaunchDescription\n",
+            },
+            Report(
+                "launch/a.launch.py:1:1",
+                "imports 'launch', which no dependency in package.xml provides; add "
+                "<exec_depend>launch</exec_depend>",
+                fix="declare launch",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>launch</exec_depend>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
             "a message package and a Python library are missing",
             {
                 "package.xml": '<package format="3">\n'
@@ -124,4 +154,11 @@ class ImportUndeclared(Rule):
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            yield self.report(need, message, fix)
+            comes_with_launch = need.keys[0] in _LAUNCH
+            yield self.report(
+                need,
+                message,
+                fix,
+                severity=Severity.WARNING if comes_with_launch else Severity.ERROR,
+                cause=f"dependency {need.keys[0]}",
+            )

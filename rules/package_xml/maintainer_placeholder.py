@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.manifest import is_placeholder, is_placeholder_address
 
 
@@ -20,6 +20,8 @@ class MaintainerPlaceholder(Rule):
 
     code = "PX003"
     name = "maintainer-placeholder"
+    severity = Severity.WARNING
+    other_severities = {Severity.ERROR: "there is no name: the package is not built"}
     examples = (
         Example(
             "somebody",
@@ -45,7 +47,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com"></maintainer>\n'
                 "</package>\n"
             },
-            Report("package.xml:2:3", "<maintainer> has no name"),
+            Report("package.xml:2:3", "<maintainer> has no name", severity=Severity.ERROR),
         ),
         Example(
             "a placeholder for a name",
@@ -65,6 +67,6 @@ class MaintainerPlaceholder(Rule):
                 if address and is_placeholder_address(address.value):
                     yield self.report(address, f"{tag} email {address.value!r} is a placeholder")
                 if not element.text:
-                    yield self.report(element, f"<{tag}> has no name")
+                    yield self.report(element, f"<{tag}> has no name", severity=Severity.ERROR)
                 elif is_placeholder(element.text):
                     yield self.report(element, f"the name of <{tag}> is a placeholder")

@@ -87,7 +87,8 @@ class ParameterUndeclared(Rule):
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in known):
                         message = _message(package, entry.name, known, owners[0].node_name)
-                        yield self.report(entry, message)
+                        cause = f"parameters of {owners[0].node_name}"
+                        yield self.report(entry, message, cause=cause)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
@@ -98,7 +99,8 @@ class ParameterUndeclared(Rule):
             for name, key, _ in node.parameter_dicts:
                 if not declared.has(name) and not _is_shared(package, node, name):
                     message = _message(package, name, [declared], node.name)
-                    yield self.report(node.launch.location(key), message)
+                    cause = f"parameters of {node.name}"
+                    yield self.report(node.launch.location(key), message, cause=cause)
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:

@@ -1300,8 +1300,13 @@ STYLE: Mapping[str, AmentCode] = {code: row for code, row in CODES.items() if ro
 
 
 def diagnostic(
-    code: str, at: Location, message: str, fix: Fix | None = None, severity: Severity | None = None
+    code: str,
+    at: Location,
+    message: str,
+    fix: Fix | None = None,
+    severity: Severity | None = None,
+    cause: str = "",
 ) -> Diagnostic:
     """Return a diagnostic of a code, with the name and severity that the table gives it."""
     row = CODES[code]
-    return Diagnostic(code, row.name, severity or row.severity, at, message, fix)
+    return Diagnostic(code, row.name, severity or row.severity, at, message, fix, cause)

@@ -17,6 +17,8 @@ from scaffold.ament.use import linter_use
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 
+_CAUSE = "copyright"
+
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
     """Yield what ament_copyright reports under one code, as advice where nobody runs it."""
@@ -40,12 +42,13 @@ def _of_headers(
     passed_over = [header for header in faulty if not use.covers(header.path)]
     for header in faulty:
         if use.covers(header.path):
-            yield diagnostic(code, header.location, f"{explain(header, -1)}: ament_copyright fails")
+            message = f"{explain(header, -1)}: ament_copyright fails"
+            yield diagnostic(code, header.location, message, cause=_CAUSE)
     if passed_over:
         why = use.why_not or "it is told to exclude them"
         first, others = passed_over[0], len(passed_over) - 1
         message = f"{explain(first, others)}: ament_copyright would fail, but {why}"
-        yield diagnostic(code, first.location, message, severity=Severity.INFO)
+        yield diagnostic(code, first.location, message, severity=Severity.INFO, cause=_CAUSE)
 
 
 def _no_notice(header: Header, others: int) -> str:
@@ -81,10 +84,10 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
         wrong = _wrong(package, name)
         at = package.start_of(name).location
         if wrong and use.runs:
-            yield diagnostic(code, at, f"{wrong}: ament_copyright fails")
+            yield diagnostic(code, at, f"{wrong}: ament_copyright fails", cause=_CAUSE)
         elif wrong:
             message = f"{wrong}: ament_copyright would fail, but {use.why_not}"
-            yield diagnostic(code, at, message, severity=Severity.INFO)
+            yield diagnostic(code, at, message, severity=Severity.INFO, cause=_CAUSE)
 
 
 def _is_repository(package: Package) -> bool:

@@ -144,19 +144,24 @@ def _lines(entry: Entry, options: ReportOptions) -> list[Text]:
         for text, style in zip(excerpt(entry.package, first.location), ("", "red"), strict=False):
             lines.append(Text(f"    {text}", style=style))
     if len(entry.places) > 1:
-        lines.append(_further(entry))
+        lines += _further(entry)
     return lines
 
 
-def _further(entry: Entry) -> Text:
+def _further(entry: Entry) -> list[Text]:
+    """Return the other places; in one line if the same message goes for all of them."""
     first, *others = entry.places
-    named = [
-        place(entry.package, one) + (f" ({one.code})" if one.code != first.code else "")
-        for one in others[:_MAX_PLACES]
-    ]
-    rest = len(others) - len(named)
+    shown = others[:_MAX_PLACES]
+    rest = len(others) - len(shown)
     more = f" and {count(rest, 'more place')}" if rest else ""
-    return Text(f"    also at {', '.join(named)}{more}", style="dim")
+    places = [place(entry.package, one) for one in shown]
+    if all((one.code, one.message) == (first.code, first.message) for one in shown):
+        return [Text(f"    also at {', '.join(places)}{more}", style="dim")]
+    lines = [
+        f"    also {at}: {one.code} {shorten(printable(one.message), 80, placeholder=' …')}"
+        for at, one in zip(places, shown, strict=True)
+    ]
+    return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
 
 
 def _room(blocks: Sequence[Text], height: int, width: int) -> int:
