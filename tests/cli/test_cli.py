@@ -71,10 +71,10 @@ def test_found(capsys: pytest.CaptureFixture[str]) -> None:
             "'talker' (package.xml, line 4) [project-name-differs]"
         ),
         (
-            "talker/package.xml:6:3: error PX002 the description is a placeholder, "
+            "talker/package.xml:6:3: warning PX002 the description is a placeholder, "
             "'TODO: Package description' [description-placeholder]"
         ),
-        "1 package, 3 files: 2 errors; 1 fixable with --fix",
+        "1 package, 3 files: 1 error, 1 warning; 1 fixable with --fix",
     ]
 
 
