@@ -87,8 +87,7 @@ class ParameterUndeclared(Rule):
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in known):
                         message = _message(package, entry.name, known, owners[0].node_name)
-                        cause = f"parameters of {owners[0].node_name}"
-                        yield self.report(entry, message, cause=cause)
+                        yield self.report(entry, message, cause=_cause(owners[0].node_name))
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
@@ -99,8 +98,8 @@ class ParameterUndeclared(Rule):
             for name, key, _ in node.parameter_dicts:
                 if not declared.has(name) and not _is_shared(package, node, name):
                     message = _message(package, name, [declared], node.name)
-                    cause = f"parameters of {node.name}"
-                    yield self.report(node.launch.location(key), message, cause=cause)
+                    at = node.launch.location(key)
+                    yield self.report(at, message, cause=_cause(node.name))
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
@@ -112,6 +111,10 @@ def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
         and any(given == name for given, _, _ in other.parameter_dicts)
         for other in started_nodes(package)
     )
+
+
+def _cause(node: object) -> str:
+    return f"parameters of {node}"
 
 
 def _message(package: Package, name: str, known: list[Declared], node: object) -> str:

@@ -115,8 +115,8 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert report["summary"] == {
         "packages": 1,
         "files": 3,
-        "errors": 2,
-        "warnings": 0,
+        "errors": 1,
+        "warnings": 1,
         "infos": 0,
     }
 
