@@ -107,13 +107,13 @@ class Session:
         (result,) = self.run_batch([Target(package)], style)
         return result.diagnostics
 
-    def check_style(self, package: Package) -> list[Diagnostic]:
+    def check_style(self, target: Target) -> list[Diagnostic]:
         """Check the style of one package only; see `check`."""
-        style = self._start_style([package])
+        style = self._start_style([target.package])
         if style is None:
             return []
-        result = self._report(Target(package), style.diagnostics(package))
-        package.forget()
+        result = self._report(target, style.diagnostics(target.package))
+        target.package.forget()
         return result
 
     @property

@@ -64,6 +64,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     _add_report_arguments(parser)
     parser.add_argument(
+        "--stdin-filename",
+        metavar="FILE",
+        help="check standard input in place of this file; with --fix, write it to standard output",
+    )
+    parser.add_argument(
         "--reference",
         action="store_true",
         help="instead, run pydocstyle, too, and show where the docstring rules disagree with it",
@@ -114,7 +119,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.check.cache.results import Memory
     from scaffold.check.session import Session
-    from scaffold.cli import reports
+    from scaffold.cli import reports, standard_input
     from scaffold.cli.interactive import progress
     from scaffold.cli.settings import warn
     from scaffold.configuration import config, content
@@ -122,13 +127,16 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.model.discovery import targets as discovery
 
     reports.validate(options)
+    is_unsaved = standard_input.validate(options)
     disk = Disk()
-    directory = _directory(options.paths, disk)
+    directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
     selection = _selection(options, settings, rules)
     session = Session(rules, selection)
+    if is_unsaved:
+        return _check_unsaved(options, session, disk)
     targets = discovery.find(options.paths, disk)
     if options.fix or options.diff:
         return _fix(options, session, targets)
@@ -144,6 +152,20 @@ def run(options: argparse.Namespace) -> int:
     if slot is not None:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
+
+
+def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:
+    """Check or fix standard input; a fixed text is all that standard output gets."""
+    from scaffold.cli import reports, standard_input
+
+    target = standard_input.read(options.stdin_filename, disk)
+    if options.fix:
+        result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
+        terminal.write_error(reports.text([result], _report_options(options)))
+    else:
+        (result,) = session.run_batch([target])
+        reports.write(options, [result], _report_options(options))
+    return exit_code([result], is_zero=options.exit_zero)
 
 
 def _report_options(options: argparse.Namespace) -> ReportOptions:
@@ -166,7 +188,6 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.check.session import Result
     from scaffold.cli.exit_codes import USAGE_ERROR
 
-    _refuse_files(targets)
     written, has_failed = _write_fixes(options, session, targets)
     for one in written:
         _note_links(one)
@@ -231,18 +252,6 @@ def _note_links(fixed: Fixed) -> None:
 
 def _roots(targets: Sequence[Target]) -> list[str]:
     return [target.package.root for target in targets if target.package.root is not None]
-
-
-def _refuse_files(targets: Sequence[Target]) -> None:
-    from scaffold.errors import InputError
-
-    for target in targets:
-        if target.only is not None:
-            path = os.path.join(target.package.directory, min(target.only))
-            raise InputError(
-                f"{os.path.normpath(path)}: --fix and --diff work on whole packages, not on single "
-                "files; name the directory of a package"
-            )
 
 
 def _note_unfinished(targets: Sequence[Target]) -> bool:

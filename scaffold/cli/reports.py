@@ -74,6 +74,15 @@ def write(
     return None
 
 
+def text(results: Sequence[Result], shown: ReportOptions) -> str:
+    """Return the report for people, without colors."""
+    from scaffold import reporters
+
+    output = _Copy(is_terminal=False)
+    reporters.get("text")(results, output, shown)
+    return output.getvalue()
+
+
 class _Copy(StringIO):
     """What is written to standard output, and may be again."""
 

@@ -67,6 +67,15 @@ def show_patch(text: str) -> None:
         raise _of_output(error) from error
 
 
+def write_bytes(data: bytes) -> None:
+    """Write the content of a file to standard output, every byte as it is."""
+    try:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+    except OSError as error:
+        raise _of_output(error) from error
+
+
 def write_report(text: str) -> None:
     """Write what a reporter made, in which foreign text is neutralized already."""
     try:

@@ -68,7 +68,7 @@ def test_random_command_lines(data: st.DataObject, workspace: Path) -> None:
     code: int | str | None
     with redirect_stdout(output), redirect_stderr(errors):
         try:
-            code: str | int | None = main(arguments or [verb, *words])
+            code = main(arguments or [verb, *words])
         except SystemExit as end:
             code = end.code
     assert code in {CLEAN, FINDINGS, USAGE_ERROR}, errors.getvalue()

@@ -23,7 +23,7 @@ WRITERS = {
     "scaffold/cli/interactive/progress.py": "tqdm draws a bar of counts on standard error",
     "scaffold/cli/interactive/screen.py": "prompt_toolkit draws the questions",
     "scaffold/cli/new.py": "asks whether there is a terminal",
-    "scaffold/cli/check.py": "asks whether there is a terminal",
+    "scaffold/cli/reports.py": "asks whether there is a terminal",
     "scaffold/check/cache/runs.py": "asks whether there is a terminal",
     "scaffold/cli/smoke.py": "draws one line again and again",
     "scaffold/generate/templates/foreign_worker.py": "its output is for the parent",

@@ -56,7 +56,8 @@ def fix(
     """Fix packages that see each other; nothing is written.
 
     Args:
-        targets: Whole packages. Their files are those of memory afterwards.
+        targets: Packages, or files of them: then what is found there is fixed, wherever the fix
+            is. Their files are those of memory afterwards.
         session: Checks them.
         progress: Hears how far it is.
         unsafe: Apply the fixes that the author should look at, too.
@@ -89,7 +90,7 @@ def fix(
 def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
     """Bring the style of a package to rest: that takes much less time than its rules."""
     for _ in range(MAX_ROUNDS):
-        if not piece.apply(session.check_style(piece.package), unsafe=unsafe):
+        if not piece.apply(session.check_style(piece.target), unsafe=unsafe):
             return
 
 
@@ -124,6 +125,7 @@ def _check(pieces: Sequence[_Piece], session: Session, progress: Progress, label
     before, session.after_rule = session.after_rule, progress.step
     try:
         for piece in pieces:
-            piece.diagnostics = session.check(piece.package)
+            (result,) = session.run_batch([piece.target])
+            piece.diagnostics = result.diagnostics
     finally:
         session.after_rule = before

@@ -38,12 +38,13 @@ class _LooseFiles(DiskTree):
         return frozenset()
 
 
-def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
+def find(paths: Sequence[str], disk: Disk | None = None, *, are_saved: bool = True) -> list[Target]:
     """Return the packages at or below the paths, and those of single files and directories.
 
     Args:
         paths: Directories and files.
         disk: Notes what was looked at, now and later, outside of the packages.
+        are_saved: Whether files must be there; those of an editor may be new.
 
     Raises:
         InputError: a path does not exist, or holds no package.
@@ -56,7 +57,9 @@ def find(paths: Sequence[str], disk: Disk | None = None) -> list[Target]:
         for directory in _package_directories(disk, path):
             package = Package.at(directory, workspace)
             whole.setdefault(disk.real(directory), Target(package))
-    partial, loose = _sort_files(disk, [path for path in paths if path not in directories])
+    partial, loose = _sort_files(
+        disk, [path for path in paths if path not in directories], are_saved=are_saved
+    )
     targets = list(whole.values())
     for root, names in partial.items():
         if disk.real(root) not in whole:
@@ -80,15 +83,16 @@ def _surroundings(disk: Disk, workspace: Workspace, given: Sequence[str]) -> Sur
 
 
 def _sort_files(
-    disk: Disk, paths: Sequence[str]
+    disk: Disk, paths: Sequence[str], *, are_saved: bool
 ) -> tuple[dict[str, set[str]], dict[str, set[str]]]:
     """Return the files of packages by package, and loose Python files by directory."""
     partial: dict[str, set[str]] = {}
     loose: dict[str, set[str]] = {}
     for path in paths:
-        if not disk.exists(path):
+        exists = disk.exists(path)
+        if not exists and (are_saved or not disk.is_directory(os.path.dirname(path) or ".")):
             raise InputError(f"{path}: no such file or directory")
-        if not disk.is_file(path):
+        if exists and not disk.is_file(path):
             raise InputError(f"{path}: neither a file nor a directory")
         root = _package_of(disk, path)
         if root is not None:

@@ -219,17 +219,20 @@ def test_the_summary_tells_safe_fixes_from_others(
     assert capsys.readouterr().out.endswith("; 2 fixable with --fix --unsafe-fixes\n")
 
 
-def test_a_single_file_is_refused_by_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_single_file_is_fixed_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    fill(tmp_path, package("a", "import os\n"))
-    assert main(["check", "--fix", "a/node.py"]) == 2
-    assert capsys.readouterr().err == (
-        "ros2-scaffold: error: a/node.py: --fix and --diff work on whole packages, not on single "
-        "files; name the directory of a package\n"
-    )
-    assert (tmp_path / "a" / "node.py").read_bytes() == b"import os\n"
+    fill(tmp_path, {**package("a", "import os\nX = 1\n"), "a/other.py": b"import os\n"})
+    main(["check", "--fix", "--select", "F401", "a/node.py"])
+    assert (tmp_path / "a" / "node.py").read_bytes() == b"X = 1\n"
+    assert (tmp_path / "a" / "other.py").read_bytes() == b"import os\n"
+
+
+def test_a_file_without_a_package_is_fixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, {"a.py": b"x = 1 \n", "b.py": b"x = 1 \n"})
+    main(["check", "--fix", "a.py"])
+    assert (tmp_path / "a.py").read_bytes() == b"x = 1\n"
+    assert (tmp_path / "b.py").read_bytes() == b"x = 1 \n"
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])

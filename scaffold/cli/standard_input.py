@@ -1,0 +1,98 @@
+"""Checks what an editor has not saved yet: standard input, in place of a file of a package."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
+from scaffold.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+
+    from scaffold.check.session import Result, Session
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.files.disk import Disk
+    from scaffold.model.discovery.targets import Target
+    from scaffold.model.package import Package
+
+WORD = "-"
+"""Means standard input where a path is expected."""
+
+
+def validate(options: argparse.Namespace) -> bool:
+    """Tell whether standard input is to be checked.
+
+    Raises:
+        InputError: the other flags do not go with that.
+    """
+    name = options.stdin_filename
+    if name is None:
+        if WORD in options.paths:
+            raise InputError("- means standard input: add --stdin-filename, the name of its file")
+        return False
+    if options.paths not in ([WORD], ["."]):
+        raise InputError("--stdin-filename goes with standard input alone: leave out the paths")
+    for flag in ("diff", "reference"):
+        if getattr(options, flag):
+            raise InputError(f"--{flag} does not go with --stdin-filename")
+    return True
+
+
+def read(path: str, disk: Disk) -> Target:
+    """Return the file of a package with what standard input holds.
+
+    Args:
+        path: The file; it need not be there.
+        disk: Notes what was looked at outside of the package.
+
+    Raises:
+        InputError: the path is in no package and not one of a Python file, or there is too much.
+    """
+    from scaffold.check.fixes.overlay import Overlay
+    from scaffold.files.disk import MOST_BYTES
+    from scaffold.model.discovery import targets as discovery
+
+    if disk.is_directory(path):
+        raise InputError(f"--stdin-filename {path}: is a directory; name a file")
+    data = sys.stdin.buffer.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise InputError(f"standard input: {MOST_BYTES // 1_000_000} MB are read at most")
+    (target,) = discovery.find([path], disk, are_saved=False)
+    overlay = Overlay(target.package.tree)
+    overlay.changed[_name(target)] = data
+    target.package.change(overlay)
+    return target
+
+
+def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
+    """Write the text with what can be fixed in it to standard output; return what remains.
+
+    Other files stay as they are, so fixes that change one are left out.
+    """
+    from scaffold.check.fixes import fixer
+    from scaffold.check.session import Result
+
+    name = _name(target)
+
+    def check(package: Package) -> list[Diagnostic]:
+        (result,) = session.run_batch([target._replace(package=package)])
+        return [_within(name, one) for one in result.diagnostics]
+
+    before = target.package.tree.read(name)
+    fixed = fixer.fix(target.package, check, unsafe=unsafe)
+    terminal.write_bytes(fixed.changed.get(name, before))
+    return Result(fixed.package, len(fixed.package.files), fixed.diagnostics)
+
+
+def _name(target: Target) -> str:
+    return next(iter(target.only or ()))
+
+
+def _within(name: str, diagnostic: Diagnostic) -> Diagnostic:
+    """Return a diagnostic without a fix that changes other files."""
+    changes = diagnostic.fix.changes if diagnostic.fix is not None else ()
+    if all(change.path == name for change in changes):
+        return diagnostic
+    return diagnostic._replace(fix=None)
