@@ -10,6 +10,9 @@ from scaffold.api.cmake import is_only_imported, programs
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _NODE = "#!/usr/bin/env python3\n"
 
+_COPIED = ("RENAME", "PERMISSIONS", "CONFIGURATIONS", "COMPONENT")
+"""With one of these CMake itself installs the file, and sets the bit."""
+
 
 class ProgramNotExecutable(Rule):
     """An installed script has no executable bit.
@@ -35,6 +38,13 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
         ),
         Example(
+            "installed by CMake itself under another name, which sets the bit",
+            {
+                "CMakeLists.txt": _LISTS.replace("DESTINATION", "RENAME node DESTINATION"),
+                "talker/node.py": _NODE,
+            },
+        ),
+        Example(
             "not executable",
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
             Report(
@@ -55,6 +65,8 @@ class ProgramNotExecutable(Rule):
         for program in programs(package):
             path = program.path
             if path in told or program.destination != wanted or not package.has(path):
+                continue
+            if any(program.command.has(keyword) for keyword in _COPIED):
                 continue
             told.add(path)
             if (

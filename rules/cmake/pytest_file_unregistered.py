@@ -34,6 +34,15 @@ class PytestFileUnregistered(Rule):
             },
         ),
         Example(
+            "registered with the whole directory",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    "ament_add_pytest_test(pytest ${CMAKE_CURRENT_SOURCE_DIR}/test)\n"
+                ),
+                "test/test_talk.py": _TEST,
+            },
+        ),
+        Example(
             "forgotten",
             {"CMakeLists.txt": _LISTS.format(""), "test/test_talk.py": _TEST},
             Report(
@@ -51,7 +60,7 @@ class PytestFileUnregistered(Rule):
         arguments = [value for command in cmake.commands for value in command.values]
         for path in package.glob("test/test_*.py") + package.glob("tests/test_*.py"):
             directory, _, name = path.rpartition("/")
-            if any(name in value or value.rstrip("/") == directory for value in arguments):
+            if any(name in value or _names(value, directory) for value in arguments):
                 continue
             stem = name.removesuffix(".py")
             if any(stem in value for value in arguments) or not self._has_tests(package, path):
@@ -66,3 +75,8 @@ class PytestFileUnregistered(Rule):
             return False
         names = [*module.functions, *module.classes]
         return any(name.startswith(("test_", "Test")) for name in names)
+
+
+def _names(value: str, directory: str) -> bool:
+    """Tell whether an argument is a directory: ``test``, ``${CMAKE_CURRENT_SOURCE_DIR}/test``."""
+    return f"/{value.strip('/')}".endswith(f"/{directory}")

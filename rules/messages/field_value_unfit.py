@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes, Misfits
 
 _CODE = (
@@ -43,6 +43,9 @@ class FieldValueUnfit(MessageRule):
 
     code = "MS006"
     name = "field-value-unfit"
+    other_severities = {
+        Severity.WARNING: "the value is another message with the same fields: it is sent",
+    }
     examples = (
         Example("values of the right types", {"talker.py": _CODE.format(*_RIGHT)}),
         Example(
@@ -170,6 +173,7 @@ class FieldValueUnfit(MessageRule):
                 "talker.py:6:22",
                 "'position' of geometry_msgs/msg/Pose is geometry_msgs/Point, but "
                 "Vector3() is a geometry_msgs/msg/Vector3",
+                severity=Severity.WARNING,
             ),
             Report(
                 "talker.py:7:34",
@@ -191,4 +195,5 @@ class FieldValueUnfit(MessageRule):
             if problem:
                 field = f"{item.field.name!r} of {item.owner.name}"
                 message = f"{field} is {item.field.type}, but {problem}"
-                yield self.report(types.module.location(item.value), message)
+                severity = Severity.WARNING if misfits.is_alike(item) else Severity.ERROR
+                yield self.report(types.module.location(item.value), message, severity=severity)

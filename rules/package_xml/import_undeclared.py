@@ -84,6 +84,18 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "declared where a variable of who builds the package is set",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                '  <exec_depend condition="$SIMULATION == yes">gazebo_msgs</exec_depend>\n'
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom gazebo_msgs.msg import ModelState\n",
+            },
+        ),
+        Example(
             "a launch file, in a package that does not declare launch",
             {
                 "package.xml": '<package format="3">\n'

@@ -35,6 +35,16 @@ class MarkerMissing(Rule):
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH), "resource/talker": ""},
         ),
         Example(
+            "installed by setup.cfg",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format("('share/talker', ['package.xml'])"),
+                "setup.cfg": "[options.data_files]\n"
+                "share/ament_index/resource_index/packages = resource/talker\n",
+                "resource/talker": "",
+            },
+        ),
+        Example(
             "the file is missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH)},
             Report(
@@ -92,6 +102,7 @@ class MarkerMissing(Rule):
                 )
                 if all(package.has(source) for source in known):
                     yield self.report(data.destination_location, message)
-        if not installed and setup.call is not None and setup.data_files_complete:
+        configured = package.has("setup.cfg") and INDEX in package.source("setup.cfg").text
+        if not (installed or configured) and setup.call is not None and setup.data_files_complete:
             message = f"data_files does not install {marker} to {INDEX}: ros2 does not find it"
             yield self.report(setup.keywords.get("data_files", setup), message)

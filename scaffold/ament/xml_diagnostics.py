@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from scaffold.ament import xmllint
 from scaffold.ament.codes import diagnostic
+from scaffold.ament.use import linter_use
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.files.tree import MANIFEST
@@ -62,7 +63,10 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _unreadable(package: Package) -> Iterator[_Problem]:
+    use = linter_use(package, "xmllint")
     for path in xmllint.of_package(package):
+        if use.runs and not use.covers(path):
+            continue
         problem = xmllint.mistake(package, path) if path != MANIFEST else None
         if problem is not None:
             yield problem

@@ -15,6 +15,9 @@ SOURCES = "src"
 IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files that hide a directory from colcon."""
 
+ENVIRONMENT = "pyvenv.cfg"
+"""The file at the top of a virtual environment: packages in it are installed, not sources."""
+
 _RESULTS = ("install", "build")
 """What colcon makes beside the sources."""
 
@@ -41,6 +44,8 @@ def package_directories(
         for name in disk.names(parent)[1]:
             path = os.path.join(parent, name)
             if name.startswith(".") or not (ignored or _is_visible(disk, path)):
+                continue
+            if disk.is_file(os.path.join(path, ENVIRONMENT)):
                 continue
             if disk.is_file(os.path.join(path, MANIFEST)):
                 found.append(path)

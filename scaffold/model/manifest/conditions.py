@@ -43,6 +43,11 @@ def holds(condition: str, environment: Mapping[str, str] = JAZZY) -> bool:
     return _Evaluation(_tokens(condition), len(condition), environment).run()
 
 
+def names_unknown(condition: str, environment: Mapping[str, str] = JAZZY) -> bool:
+    """Tell whether a condition asks for a variable that is not of ROS, but of who builds it."""
+    return any(name not in environment for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
+
+
 def _tokens(condition: str) -> list[_Token]:
     tokens: list[_Token] = []
     at, end = 0, len(condition.rstrip())

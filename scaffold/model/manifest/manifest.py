@@ -61,6 +61,15 @@ class Dependency(NamedTuple):
         """Whether its condition holds on Jazzy; a broken condition does not."""
         return _is_active(self.condition)
 
+    @property
+    def is_optional(self) -> bool:
+        """Whether its condition is up to who builds the package: a variable that is not of ROS."""
+        if self.condition is None:
+            return False
+        from scaffold.model.manifest import conditions
+
+        return conditions.names_unknown(self.condition)
+
 
 class XmlModel(NamedTuple):
     """The line that names the schema: ``<?xml-model href="…" schematypens="…"?>``."""

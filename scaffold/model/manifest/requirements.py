@@ -70,6 +70,7 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
     direct = set(manifest.run_names)
     # What generates code while the package is built stands among its modules, too.
     direct |= {one.name for one in manifest.dependencies if one.kind.startswith("buildtool")}
+    direct |= {one.name for one in manifest.dependencies if one.is_optional}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
     along = provided_by(direct)

@@ -264,6 +264,15 @@ class Misfits:
             return self._table(node)
         return self._length(type_, node) or self._elements(type_.element, node)
 
+    def is_alike(self, item: Assigned) -> bool:
+        """Tell whether a message is given where another with the same fields is expected."""
+        given = self._types.type_of(item.value)
+        expected = self._types.definitions.find(item.field.type.full_name)
+        if given is None or expected is None:
+            return False
+        fields = [(field.name, str(field.type)) for field in expected.sections[0].fields]
+        return fields == [(field.name, str(field.type)) for field in given.section.fields]
+
     def _table(self, node: ast.expr) -> str | None:
         """Report a numpy array with two dimensions: rosidl reads beyond the first row."""
         value = self._types.facts.evaluator.single_value(node)

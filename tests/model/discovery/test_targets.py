@@ -57,6 +57,12 @@ def test_nothing_but_ignored_packages(tmp_path: Path) -> None:
     assert found(tmp_path) == ["only"]
 
 
+def test_installed_packages_of_a_virtual_environment_are_left_out(workspace: Path) -> None:
+    make_package(workspace / "tools" / "share" / "std_msgs")
+    (workspace / "tools" / "pyvenv.cfg").touch()
+    assert found(workspace) == ["b_package", "a_package"]
+
+
 def test_nested_packages_belong_to_nobody(tmp_path: Path) -> None:
     outer = make_package(tmp_path / "outer")
     inner = make_package(outer / "inner")
