@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from scaffold.check import registry
 from scaffold.check.examples import reports
-from scaffold.check.rule import Report, Rule
+from scaffold.check.rule import Example, Report, Rule
 from scaffold.configuration import content
 
 WIDTH = 100
@@ -44,7 +44,8 @@ def _pinned(rule: type[Rule], text: str) -> str:
     for call, example in zip(calls, rule.examples, strict=True):
         current = reports(rule, example)
         if list(map(vars, current)) != list(map(vars, example.reports)):
-            edits.append(_edit(call, offsets, text, current))
+            places = _places(example, current)
+            edits.append(_edit(call, offsets, text, zip(places, current, strict=True)))
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
     return _with_imports(text)
@@ -62,18 +63,25 @@ def _example_calls(module: ast.Module) -> Iterator[ast.Call]:
 
 
 def _edit(
-    call: ast.Call, offsets: Sequence[int], text: str, current: Sequence[Report]
+    call: ast.Call, offsets: Sequence[int], text: str, current: Iterable[tuple[str, Report]]
 ) -> tuple[int, int, str]:
     """Return what replaces the reports: the positional arguments after title and files."""
     files, *old = call.args[1:]
     last = old[-1] if old else files
     start = _offset(offsets, text, files.end_lineno, files.end_col_offset)
     end = _offset(offsets, text, last.end_lineno, last.end_col_offset)
-    return start, end, "".join(f", {_source(report)}" for report in current)
+    return start, end, "".join(f", {_source(at, report)}" for at, report in current)
 
 
-def _source(report: Report) -> str:
-    arguments = [repr(report.at), _string(report.message)]
+def _places(example: Example, current: Sequence[Report]) -> list[str]:
+    """Return where the reports are, without the path where there is but one file."""
+    if len(example.files) > 1:
+        return [report.at for report in current]
+    return [report.at.partition(f"{path}:")[2] for report in current for path in example.files]
+
+
+def _source(at: str, report: Report) -> str:
+    arguments = [repr(at), _string(report.message)]
     for name in ("fix", "unsafe_fix"):
         title = getattr(report, name)
         if title is not None:

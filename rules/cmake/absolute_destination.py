@@ -35,9 +35,7 @@ class AbsoluteDestination(Rule):
         Example(
             "absolute",
             {"CMakeLists.txt": _LISTS.format("/opt/talker/share")},
-            Report(
-                "CMakeLists.txt:2:38", "installs to /opt/talker/share, outside of the workspace"
-            ),
+            Report("2:38", "installs to /opt/talker/share, outside of the workspace"),
         ),
     )
 

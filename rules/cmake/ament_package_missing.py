@@ -34,7 +34,7 @@ class AmentPackageMissing(Rule):
             "forgotten",
             {"CMakeLists.txt": _LISTS},
             Report(
-                "CMakeLists.txt:3:1",
+                "3:1",
                 "no ament_package() at the end: `ros2` does not find the package",
                 fix="call ament_package()",
             ),
@@ -56,10 +56,7 @@ class AmentPackageMissing(Rule):
         Example(
             "return() before it",
             {"CMakeLists.txt": _RETURN.format("return()\n") + "ament_package()\n"},
-            Report(
-                "CMakeLists.txt:3:1",
-                "return() ends the file here: ament_package() in line 5 is never called",
-            ),
+            Report("3:1", "return() ends the file here: ament_package() in line 5 is never called"),
         ),
     )
 

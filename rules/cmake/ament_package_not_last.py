@@ -45,10 +45,7 @@ class AmentPackageNotLast(Rule):
         Example(
             "an export after it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
-            Report(
-                "CMakeLists.txt:4:1",
-                "ament_export_libraries() comes after ament_package() in line 3",
-            ),
+            Report("4:1", "ament_export_libraries() comes after ament_package() in line 3"),
         ),
         Example(
             "an installation before it",
@@ -58,7 +55,7 @@ class AmentPackageNotLast(Rule):
             "installations after it",
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
             Report(
-                "CMakeLists.txt:3:1",
+                "3:1",
                 "install() comes after ament_package() in line 2, and 1 more",
                 severity=Severity.INFO,
             ),

@@ -32,7 +32,7 @@ class AmentPackageRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
-            Report("CMakeLists.txt:3:1", "ament_package() is already called in line 2"),
+            Report("3:1", "ament_package() is already called in line 2"),
         ),
     )
 

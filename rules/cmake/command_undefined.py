@@ -94,7 +94,7 @@ class CommandUndefined(Rule):
             "not found",
             {"CMakeLists.txt": _LISTS.format("")},
             Report(
-                "CMakeLists.txt:2:1",
+                "2:1",
                 "ament_add_pytest_test() is undefined without "
                 "find_package(ament_cmake_pytest REQUIRED)",
             ),
@@ -103,18 +103,12 @@ class CommandUndefined(Rule):
         Example(
             "misspelled",
             {"CMakeLists.txt": _CALL.format("ament_pakage")},
-            Report(
-                "CMakeLists.txt:3:1",
-                "unknown command ament_pakage(): CMake stops; closest: ament_package()",
-            ),
+            Report("3:1", "unknown command ament_pakage(): CMake stops; closest: ament_package()"),
         ),
         Example(
             "of catkin",
             {"CMakeLists.txt": _CALL.format("catkin_package")},
-            Report(
-                "CMakeLists.txt:3:1",
-                "catkin_package() is a command of ROS 1: CMake stops; use ament_package",
-            ),
+            Report("3:1", "catkin_package() is a command of ROS 1: CMake stops; use ament_package"),
         ),
     )
 

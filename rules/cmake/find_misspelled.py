@@ -30,9 +30,7 @@ class FindMisspelled(Rule):
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("std_msg")},
             Report(
-                "CMakeLists.txt:2:14",
-                "no package 'std_msg' is known; closest: 'std_msgs'",
-                fix="write std_msgs",
+                "2:14", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
         ),
@@ -43,9 +41,7 @@ class FindMisspelled(Rule):
                 + "ament_export_dependencies(std_msgs std_msg)\n"
             },
             Report(
-                "CMakeLists.txt:3:36",
-                "no package 'std_msg' is known; closest: 'std_msgs'",
-                fix="write std_msgs",
+                "3:36", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format("std_msgs")

@@ -27,7 +27,7 @@ class FindRepeated(Rule):
         Example(
             "twice",
             {"CMakeLists.txt": f"project(talker)\n{_FIND}{_FIND}"},
-            Report("CMakeLists.txt:3:1", "'rclcpp' is already found in line 2", fix="remove it"),
+            Report("3:1", "'rclcpp' is already found in line 2", fix="remove it"),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
         ),
     )

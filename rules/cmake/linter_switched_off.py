@@ -30,7 +30,7 @@ class LinterSwitchedOff(Rule):
         Example(
             "as written by ros2 pkg create",
             {"CMakeLists.txt": _LISTS.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
-            Report("CMakeLists.txt:3:3", "disables ament_cmake_copyright: it never runs"),
+            Report("3:3", "disables ament_cmake_copyright: it never runs"),
         ),
     )
 

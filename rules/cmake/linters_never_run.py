@@ -31,8 +31,7 @@ class LintersNeverRun(Rule):
             "found only",
             {"CMakeLists.txt": _LISTS.format("")},
             Report(
-                "CMakeLists.txt:3:16",
-                "no linter runs: ament_lint_auto_find_test_dependencies() is not called",
+                "3:16", "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
             ),
         ),
     )

@@ -35,15 +35,12 @@ class MinimumVersionUnfit(Rule):
         Example(
             "after project",
             {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
-            Report(
-                "CMakeLists.txt:1:1",
-                "cmake_minimum_required() of line 2 belongs before project()",
-            ),
+            Report("1:1", "cmake_minimum_required() of line 2 belongs before project()"),
         ),
         Example(
             "none",
             {"CMakeLists.txt": "project(talker)\n"},
-            Report("CMakeLists.txt:1:1", "no cmake_minimum_required(VERSION ...) before project()"),
+            Report("1:1", "no cmake_minimum_required(VERSION ...) before project()"),
         ),
         Example("of ROS 2", {"CMakeLists.txt": _LISTS.format("3.8")}),
         Example(
@@ -53,7 +50,7 @@ class MinimumVersionUnfit(Rule):
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("2.8.3")},
             Report(
-                "CMakeLists.txt:1:32",
+                "1:32",
                 "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
                 fix="write 3.8",
             ),

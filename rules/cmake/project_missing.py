@@ -30,7 +30,7 @@ class ProjectMissing(Rule):
         Example(
             "missing",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report("CMakeLists.txt:1:1", "no project(): CMake stops at ament_package()"),
+            Report("1:1", "no project(): CMake stops at ament_package()"),
         ),
     )
 

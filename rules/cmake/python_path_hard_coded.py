@@ -29,7 +29,7 @@ class PythonPathHardCoded(Rule):
             "a version",
             {"CMakeLists.txt": _LISTS.format("lib/python3.8/site-packages")},
             Report(
-                "CMakeLists.txt:2:38",
+                "2:38",
                 "installs Python modules to lib/python3.8/site-packages, which only "
                 "that version of Python searches",
             ),

@@ -38,9 +38,7 @@ class SubdirectoryMissing(Rule):
         Example(
             "not there",
             {"CMakeLists.txt": _LISTS.format("src")},
-            Report(
-                "CMakeLists.txt:2:18", "adds the directory src/, which does not exist: CMake stops"
-            ),
+            Report("2:18", "adds the directory src/, which does not exist: CMake stops"),
         ),
         Example(
             "without a CMakeLists.txt",

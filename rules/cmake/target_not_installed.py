@@ -32,7 +32,7 @@ class TargetNotInstalled(Rule):
         Example(
             "one is forgotten",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report("CMakeLists.txt:4:16", "'listen' is built, but not installed"),
+            Report("4:16", "'listen' is built, but not installed"),
         ),
     )
 

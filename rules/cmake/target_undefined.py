@@ -34,7 +34,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS.format("talks")},
-            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; closest: 'talk'"),
+            Report("3:27", "nothing defines the target 'talks'; closest: 'talk'"),
         ),
         Example(
             "Python scripts are no targets",
@@ -56,7 +56,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined, but named elsewhere",
             {"CMakeLists.txt": _LISTS.format("talks") + "message(STATUS talks)\n"},
-            Report("CMakeLists.txt:3:27", "nothing defines the target 'talks'; closest: 'talk'"),
+            Report("3:27", "nothing defines the target 'talks'; closest: 'talk'"),
         ),
     )
 

@@ -72,7 +72,7 @@ class TestUnguarded(Rule):
         Example(
             "a test that is not guarded",
             {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
-            Report("CMakeLists.txt:2:1", "ament_add_pytest_test() is outside of if(BUILD_TESTING)"),
+            Report("2:1", "ament_add_pytest_test() is outside of if(BUILD_TESTING)"),
         ),
     )
 

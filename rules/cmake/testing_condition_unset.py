@@ -31,7 +31,7 @@ class TestingConditionUnset(Rule):
             "that of catkin",
             {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
             Report(
-                "CMakeLists.txt:2:4",
+                "2:4",
                 "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
                 "closest: BUILD_TESTING",
                 fix="write BUILD_TESTING",

@@ -35,7 +35,7 @@ class ModuleCalled(PythonRule):
         Example(
             "the module",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
-            Report("setup.py:3:9", "'glob' is a module here: TypeError; use glob.glob()"),
+            Report("3:9", "'glob' is a module here: TypeError; use glob.glob()"),
         ),
     )
 

@@ -47,25 +47,22 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "no list",
             _launch(_RIGHT[0], "[GroupAction(node)]"),
-            Report("launch/a.launch.py:8:43", "expected a list of actions, not one Node"),
+            Report("8:43", "expected a list of actions, not one Node"),
         ),
         Example(
             "several arguments",
             _launch(_RIGHT[0], "node, node"),
-            Report(
-                "launch/a.launch.py:8:12",
-                "LaunchDescription takes one list of actions: put them in [...]",
-            ),
+            Report("8:12", "LaunchDescription takes one list of actions: put them in [...]"),
         ),
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            Report("launch/a.launch.py:8:31", "missing comma after this Node: it is called"),
+            Report("8:31", "missing comma after this Node: it is called"),
         ),
         Example(
             "no program",
             _launch("name='node'", "[node]"),
-            Report("launch/a.launch.py:7:12", "Node needs executable=...: TypeError"),
+            Report("7:12", "Node needs executable=...: TypeError"),
         ),
         Example(
             "no package; a setting at the end",

@@ -39,16 +39,13 @@ class ActionNotLaunchedOnce(LaunchRule):
         Example(
             "again in the handler",
             {"launch/a.launch.py": _LAUNCH.format("first, second, ")},
-            Report(
-                "launch/a.launch.py:10:59",
-                "second is launched twice: here, and in the LaunchDescription",
-            ),
+            Report("10:59", "second is launched twice: here, and in the LaunchDescription"),
         ),
         Example(
             "watched, but not launched",
             {"launch/a.launch.py": _LAUNCH.format("")},
             Report(
-                "launch/a.launch.py:8:13",
+                "8:13",
                 "a handler watches first, which is not in the LaunchDescription: it "
                 "is never launched",
             ),

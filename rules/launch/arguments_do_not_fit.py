@@ -38,15 +38,12 @@ class ArgumentsDoNotFit(LaunchRule):
         Example(
             "two parts instead of a list",
             {"launch/a.launch.py": _LAUNCH.format("'a', 'b'", "period")},
-            Report(
-                "launch/a.launch.py:8:12",
-                "PathJoinSubstitution takes one list of parts: put them in [...]",
-            ),
+            Report("8:12", "PathJoinSubstitution takes one list of parts: put them in [...]"),
         ),
         Example(
             "no period",
             {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "cancel_on_shutdown")},
-            Report("launch/a.launch.py:10:31", "TimerAction needs period=...: TypeError"),
+            Report("10:31", "TimerAction needs period=...: TypeError"),
         ),
         Example(
             "arguments without names",

@@ -34,9 +34,7 @@ class ArgumentsNotList(LaunchRule):
             "a string",
             {"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'")},
             Report(
-                "launch/a.launch.py:7:61",
-                "arguments is one string, which launch splits into letters",
-                fix="split it",
+                "7:61", "arguments is one string, which launch splits into letters", fix="split it"
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format("arguments", "'--rate 3'.split()")},
         ),
@@ -44,7 +42,7 @@ class ArgumentsNotList(LaunchRule):
             "for ROS",
             {"launch/a.launch.py": _LAUNCH.format("ros_arguments", "'-p rate:=2.0'")},
             Report(
-                "launch/a.launch.py:7:65",
+                "7:65",
                 "ros_arguments is one string, which launch splits into letters",
                 fix="split it",
             ),

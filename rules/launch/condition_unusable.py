@@ -54,7 +54,7 @@ class ConditionUnusable(LaunchRule):
             "a value of Python",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
             Report(
-                "launch/a.launch.py:12:65",
+                "12:65",
                 "`not` tests the LaunchConfiguration object, not its value: use NotSubstitution",
             ),
         ),
@@ -62,17 +62,13 @@ class ConditionUnusable(LaunchRule):
             "the name of the argument",
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
             Report(
-                "launch/a.launch.py:12:65",
-                "'use' is neither true nor false; did you mean LaunchConfiguration('use')?",
+                "12:65", "'use' is neither true nor false; did you mean LaunchConfiguration('use')?"
             ),
         ),
         Example(
             "an expression without quotes",
             {"launch/a.launch.py": _LAUNCH.format("true", "PythonExpression(['not ', use])")},
-            Report(
-                "launch/a.launch.py:12:65",
-                "with the defaults this is 'not true': the name 'true' is not defined",
-            ),
+            Report("12:65", "with the defaults this is 'not true': the name 'true' is not defined"),
         ),
         Example(
             "a condition in a condition, a truth value, a list, a value for a name",

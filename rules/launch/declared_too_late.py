@@ -37,7 +37,7 @@ class DeclaredTooLate(Rule):
             "after",
             {"launch/a.launch.py": _LAUNCH.format(f"node, {_DECLARED}")},
             Report(
-                "launch/a.launch.py:8:12",
+                "8:12",
                 "'name' is declared after its use: the Node in line 9 reads it "
                 "before it has a value",
             ),
@@ -52,7 +52,7 @@ class DeclaredTooLate(Rule):
                 "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
             },
             Report(
-                "launch/a.launch.py:14:12",
+                "14:12",
                 "'name' is declared after its use: the OpaqueFunction in line 10 "
                 "reads it before it has a value",
             ),
@@ -64,7 +64,7 @@ class DeclaredTooLate(Rule):
                 + f"    launch.add_action({_DECLARED})\n    return launch\n"
             },
             Report(
-                "launch/a.launch.py:8:12",
+                "8:12",
                 "'name' is declared after its use: the Node in line 9 reads it "
                 "before it has a value",
             ),

@@ -52,21 +52,15 @@ class DescriptionIncomplete(LaunchRule):
                 )
             },
             Report(
-                "launch/a.launch.py:5:5",
+                "5:5",
                 "`ros2 launch` calls generate_launch_description without arguments: TypeError",
             ),
-            Report(
-                "launch/a.launch.py:8:5",
-                "this Node is not in the LaunchDescription: it is never launched",
-            ),
+            Report("8:5", "this Node is not in the LaunchDescription: it is never launched"),
         ),
         Example(
             "what add_action returns",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
-            Report(
-                "launch/a.launch.py:9:5",
-                "add_action() returns nothing: return the LaunchDescription",
-            ),
+            Report("9:5", "add_action() returns nothing: return the LaunchDescription"),
         ),
     )
 

@@ -51,21 +51,10 @@ class EventHandlerMisused(LaunchRule):
         Example(
             "no argument, an action, a timer, a list",
             {"launch/a.launch.py": _LAUNCH.format("", "Shutdown", "timer", "[handler]")},
-            Report(
-                "launch/a.launch.py:9:29",
-                "EmitEvent takes an event of launch.events, not the action Shutdown",
-            ),
-            Report(
-                "launch/a.launch.py:15:43",
-                "OnProcessExit watches processes, but TimerAction starts none itself",
-            ),
-            Report(
-                "launch/a.launch.py:15:58", "launch calls on_exit with event and context: TypeError"
-            ),
-            Report(
-                "launch/a.launch.py:16:59",
-                "RegisterEventHandler takes one handler, not a list of them",
-            ),
+            Report("9:29", "EmitEvent takes an event of launch.events, not the action Shutdown"),
+            Report("15:43", "OnProcessExit watches processes, but TimerAction starts none itself"),
+            Report("15:58", "launch calls on_exit with event and context: TypeError"),
+            Report("16:59", "RegisterEventHandler takes one handler, not a list of them"),
         ),
         Example(
             "a name, an action, functions",

@@ -67,21 +67,13 @@ class ImportFromWrongModule(Rule):
         Example(
             "wrong, and misspelled",
             {"launch/a.launch.py": _LAUNCH.format("launch.actions", "TimerActions")},
-            Report(
-                "launch/a.launch.py:1:28", "launch.actions has no 'Node'; launch_ros.actions has"
-            ),
-            Report(
-                "launch/a.launch.py:2:28",
-                "launch.actions has no 'TimerActions'; closest: 'TimerAction'",
-            ),
+            Report("1:28", "launch.actions has no 'Node'; launch_ros.actions has"),
+            Report("2:28", "launch.actions has no 'TimerActions'; closest: 'TimerAction'"),
         ),
         Example(
             "a module that does not exist",
             {"launch/a.launch.py": _LAUNCH.format("launch_ros.action", "TimerAction")},
-            Report(
-                "launch/a.launch.py:1:1",
-                "no module 'launch_ros.action'; closest: 'launch_ros.actions'",
-            ),
+            Report("1:1", "no module 'launch_ros.action'; closest: 'launch_ros.actions'"),
         ),
     )
 

@@ -50,15 +50,11 @@ class KeywordOfOldRelease(LaunchRule):
             "of Eloquent",
             {"launch/a.launch.py": _LAUNCH.format("node_executable", "node_name")},
             Report(
-                "launch/a.launch.py:7:32",
+                "7:32",
                 "Node has no node_executable: it was renamed to executable",
                 fix="write executable",
             ),
-            Report(
-                "launch/a.launch.py:7:56",
-                "Node has no node_name: it was renamed to name",
-                fix="write name",
-            ),
+            Report("7:56", "Node has no node_name: it was renamed to name", fix="write name"),
             fixed={"launch/a.launch.py": _LAUNCH.format("executable", "name")},
         ),
     )

@@ -37,8 +37,7 @@ class KeywordUnknown(LaunchRule):
             "of another class",
             {"launch/a.launch.py": _LAUNCH.format("default")},
             Report(
-                "launch/a.launch.py:7:39",
-                "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
+                "7:39", "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'"
             ),
         ),
     )

@@ -35,7 +35,7 @@ class LaunchArgumentsNotPairs(LaunchRule):
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': '2'}")},
             Report(
-                "launch/a.launch.py:7:69",
+                "7:69",
                 "launch_arguments is a dictionary; launch takes pairs: add .items()",
                 fix="add .items()",
             ),

@@ -36,7 +36,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
             "made, but not returned",
             {"launch/a.launch.py": _LAUNCH + "    LaunchDescription([node])\n"},
             Report(
-                "launch/a.launch.py:7:5",
+                "7:5",
                 "the LaunchDescription is created, but generate_launch_description returns None",
                 fix="return it",
             ),

@@ -33,7 +33,7 @@ class LaunchFileEnding(Rule):
             "neither",
             {"launch/talk.py": _LAUNCH},
             Report(
-                "launch/talk.py:1:1",
+                "1:1",
                 "defines generate_launch_description, but `ros2 launch` lists only "
                 "names that end with launch.py, not talk.py",
             ),

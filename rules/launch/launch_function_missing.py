@@ -30,7 +30,7 @@ class LaunchFunctionMissing(Rule):
             "misspelled",
             {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
             Report(
-                "launch/a.launch.py:4:5",
+                "4:5",
                 "`ros2 launch` calls generate_launch_description, not generate_launch_descriptions",
                 fix="write generate_launch_description",
             ),
@@ -40,7 +40,7 @@ class LaunchFunctionMissing(Rule):
             "not there",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
             Report(
-                "launch/a.launch.py:1:1",
+                "1:1",
                 "`ros2 launch` calls generate_launch_description, which this file does not define",
             ),
         ),

@@ -38,11 +38,8 @@ class LaunchNameInvalid(LaunchRule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            Report(
-                "launch/a.launch.py:7:56",
-                "ROS 2 refuses the node name 'my/talker': letters, digits and _ only",
-            ),
-            Report("launch/a.launch.py:7:79", "ROS 2 refuses the namespace 'robot-1'"),
+            Report("7:56", "ROS 2 refuses the node name 'my/talker': letters, digits and _ only"),
+            Report("7:79", "ROS 2 refuses the namespace 'robot-1'"),
         ),
         Example(
             "a condition",
@@ -52,9 +49,7 @@ class LaunchNameInvalid(LaunchRule):
                 "def generate_launch_description():\n"
                 "    return IfCondition(LaunchConfiguration('use', default='yes'))\n"
             },
-            Report(
-                "launch/a.launch.py:6:12", "the default is 'yes', which is neither true nor false"
-            ),
+            Report("6:12", "the default is 'yes', which is neither true nor false"),
         ),
     )
 

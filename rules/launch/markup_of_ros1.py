@@ -44,18 +44,13 @@ class MarkupOfRos1(Rule):
         Example(
             "of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            Report("launch/a.launch.xml:2:28", "'type' of <node> belongs to ROS 1; ROS 2 has exec"),
-            Report(
-                "launch/a.launch.xml:2:40", "$(arg ...) belongs to ROS 1; ROS 2 has $(var name)"
-            ),
+            Report("2:28", "'type' of <node> belongs to ROS 1; ROS 2 has exec"),
+            Report("2:40", "$(arg ...) belongs to ROS 1; ROS 2 has $(var name)"),
         ),
         Example(
             "an element of ROS 1",
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
-            Report(
-                "launch/a.launch.xml:2:4",
-                "<rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>",
-            ),
+            Report("2:4", "<rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>"),
         ),
     )
 

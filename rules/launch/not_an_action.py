@@ -48,15 +48,11 @@ class NotAnAction(LaunchRule):
             "a list, a substitution, a handler",
             {"launch/a.launch.py": _LAUNCH.format("[node],\n name,\n handler")},
             Report(
-                "launch/a.launch.py:12:31",
-                "this is a list, but LaunchDescription takes actions: unpack it with *",
+                "12:31", "this is a list, but LaunchDescription takes actions: unpack it with *"
             ),
+            Report("13:2", "this is a LaunchConfiguration, but LaunchDescription takes actions"),
             Report(
-                "launch/a.launch.py:13:2",
-                "this is a LaunchConfiguration, but LaunchDescription takes actions",
-            ),
-            Report(
-                "launch/a.launch.py:14:2",
+                "14:2",
                 "this is the handler OnProcessExit, but LaunchDescription takes "
                 "actions: wrap it in RegisterEventHandler(...)",
             ),
@@ -64,14 +60,9 @@ class NotAnAction(LaunchRule):
         Example(
             "a text, a class, None",
             {"launch/a.launch.py": _LAUNCH.format("'node',\n Node,\n None")},
-            Report(
-                "launch/a.launch.py:12:31", "this is a string, but LaunchDescription takes actions"
-            ),
-            Report(
-                "launch/a.launch.py:13:2",
-                "this is a class, but LaunchDescription takes actions: call it",
-            ),
-            Report("launch/a.launch.py:14:2", "this is None, but LaunchDescription takes actions"),
+            Report("12:31", "this is a string, but LaunchDescription takes actions"),
+            Report("13:2", "this is a class, but LaunchDescription takes actions: call it"),
+            Report("14:2", "this is None, but LaunchDescription takes actions"),
         ),
         Example(
             "an event, a source, a node in a container",
@@ -87,18 +78,16 @@ class NotAnAction(LaunchRule):
                 )
             },
             Report(
-                "launch/a.launch.py:15:31",
+                "15:31",
                 "this is an event, but LaunchDescription takes actions: wrap it in "
                 "EmitEvent(event=...)",
             ),
             Report(
-                "launch/a.launch.py:16:2",
+                "16:2",
                 "this is an AnyLaunchDescriptionSource, but LaunchDescription takes "
                 "actions: wrap it in IncludeLaunchDescription(...)",
             ),
-            Report(
-                "launch/a.launch.py:18:33", "this is a Node, but a container takes ComposableNode"
-            ),
+            Report("18:33", "this is a Node, but a container takes ComposableNode"),
         ),
     )
 

@@ -38,23 +38,17 @@ class ParameterRefusedByLaunch(Rule):
         Example(
             "nothing",
             _launch("None"),
-            Report(
-                "launch/a.launch.py:7:61",
-                "the parameter 'a' is None, which is not a value of a parameter",
-            ),
+            Report("7:61", "the parameter 'a' is None, which is not a value of a parameter"),
         ),
         Example(
             "an empty list",
             _launch("[]"),
-            Report(
-                "launch/a.launch.py:7:61",
-                "the parameter 'a' is an empty list, whose type is unknown",
-            ),
+            Report("7:61", "the parameter 'a' is an empty list, whose type is unknown"),
         ),
         Example(
             "a mixed list",
             _launch("[1, 'a']"),
-            Report("launch/a.launch.py:7:61", "the parameter 'a' mixes types in a list"),
+            Report("7:61", "the parameter 'a' mixes types in a list"),
         ),
     )
 

@@ -34,11 +34,7 @@ class ParametersNotList(LaunchRule):
         Example(
             "a dictionary",
             {"launch/a.launch.py": _LAUNCH.format("{'rate': 2.0}")},
-            Report(
-                "launch/a.launch.py:7:62",
-                "parameters is a dictionary; Node takes a list",
-                fix="make it a list",
-            ),
+            Report("7:62", "parameters is a dictionary; Node takes a list", fix="make it a list"),
             fixed={"launch/a.launch.py": _LAUNCH.format("[{'rate': 2.0}]")},
         ),
         Example(
@@ -65,11 +61,7 @@ class ParametersNotList(LaunchRule):
         Example(
             "a path that is put together",
             {"launch/a.launch.py": _LAUNCH.format("'talker' + '.yaml'")},
-            Report(
-                "launch/a.launch.py:7:62",
-                "parameters is a path; Node takes a list",
-                fix="make it a list",
-            ),
+            Report("7:62", "parameters is a path; Node takes a list", fix="make it a list"),
             fixed={"launch/a.launch.py": _LAUNCH.format("['talker' + '.yaml']")},
         ),
     )

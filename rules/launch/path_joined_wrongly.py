@@ -36,10 +36,7 @@ class PathJoinedWrongly(LaunchRule):
         Example(
             "a slash too many",
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
-            Report(
-                "launch/a.launch.py:6:28",
-                "'/config' begins with a slash, which discards everything before it",
-            ),
+            Report("6:28", "'/config' begins with a slash, which discards everything before it"),
         ),
         Example(
             "no slash in a list",
@@ -50,18 +47,12 @@ class PathJoinedWrongly(LaunchRule):
                     "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
                 )
             },
-            Report(
-                "launch/a.launch.py:7:46",
-                "parts are concatenated: missing slash before this one",
-            ),
+            Report("7:46", "parts are concatenated: missing slash before this one"),
         ),
         Example(
             "no slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
-            Report(
-                "launch/a.launch.py:6:8",
-                "missing slash between the share directory and 'config/a.yaml'",
-            ),
+            Report("6:8", "missing slash between the share directory and 'config/a.yaml'"),
         ),
     )
 

@@ -37,28 +37,20 @@ class RemappingsNotPairs(LaunchRule):
         Example(
             "a dictionary",
             _launch("{'a': 'b'}"),
-            Report(
-                "launch/a.launch.py:7:62",
-                "remappings are a list of pairs, [('from', 'to')], not a dictionary",
-            ),
+            Report("7:62", "remappings are a list of pairs, [('from', 'to')], not a dictionary"),
         ),
         Example(
             "one pair",
             _launch("('a', 'b')"),
-            Report(
-                "launch/a.launch.py:7:62",
-                "this is one pair: remappings are a list of pairs, [('from', 'to')]",
-            ),
+            Report("7:62", "this is one pair: remappings are a list of pairs, [('from', 'to')]"),
         ),
         Example(
-            "texts",
-            _launch("['a:=b']"),
-            Report("launch/a.launch.py:7:62", "'a:=b' is not a pair ('from', 'to')"),
+            "texts", _launch("['a:=b']"), Report("7:62", "'a:=b' is not a pair ('from', 'to')")
         ),
         Example(
             "three parts",
             _launch("[('a', 'b', 'c')]"),
-            Report("launch/a.launch.py:7:62", "a remapping is a pair, and this has 3 parts"),
+            Report("7:62", "a remapping is a pair, and this has 3 parts"),
         ),
     )
 

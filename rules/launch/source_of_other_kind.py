@@ -43,7 +43,7 @@ class SourceOfOtherKind(LaunchRule):
             "XML for Python",
             {"launch/a.launch.py": _LAUNCH.format("b.launch.xml")},
             Report(
-                "launch/a.launch.py:11:34",
+                "11:34",
                 "PythonLaunchDescriptionSource cannot read b.launch.xml: write "
                 "AnyLaunchDescriptionSource",
             ),

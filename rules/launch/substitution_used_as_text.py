@@ -54,12 +54,12 @@ class SubstitutionUsedAsText(LaunchRule):
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
             Report(
-                "launch/a.launch.py:10:30",
+                "10:30",
                 "the value of a LaunchConfiguration is not known yet in "
                 "os.path.join(): it is evaluated later",
             ),
             Report(
-                "launch/a.launch.py:12:74",
+                "12:74",
                 "the value of a LaunchConfiguration is not known yet in a sum: it "
                 "is evaluated later",
             ),
@@ -68,12 +68,12 @@ class SubstitutionUsedAsText(LaunchRule):
             "filled into a text, a choice of Python",
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
             Report(
-                "launch/a.launch.py:10:21",
+                "10:21",
                 "the value of a LaunchConfiguration is not known yet in a % format: "
                 "it is evaluated later",
             ),
             Report(
-                "launch/a.launch.py:12:81",
+                "12:81",
                 "the LaunchConfiguration object is tested, not its value: always "
                 "true; use IfCondition",
             ),
@@ -82,7 +82,7 @@ class SubstitutionUsedAsText(LaunchRule):
             "in an f-string",
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
             Report(
-                "launch/a.launch.py:12:74",
+                "12:74",
                 "the value of a LaunchConfiguration is not known yet in an "
                 "f-string: it is evaluated later",
             ),

@@ -60,18 +60,18 @@ class ValueNotText(LaunchRule):
         Example(
             "a number, an action, a number in the environment",
             {"launch/a.launch.py": _LAUNCH.format("3", "name", "3")},
-            Report("launch/a.launch.py:10:21", "this is not a string: write '3'"),
+            Report("10:21", "this is not a string: write '3'"),
             Report(
-                "launch/a.launch.py:11:48",
+                "11:48",
                 "this is the action DeclareLaunchArgument, not a value: write "
                 "LaunchConfiguration('name')",
             ),
-            Report("launch/a.launch.py:11:78", "this is not a string: write '3'"),
+            Report("11:78", "this is not a string: write '3'"),
         ),
         Example(
             "a number among texts",
             {"launch/a.launch.py": _LAUNCH.format("['a', 3]", "'n'", "'3'")},
-            Report("launch/a.launch.py:10:27", "this is not a string: write '3'"),
+            Report("10:27", "this is not a string: write '3'"),
         ),
     )
 

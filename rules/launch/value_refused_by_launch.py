@@ -41,18 +41,15 @@ class ValueRefusedByLaunch(LaunchRule):
         Example(
             "refused",
             {"launch/a.launch.py": _LAUNCH.format("fst", "'ls -l'", "1")},
-            Report("launch/a.launch.py:9:68", "the default 'fst' is not among the choices"),
-            Report(
-                "launch/a.launch.py:10:28",
-                "launch splits a string into letters: write a list of words",
-            ),
-            Report("launch/a.launch.py:11:28", "a period must be a float: write 1.0"),
+            Report("9:68", "the default 'fst' is not among the choices"),
+            Report("10:28", "launch splits a string into letters: write a list of words"),
+            Report("11:28", "a period must be a float: write 1.0"),
         ),
         Example(
             "two words in one",
             {"launch/a.launch.py": _LAUNCH.format("fast", "['ls -l']", "1.0")},
             Report(
-                "launch/a.launch.py:10:28",
+                "10:28",
                 "this is one word, so a program 'ls -l' is looked for: write a list of words",
             ),
         ),

@@ -45,10 +45,8 @@ class ValueUnusable(LaunchRule):
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            Report(
-                "launch/a.launch.py:8:53", "a default must be a string, not a float: write '2.0'"
-            ),
-            Report("launch/a.launch.py:9:61", "an argument must be a string: write '3'"),
+            Report("8:53", "a default must be a string, not a float: write '2.0'"),
+            Report("9:61", "an argument must be a string: write '3'"),
         ),
         Example(
             "other arguments of a node",
@@ -61,17 +59,13 @@ class ValueUnusable(LaunchRule):
                 )
             },
             Report(
-                "launch/a.launch.py:10:21",
-                "unknown output 'console'; choose from both, full, log, own_log, screen",
+                "10:21", "unknown output 'console'; choose from both, full, log, own_log, screen"
             ),
-            Report("launch/a.launch.py:10:46", "respawn_delay must be a number, not a str"),
-            Report("launch/a.launch.py:10:66", "the environment must be a dictionary, not a list"),
+            Report("10:46", "respawn_delay must be a number, not a str"),
+            Report("10:66", "the environment must be a dictionary, not a list"),
+            Report("11:24", "a condition must be an object such as IfCondition(...), not a value"),
             Report(
-                "launch/a.launch.py:11:24",
-                "a condition must be an object such as IfCondition(...), not a value",
-            ),
-            Report(
-                "launch/a.launch.py:11:43",
+                "11:43",
                 "parameters must be files or dictionaries {'name': value}, not lists or pairs",
             ),
         ),

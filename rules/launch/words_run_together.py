@@ -64,42 +64,31 @@ class WordsRunTogether(LaunchRule):
             "a missing comma",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
             Report(
-                "launch/a.launch.py:7:62",
-                "Python joins this to '--ros-args-r': missing comma between the strings",
+                "7:62", "Python joins this to '--ros-args-r': missing comma between the strings"
             ),
         ),
         Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
-            Report(
-                "launch/a.launch.py:7:85",
-                "launch concatenates the parts of a prefix: missing space",
-            ),
+            Report("7:85", "launch concatenates the parts of a prefix: missing space"),
         ),
         Example(
             "three in one",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
             Report(
-                "launch/a.launch.py:7:62",
-                "this is one argument with spaces in it: write one string for each word",
+                "7:62", "this is one argument with spaces in it: write one string for each word"
             ),
         ),
         Example("a command with a space", _command("['xacro ', 'a.urdf']")),
         Example(
             "a command without one",
             _command("['xacro', 'a']"),
-            Report(
-                "launch/a.launch.py:7:12",
-                "launch concatenates the parts of a command: write 'xacro '",
-            ),
+            Report("7:12", "launch concatenates the parts of a command: write 'xacro '"),
         ),
         Example(
             "a program that is looked for",
             _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            Report(
-                "launch/a.launch.py:7:12",
-                "launch concatenates the parts of a command: write ' ' after it",
-            ),
+            Report("7:12", "launch concatenates the parts of a command: write ' ' after it"),
         ),
     )
 

@@ -37,10 +37,7 @@ class ChangelogMalformed(Rule):
         Example(
             "a word before the version",
             {"CHANGELOG.rst": f"{_TITLE}Release 0.1\n-----------\n* first\n"},
-            Report(
-                "CHANGELOG.rst:5:1",
-                "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
-            ),
+            Report("5:1", "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)"),
         ),
     )
 

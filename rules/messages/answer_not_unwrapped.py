@@ -49,12 +49,12 @@ class AnswerNotUnwrapped(MessageRule):
             "not unwrapped",
             {"sender.py": _NODE.format("", "")},
             Report(
-                "sender.py:16:21",
+                "16:21",
                 "this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
                 "AttributeError; use .feedback.sequence",
             ),
             Report(
-                "sender.py:24:21",
+                "24:21",
                 "this wrapper has only 'result' and 'status', not 'sequence': "
                 "AttributeError; use .result.sequence",
             ),

@@ -60,24 +60,21 @@ class FieldValueUnfit(MessageRule):
             "a str for a float, 8 of 9 elements, an 8-bit counter, an int for a bool and a str",
             {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
             Report(
-                "talker.py:13:31",
+                "13:31",
                 "'temperature' of sensor_msgs/msg/Temperature is float64, but '20' is a str",
             ),
             Report(
-                "talker.py:15:38",
+                "15:38",
                 "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
                 "[0.1] * 8 has 8 elements, not 9",
             ),
             Report(
-                "talker.py:17:22",
+                "17:22",
                 "'data' of std_msgs/msg/UInt8 is uint8, but self.count grows "
                 "without bound in line 18: uint8 holds 0 to 255",
             ),
-            Report("talker.py:19:26", "'data' of std_msgs/msg/Bool is bool, but 1 is an int"),
-            Report(
-                "talker.py:19:42",
-                "'data' of std_msgs/msg/String is string, but self.count is an int",
-            ),
+            Report("19:26", "'data' of std_msgs/msg/Bool is bool, but 1 is an int"),
+            Report("19:42", "'data' of std_msgs/msg/String is string, but self.count is an int"),
         ),
         Example(
             "fields of other messages, times, encoded text, a method, a parameter",
@@ -97,32 +94,29 @@ class FieldValueUnfit(MessageRule):
                 "        text.data = self.get_parameter('text')\n"
                 "        return raw, scaled, text\n"
             },
+            Report("8:28", "'data' of std_msgs/msg/Float64 is float64, but count.data is an int"),
             Report(
-                "talker.py:8:28",
-                "'data' of std_msgs/msg/Float64 is float64, but count.data is an int",
-            ),
-            Report(
-                "talker.py:10:28",
+                "10:28",
                 "'data' of std_msgs/msg/String is string, but 'a'.upper().encode() is bytes",
             ),
             Report(
-                "talker.py:12:28",
+                "12:28",
                 "'sec' of builtin_interfaces/msg/Time is int32, but "
                 "self.get_clock().now().nano... is about 2e+18: int32 holds "
                 "-2147483648 to 2147483647",
             ),
             Report(
-                "talker.py:13:24",
+                "13:24",
                 "'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
                 "self.get_clock().now().nano... is an int",
             ),
             Report(
-                "talker.py:14:24",
+                "14:24",
                 "'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
                 "'to_msg' is a method that is not called; write to_msg()",
             ),
             Report(
-                "talker.py:15:21",
+                "15:21",
                 "'data' of std_msgs/msg/String is string, but "
                 "self.get_parameter('text') is a Parameter; append .value",
             ),
@@ -139,18 +133,18 @@ class FieldValueUnfit(MessageRule):
                 "imu.orientation_covariance = np.zeros(9)\n"
             },
             Report(
-                "talker.py:6:30",
+                "6:30",
                 "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
                 "np.eye(3) is two-dimensional; append .flatten()",
             ),
             Report(
-                "talker.py:7:30",
+                "7:30",
                 "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
                 "np.array([[0.1, 0.0, 0.0]] ... is two-dimensional; append "
                 ".flatten()",
             ),
             Report(
-                "talker.py:8:30",
+                "8:30",
                 "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
                 "np.zeros((3, 3)) is two-dimensional; append .flatten()",
             ),
@@ -166,22 +160,20 @@ class FieldValueUnfit(MessageRule):
                 "numbers = Float32MultiArray(data=0.5)\n"
                 "small = Int8(data=-129)\n"
             },
+            Report("5:18", "'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int"),
             Report(
-                "talker.py:5:18", "'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int"
-            ),
-            Report(
-                "talker.py:6:22",
+                "6:22",
                 "'position' of geometry_msgs/msg/Pose is geometry_msgs/Point, but "
                 "Vector3() is a geometry_msgs/msg/Vector3",
                 severity=Severity.WARNING,
             ),
             Report(
-                "talker.py:7:34",
+                "7:34",
                 "'data' of std_msgs/msg/Float32MultiArray is float32[], but 0.5 is "
                 "a float, not a list",
             ),
             Report(
-                "talker.py:8:19",
+                "8:19",
                 "'data' of std_msgs/msg/Int8 is int8, but -129 is out of range: "
                 "int8 holds -128 to 127",
             ),

@@ -40,17 +40,17 @@ class FrameWithSlash(MessageRule):
             "with a slash",
             {"node.py": _CODE.format("'/map'", '"/base"', "'/map'")},
             Report(
-                "node.py:5:41",
+                "5:41",
                 "frame '/map' starts with '/': tf2 rejects it; remove the slash",
                 fix="remove the slash",
             ),
             Report(
-                "node.py:6:44",
+                "6:44",
                 "frame '/base' starts with '/': tf2 rejects it; remove the slash",
                 fix="remove the slash",
             ),
             Report(
-                "node.py:7:28",
+                "7:28",
                 "frame '/map' starts with '/': tf2 rejects it; remove the slash",
                 fix="remove the slash",
             ),

@@ -52,18 +52,15 @@ class InterfaceUnknown(MessageRule):
                 "from std_msgs.msgs import Bool\n\n"
                 "message = std_msgs.msg.Sting()\n"
             },
-            Report("talker.py:2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
+            Report("2:26", "std_msgs.msg has no 'Str'; did you mean 'String'?"),
+            Report("3:26", "std_msgs.msg has no 'Twist'; did you mean 'geometry_msgs/msg/Twist'?"),
             Report(
-                "talker.py:3:26",
-                "std_msgs.msg has no 'Twist'; did you mean 'geometry_msgs/msg/Twist'?",
-            ),
-            Report(
-                "talker.py:4:26",
+                "4:26",
                 "std_msgs.srv has no 'Empty'; did you mean 'std_msgs/msg/Empty' or "
                 "'std_srvs/srv/Empty'?",
             ),
-            Report("talker.py:5:27", "std_msgs has no module 'msgs'; did you mean 'std_msgs.msg'?"),
-            Report("talker.py:7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
+            Report("5:27", "std_msgs has no module 'msgs'; did you mean 'std_msgs.msg'?"),
+            Report("7:11", "std_msgs.msg has no 'Sting'; did you mean 'String'?"),
         ),
         Example(
             "imported without the module",
@@ -73,17 +70,13 @@ class InterfaceUnknown(MessageRule):
                 "from std_srvs import Trigger\n"
                 "from sensor_msgs_py import point_cloud2\n"
             },
-            Report(
-                "talker.py:2:22", "'Bool' is not in std_msgs: ImportError; it is in std_msgs.msg"
-            ),
-            Report(
-                "talker.py:3:22", "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv"
-            ),
+            Report("2:22", "'Bool' is not in std_msgs: ImportError; it is in std_msgs.msg"),
+            Report("3:22", "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv"),
         ),
         Example(
             "from a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            Report("talker.py:1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),
+            Report("1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",

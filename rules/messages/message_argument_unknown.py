@@ -33,7 +33,7 @@ class MessageArgumentUnknown(MessageRule):
             "misspelled",
             {"talker.py": _PREFIX.format("dta='hello'")},
             Report(
-                "talker.py:3:18",
+                "3:18",
                 "std_msgs/msg/String has no field 'dta': the value is silently "
                 "dropped; did you mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 "
                 "Jazzy)",
@@ -43,7 +43,7 @@ class MessageArgumentUnknown(MessageRule):
             "positional",
             {"talker.py": _PREFIX.format("'hello'")},
             Report(
-                "talker.py:3:18",
+                "3:18",
                 "std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
             ),
         ),

@@ -55,7 +55,7 @@ class MessageFieldUnknown(MessageRule):
             "read in a callback",
             {"listener.py": _NODE.format("text")},
             Report(
-                "listener.py:11:36",
+                "11:36",
                 "std_msgs/msg/String has no field or constant 'text'; it has data "
                 "(definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
             ),
@@ -78,23 +78,23 @@ class MessageFieldUnknown(MessageRule):
                 "    mixed.anything = 1\n"
             },
             Report(
-                "talker.py:9:18",
+                "9:18",
                 "geometry_msgs/msg/Vector3 has no field or constant 'yaw'; it has "
                 "x, y, z (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
             ),
             Report(
-                "talker.py:10:11",
+                "10:11",
                 "geometry_msgs/msg/Twist has no field or constant 'speed'; it has "
                 "linear, angular (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
             ),
             Report(
-                "talker.py:12:12",
+                "12:12",
                 "std_srvs/srv/SetBool.Response has no field or constant 'succes'; "
                 "did you mean 'success'? (definition: std_srvs 5.3.6 of ROS 2 "
                 "Jazzy)",
             ),
             Report(
-                "talker.py:12:38",
+                "12:38",
                 "diagnostic_msgs/msg/DiagnosticStatus has no field or constant "
                 "'OKAY'; did you mean 'OK'? (definition: diagnostic_msgs 5.3.6 of "
                 "ROS 2 Jazzy)",
@@ -104,7 +104,7 @@ class MessageFieldUnknown(MessageRule):
             "an unknown part of a service",
             {"talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n"},
             Report(
-                "talker.py:3:19",
+                "3:19",
                 "std_srvs/srv/SetBool has no 'Requests': AttributeError; did you mean 'Request'?",
             ),
         ),

@@ -47,20 +47,19 @@ class MessageUsedAsValue(MessageRule):
             "as a dict, as a list",
             {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
             Report(
-                "listener.py:12:32",
-                "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
+                "12:32", "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields"
             ),
             Report(
-                "listener.py:15:16",
+                "15:16",
                 "std_msgs/msg/Float32MultiArray has no length: TypeError; use one of its fields",
             ),
             Report(
-                "listener.py:15:26",
+                "15:26",
                 "std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use "
                 "one of its fields",
             ),
             Report(
-                "listener.py:15:34",
+                "15:34",
                 "std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use one of its fields",
             ),
         ),
@@ -71,13 +70,12 @@ class MessageUsedAsValue(MessageRule):
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
                 )
             },
-            Report("listener.py:12:32", "msg.data is a str, which has no 'data': AttributeError"),
+            Report("12:32", "msg.data is a str, which has no 'data': AttributeError"),
             Report(
-                "listener.py:15:16",
-                "msg.layout.data_offset is a field, not a method: TypeError; remove the ()",
+                "15:16", "msg.layout.data_offset is a field, not a method: TypeError; remove the ()"
             ),
             Report(
-                "listener.py:15:54",
+                "15:54",
                 "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
             ),
         ),
@@ -89,7 +87,7 @@ class MessageUsedAsValue(MessageRule):
                 )
             },
             Report(
-                "listener.py:15:18",
+                "15:18",
                 "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
             ),
         ),

@@ -49,12 +49,12 @@ class PublishedTypeDiffers(MessageRule):
             "another message, the response of a service",
             {"talker.py": _NODE.format("Bool(data=True)", "Trigger.Response()")},
             Report(
-                "talker.py:13:26",
+                "13:26",
                 "std_msgs/msg/Bool sent through the publisher of line 9, which "
                 "takes std_msgs/msg/String: TypeError",
             ),
             Report(
-                "talker.py:14:32",
+                "14:32",
                 "std_srvs/srv/Trigger.Response sent through the client of line 10, "
                 "which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
@@ -63,12 +63,12 @@ class PublishedTypeDiffers(MessageRule):
             "a str without its message, the class",
             {"talker.py": _NODE.format("'hello'", "Trigger.Request")},
             Report(
-                "talker.py:13:26",
+                "13:26",
                 "a str sent through the publisher of line 9, which takes "
                 "std_msgs/msg/String: TypeError",
             ),
             Report(
-                "talker.py:14:32",
+                "14:32",
                 "the class std_srvs/srv/Trigger.Request sent through the client of "
                 "line 10, which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
@@ -77,7 +77,7 @@ class PublishedTypeDiffers(MessageRule):
             "the class of the service",
             {"talker.py": _NODE.format("String()", "Trigger")},
             Report(
-                "talker.py:14:32",
+                "14:32",
                 "the class std_srvs/srv/Trigger sent through the client of line 10, "
                 "which takes std_srvs/srv/Trigger.Request: TypeError",
             ),
@@ -86,12 +86,12 @@ class PublishedTypeDiffers(MessageRule):
             "a number, a field of a response",
             {"talker.py": _NODE.format("1.5", "Trigger.Response().message")},
             Report(
-                "talker.py:13:26",
+                "13:26",
                 "a number sent through the publisher of line 9, which takes "
                 "std_msgs/msg/String: TypeError",
             ),
             Report(
-                "talker.py:14:32",
+                "14:32",
                 "field 'message' sent through the client of line 10, which takes "
                 "std_srvs/srv/Trigger.Request: TypeError",
             ),

@@ -49,7 +49,7 @@ class StampNeverSet(Rule):
             "never set",
             {"talker.py": _NODE.format("")},
             Report(
-                "talker.py:11:19",
+                "11:19",
                 "sensor_msgs/msg/Temperature is published in line 13 with a zero "
                 "stamp; set header.stamp",
             ),

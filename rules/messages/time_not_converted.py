@@ -38,13 +38,13 @@ class TimeNotConverted(MessageRule):
             "the time of the clock, for a field and for the header of an unknown message",
             {"talker.py": _CODE.format("", "")},
             Report(
-                "talker.py:8:32",
+                "8:32",
                 "stamp is a builtin_interfaces/msg/Time, but this is an rclpy Time: "
                 "AttributeError when published; append .to_msg()",
                 fix="append .to_msg()",
             ),
             Report(
-                "talker.py:9:30",
+                "9:30",
                 "header.stamp is a builtin_interfaces/msg/Time, but this is an "
                 "rclpy Time: AttributeError when published; append .to_msg()",
                 fix="append .to_msg()",

@@ -51,10 +51,7 @@ class InterfaceNameInvalid(Rule):
         Example("a field: lower case", {**_LISTS, "msg/Beat.msg": "float64 max_speed_2\n"}),
         Example(
             "fields: camel case, a trailing underscore",
-            {
-                **_LISTS,
-                "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n",
-            },
+            {**_LISTS, "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n"},
             Report(
                 "msg/Beat.msg:2:9",
                 "'maxSpeed' is not a valid field name: rosidl requires lower-case letters, "
@@ -72,10 +69,7 @@ class InterfaceNameInvalid(Rule):
         ),
         Example(
             "constants: small letters, a default with an equals sign, a bound with spaces",
-            {
-                **_LISTS,
-                "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n",
-            },
+            {**_LISTS, "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n"},
             Report(
                 "msg/Beat.msg:1:7",
                 "the '=' makes this line a constant, and 'max' is not a valid name "
@@ -96,10 +90,7 @@ class InterfaceNameInvalid(Rule):
         ),
         Example(
             "twice in the request",
-            {
-                **_LISTS,
-                "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n",
-            },
+            {**_LISTS, "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n"},
             Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
             Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
         ),

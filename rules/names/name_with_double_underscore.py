@@ -34,7 +34,7 @@ class NameWithDoubleUnderscore(RclpyRule):
         Example(
             "two",
             {"talker.py": _NODE.format("front__scan")},
-            Report("talker.py:8:39", "the name 'front__scan' has two underscores in a row"),
+            Report("8:39", "the name 'front__scan' has two underscores in a row"),
         ),
     )
 

@@ -33,14 +33,12 @@ class NodeNameInvalid(RclpyRule):
         Example(
             "a namespace in it",
             {"talker.py": _NODE.format("'left/talker'")},
-            Report(
-                "talker.py:6:26", "ROS 2 refuses the node name 'left/talker': '/' is not allowed"
-            ),
+            Report("6:26", "ROS 2 refuses the node name 'left/talker': '/' is not allowed"),
         ),
         Example(
             "a namespace with a dash",
             {"talker.py": _NODE.format("'talker', namespace='left-arm'")},
-            Report("talker.py:6:26", "ROS 2 refuses the namespace 'left-arm': '-' is not allowed"),
+            Report("6:26", "ROS 2 refuses the namespace 'left-arm': '-' is not allowed"),
         ),
     )
 

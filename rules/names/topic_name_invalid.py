@@ -53,12 +53,12 @@ class TopicNameInvalid(RclpyRule):
         Example(
             "a dash",
             {"talker.py": _NODE.format("front-scan")},
-            Report("talker.py:8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+            Report("8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
         ),
         Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
-            Report("talker.py:8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
+            Report("8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
         ),
     )
 

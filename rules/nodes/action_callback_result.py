@@ -51,12 +51,12 @@ class ActionCallbackResult(Rule):
             "a bool, nothing",
             {"server.py": _NODE.format("return True", "")},
             Report(
-                "server.py:13:9",
+                "13:9",
                 "returns True, not a GoalResponse for the action server of line 9: "
                 "it counts as a rejection",
             ),
             Report(
-                "server.py:15:9",
+                "15:9",
                 "work() does not return the result for the action server of line 9: AssertionError",
             ),
         ),
@@ -68,12 +68,12 @@ class ActionCallbackResult(Rule):
                 )
             },
             Report(
-                "server.py:13:9",
+                "13:9",
                 "returns a CancelResponse, not a GoalResponse for the action server "
                 "of line 9: it counts as a rejection",
             ),
             Report(
-                "server.py:17:9",
+                "17:9",
                 "returns example_interfaces/action/Fibonacci.Feedback, not the "
                 "result for the action server of line 9: AssertionError",
             ),

@@ -43,14 +43,12 @@ class ActionTypeWrong(MessageRule):
         Example(
             "no node",
             {"sender.py": _NODE.format("Fibonacci", _GOAL)},
-            Report(
-                "sender.py:9:36", "'Fibonacci' is not a node; pass the node first, then the type"
-            ),
+            Report("9:36", "'Fibonacci' is not a node; pass the node first, then the type"),
         ),
         Example(
             "a part of the action",
             {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
-            Report("sender.py:9:42", "this is only a part of an action; pass Fibonacci"),
+            Report("9:42", "this is only a part of an action; pass Fibonacci"),
         ),
         Example(
             "a number, the class of goals, the result",
@@ -60,18 +58,18 @@ class ActionTypeWrong(MessageRule):
                 + "        self.client.send_goal(Fibonacci.Result())\n"
             },
             Report(
-                "sender.py:12:37",
+                "12:37",
                 "an int sent through the client of line 9, which takes "
                 "example_interfaces/action/Fibonacci.Goal: TypeError",
             ),
             Report(
-                "sender.py:13:31",
+                "13:31",
                 "the class example_interfaces/action/Fibonacci.Goal sent through "
                 "the client of line 9, which takes "
                 "example_interfaces/action/Fibonacci.Goal: TypeError",
             ),
             Report(
-                "sender.py:14:31",
+                "14:31",
                 "example_interfaces/action/Fibonacci.Result sent through the client "
                 "of line 9, which takes example_interfaces/action/Fibonacci.Goal: "
                 "TypeError",
@@ -83,9 +81,9 @@ class ActionTypeWrong(MessageRule):
                 "sender.py": "from std_msgs.msg import String\n"
                 + _NODE.format("self, String", _GOAL)
             },
-            Report("sender.py:10:42", "'String' is not an action type"),
+            Report("10:42", "'String' is not an action type"),
             Report(
-                "sender.py:13:37",
+                "13:37",
                 "example_interfaces/action/Fibonacci.Goal sent through the client "
                 "of line 10, which takes std_msgs/msg/String.Goal: TypeError",
             ),

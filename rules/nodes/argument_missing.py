@@ -61,8 +61,8 @@ class ArgumentMissing(RclpyRule):
         Example(
             "a callback, a node",
             {"talker.py": _NODE.format("0.1", "")},
-            Report("talker.py:8:9", "create_timer() is missing 'callback': TypeError"),
-            Report("talker.py:13:5", "spin() is missing 'node': TypeError"),
+            Report("8:9", "create_timer() is missing 'callback': TypeError"),
+            Report("13:5", "spin() is missing 'node': TypeError"),
         ),
         Example(
             "an action server without its callback",
@@ -72,7 +72,7 @@ class ArgumentMissing(RclpyRule):
                     "self.create_timer(0.1, print)", "ActionServer(self, Count, 'count')"
                 )
             },
-            Report("talker.py:9:9", "ActionServer() is missing 'execute_callback': TypeError"),
+            Report("9:9", "ActionServer() is missing 'execute_callback': TypeError"),
         ),
     )
 

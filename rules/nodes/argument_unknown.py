@@ -43,13 +43,13 @@ class ArgumentUnknown(RclpyRule):
             "positional",
             {"server.py": _CODE.format("", "", "", ", 0.1")},
             Report(
-                "server.py:16:16",
+                "16:16",
                 "rclpy.init() takes no positional arguments: TypeError; as "
                 "keywords: args, context, domain_id, signal_handler_options",
                 fix="pass it as args=",
             ),
             Report(
-                "server.py:17:31",
+                "17:31",
                 "rclpy.spin_once() takes at most 1 positional argument: TypeError; "
                 "as keywords: executor, timeout_sec",
                 fix="pass it as timeout_sec=",
@@ -60,11 +60,11 @@ class ArgumentUnknown(RclpyRule):
             "a depth for a service, and a keyword of ROS 1",
             {"server.py": _CODE.format(", 10", ", oneshot=True", "args=", "")},
             Report(
-                "server.py:11:54",
+                "11:54",
                 "create_service() takes at most 3 positional arguments: TypeError; "
                 "as keywords: callback_group, qos_profile",
             ),
-            Report("server.py:12:47", "create_timer() has no argument 'oneshot': TypeError"),
+            Report("12:47", "create_timer() has no argument 'oneshot': TypeError"),
         ),
         Example(
             "a misspelled keyword of a client",
@@ -75,7 +75,7 @@ class ArgumentUnknown(RclpyRule):
                 )
             },
             Report(
-                "server.py:12:67",
+                "12:67",
                 "wait_for_service() has no argument 'timeout': TypeError; did you "
                 "mean 'timeout_sec'?",
             ),
@@ -83,7 +83,7 @@ class ArgumentUnknown(RclpyRule):
         Example(
             "a message for the getter of the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
-            Report("server.py:10:25", "get_logger() takes no positional arguments: TypeError"),
+            Report("10:25", "get_logger() takes no positional arguments: TypeError"),
         ),
     )
 

@@ -63,20 +63,15 @@ class ArgumentUnusable(RclpyRule):
         Example(
             "an object, a str, mixed types",
             {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
-            Report(
-                "talker.py:8:31",
-                "this is an instance, not the message type; remove the parentheses",
-            ),
-            Report(
-                "talker.py:9:32", "the callback must be a function, but this is a str: TypeError"
-            ),
-            Report("talker.py:10:41", "a list parameter cannot mix float, int: TypeError"),
+            Report("8:31", "this is an instance, not the message type; remove the parentheses"),
+            Report("9:32", "the callback must be a function, but this is a str: TypeError"),
+            Report("10:41", "a list parameter cannot mix float, int: TypeError"),
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
             Report(
-                "talker.py:10:41",
+                "10:41",
                 "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
             ),
         ),
@@ -86,16 +81,14 @@ class ArgumentUnusable(RclpyRule):
                 "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
                 + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
             },
+            Report("10:28", "this is only a part of a service: RuntimeError; pass Trigger"),
             Report(
-                "asker.py:10:28", "this is only a part of a service: RuntimeError; pass Trigger"
-            ),
-            Report(
-                "asker.py:10:70",
+                "10:70",
                 "the callback group must be a CallbackGroup, but this is a str: AttributeError",
             ),
-            Report("asker.py:11:28", "'String' is not a service type: RuntimeError"),
-            Report("asker.py:11:36", "the name must be a str, but this is an int: TypeError"),
-            Report("asker.py:11:54", "this is a class, not a callback group; instantiate it"),
+            Report("11:28", "'String' is not a service type: RuntimeError"),
+            Report("11:36", "the name must be a str, but this is an int: TypeError"),
+            Report("11:54", "this is a class, not a callback group; instantiate it"),
         ),
     )
 

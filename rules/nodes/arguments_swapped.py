@@ -39,12 +39,12 @@ class ArgumentsSwapped(RclpyRule):
             "swapped",
             {"talker.py": _NODE.format("'chatter', String", "self.tick, 0.5")},
             Report(
-                "talker.py:8:31",
+                "8:31",
                 "swapped arguments: the type comes first, then the name 'chatter'",
                 fix="swap the arguments",
             ),
             Report(
-                "talker.py:9:27",
+                "9:27",
                 "swapped arguments: create_timer() takes the period first, then the callback",
                 fix="swap the arguments",
             ),

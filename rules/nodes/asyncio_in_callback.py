@@ -40,7 +40,7 @@ class AsyncioInCallback(RclpyRule):
             "asyncio",
             {"talker.py": _NODE.format("asyncio.sleep(0.1)")},
             Report(
-                "talker.py:12:9",
+                "12:9",
                 "asyncio.sleep() needs an asyncio event loop, which rclpy does not "
                 "run: RuntimeError",
             ),

@@ -49,9 +49,7 @@ class AttributeOfNodeReplaced(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format("publishers")},
-            Report(
-                "talker.py:7:9", "'publishers' is an attribute of rclpy's Node; choose another name"
-            ),
+            Report("7:9", "'publishers' is an attribute of rclpy's Node; choose another name"),
         ),
         Example(
             "a private attribute, and a method",
@@ -59,13 +57,8 @@ class AttributeOfNodeReplaced(RclpyRule):
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
-            Report(
-                "talker.py:7:9", "'_timers' is an attribute of rclpy's Node; choose another name"
-            ),
-            Report(
-                "talker.py:9:9",
-                "'timers' overrides an attribute of rclpy's Node; choose another name",
-            ),
+            Report("7:9", "'_timers' is an attribute of rclpy's Node; choose another name"),
+            Report("9:9", "'timers' overrides an attribute of rclpy's Node; choose another name"),
         ),
     )
 

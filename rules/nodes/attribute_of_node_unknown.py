@@ -69,11 +69,9 @@ class AttributeOfNodeUnknown(Rule):
         Example(
             "misspelled",
             {"talker.py": _NODE.format("on_tick", "publisher")},
+            Report("9:32", "neither Talker nor rclpy's Node has 'on_tick': AttributeError"),
             Report(
-                "talker.py:9:32", "neither Talker nor rclpy's Node has 'on_tick': AttributeError"
-            ),
-            Report(
-                "talker.py:12:9",
+                "12:9",
                 "neither Talker nor rclpy's Node has 'publisher': AttributeError; "
                 "did you mean 'publishers'?",
             ),

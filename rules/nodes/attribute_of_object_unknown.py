@@ -45,7 +45,7 @@ class AttributeOfObjectUnknown(Rule):
         Example(
             "unknown",
             {"talker.py": _NODE.format("send")},
-            Report("talker.py:11:9", "rclpy's Publisher has no 'send': AttributeError"),
+            Report("11:9", "rclpy's Publisher has no 'send': AttributeError"),
         ),
     )
 

@@ -37,7 +37,7 @@ class AttributeUsedBeforeSet(RclpyRule):
         Example(
             "used first",
             {"talker.py": _NODE.format(_USE + _MAKE)},
-            Report("talker.py:8:9", "self.pub is used before it is set in line 9: AttributeError"),
+            Report("8:9", "self.pub is used before it is set in line 9: AttributeError"),
         ),
     )
 

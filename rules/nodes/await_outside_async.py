@@ -34,7 +34,7 @@ class AwaitOutsideAsync(PythonRule):
         Example(
             "not async",
             {"caller.py": _NODE.format("")},
-            Report("caller.py:6:9", "'await' outside an async function: SyntaxError"),
+            Report("6:9", "'await' outside an async function: SyntaxError"),
         ),
     )
 

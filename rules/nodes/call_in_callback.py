@@ -53,7 +53,7 @@ class CallInCallback(RclpyRule):
             "a call",
             {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
             Report(
-                "caller.py:12:9",
+                "12:9",
                 "waits for a service response in callback 'ask': deadlock, no "
                 "response is processed meanwhile",
             ),
@@ -67,7 +67,7 @@ class CallInCallback(RclpyRule):
                 )
             },
             Report(
-                "caller.py:13:9",
+                "13:9",
                 "waits for an action result in callback 'ask': deadlock, no "
                 "response is processed meanwhile",
             ),
@@ -81,7 +81,7 @@ class CallInCallback(RclpyRule):
                 )
             },
             Report(
-                "caller.py:13:9",
+                "13:9",
                 "busy-waits for a future in callback 'ask': deadlock, no response "
                 "is processed meanwhile",
             ),

@@ -76,12 +76,10 @@ class CallbackArity(RclpyRule):
             "no parameter, two parameters",
             {"listener.py": _ASKING.format("", "", ", future, other")},
             Report(
-                "listener.py:10:34",
-                "callback 'log' takes 0 arguments, but a future passes itself: TypeError",
+                "10:34", "callback 'log' takes 0 arguments, but a future passes itself: TypeError"
             ),
             Report(
-                "listener.py:11:34",
-                "callback 'end' takes 3 arguments, but a future passes itself: TypeError",
+                "11:34", "callback 'end' takes 3 arguments, but a future passes itself: TypeError"
             ),
         ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
@@ -89,7 +87,7 @@ class CallbackArity(RclpyRule):
             "no parameter",
             {"listener.py": _NODE.format("")},
             Report(
-                "listener.py:8:53",
+                "8:53",
                 "callback 'hear' takes 0 arguments, but a subscription passes the "
                 "message: RuntimeError",
             ),
@@ -97,17 +95,14 @@ class CallbackArity(RclpyRule):
         Example(
             "a timer, a service, an action server",
             {"server.py": _SERVER},
+            Report("10:32", "callback 'tick' takes 1 argument, but a timer passes none: TypeError"),
             Report(
-                "server.py:10:32",
-                "callback 'tick' takes 1 argument, but a timer passes none: TypeError",
-            ),
-            Report(
-                "server.py:11:48",
+                "11:48",
                 "callback 'report' takes 1 argument, but a service passes the "
                 "request and the response: TypeError",
             ),
             Report(
-                "server.py:12:62",
+                "12:62",
                 "callback 'execute' takes 0 arguments, but an action server passes "
                 "the goal handle: the goal is aborted",
             ),

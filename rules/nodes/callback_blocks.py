@@ -61,7 +61,7 @@ class CallbackBlocks(RclpyRule):
             "a sleep",
             {"talker.py": _NODE.format("time.sleep(1.0)")},
             Report(
-                "talker.py:12:9",
+                "12:9",
                 "time.sleep(1) blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
@@ -69,7 +69,7 @@ class CallbackBlocks(RclpyRule):
             "a server",
             {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
             Report(
-                "talker.py:13:9",
+                "13:9",
                 "requests.get() blocks callback 'tick', and with it all other "
                 "callbacks of the node",
             ),
@@ -78,7 +78,7 @@ class CallbackBlocks(RclpyRule):
             "user input",
             {"talker.py": _NODE.format("input()")},
             Report(
-                "talker.py:12:9",
+                "12:9",
                 "input() blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
@@ -87,7 +87,7 @@ class CallbackBlocks(RclpyRule):
             "without a timeout",
             {"caller.py": _CALLER.format("")},
             Report(
-                "caller.py:9:9",
+                "9:9",
                 "wait_for_service() without timeout_sec blocks the constructor of "
                 "Caller until the server is available",
             ),

@@ -37,7 +37,7 @@ class CallbackCalled(RclpyRule):
             "called",
             {"talker.py": _NODE.format("self.tick()")},
             Report(
-                "talker.py:7:32",
+                "7:32",
                 "self.tick() is called here: its return value becomes the callback",
                 fix="remove the parentheses",
             ),

@@ -40,7 +40,7 @@ class DefaultOutOfRange(RclpyRule):
             "too large",
             {"talker.py": _NODE.format("", "5.0")},
             Report(
-                "talker.py:10:40",
+                "10:40",
                 "default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
                 "InvalidParameterValueException",
             ),
@@ -49,7 +49,7 @@ class DefaultOutOfRange(RclpyRule):
             "between two steps",
             {"talker.py": _NODE.format(", step=0.1", "0.25")},
             Report(
-                "talker.py:10:40",
+                "10:40",
                 "default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of "
                 "the descriptor: InvalidParameterValueException",
             ),
@@ -58,7 +58,7 @@ class DefaultOutOfRange(RclpyRule):
             "an integer with a range of doubles",
             {"talker.py": _NODE.format("", "1")},
             Report(
-                "talker.py:10:40",
+                "10:40",
                 "default 1 is an integer: the double range of the descriptor is "
                 "ignored; use integer_range",
             ),

@@ -40,10 +40,7 @@ class EndlessLoop(RclpyRule):
         Example(
             "a loop",
             {"talker.py": _NODE.format(_LOOP)},
-            Report(
-                "talker.py:8:9",
-                "endless loop: the constructor of Talker never returns; use a timer",
-            ),
+            Report("8:9", "endless loop: the constructor of Talker never returns; use a timer"),
         ),
         Example(
             "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}

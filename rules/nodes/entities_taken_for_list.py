@@ -50,25 +50,18 @@ class EntitiesTakenForList(RclpyRule):
             "appended to",
             _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
             Report(
-                "talker.py:8:9",
-                "'publishers' is a property of Node that returns a generator: AttributeError",
+                "8:9", "'publishers' is a property of Node that returns a generator: AttributeError"
             ),
         ),
         Example(
             "indexed",
             _files("self.clients['a'] = None"),
-            Report(
-                "talker.py:8:9",
-                "'clients' is a property of Node that returns a generator: TypeError",
-            ),
+            Report("8:9", "'clients' is a property of Node that returns a generator: TypeError"),
         ),
         Example(
             "its length",
             _files("print(len(self.timers))"),
-            Report(
-                "talker.py:8:19",
-                "'timers' is a property of Node that returns a generator: TypeError",
-            ),
+            Report("8:19", "'timers' is a property of Node that returns a generator: TypeError"),
         ),
     )
 

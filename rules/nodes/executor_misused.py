@@ -42,22 +42,17 @@ class ExecutorMisused(RclpyRule):
         Example(
             "a class",
             {"talker.py": _NODE.format(_ADD.replace("node)", "Talker)") + _SPIN)},
-            Report("talker.py:16:23", "'Talker' is a class, not a node: TypeError; write Talker()"),
+            Report("16:23", "'Talker' is a class, not a node: TypeError; write Talker()"),
         ),
         Example(
             "no node",
             {"talker.py": _NODE.format(_SPIN)},
-            Report(
-                "talker.py:16:5",
-                "executor without nodes: no callback ever runs; call add_node() first",
-            ),
+            Report("16:5", "executor without nodes: no callback ever runs; call add_node() first"),
         ),
         Example(
             "not spun",
             {"talker.py": _NODE.format(_ADD)},
-            Report(
-                "talker.py:15:16", "executor is never spun: the callbacks of its nodes never run"
-            ),
+            Report("15:16", "executor is never spun: the callbacks of its nodes never run"),
         ),
     )
 

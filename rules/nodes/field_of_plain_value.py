@@ -34,10 +34,7 @@ class FieldOfPlainValue(RclpyRule):
         Example(
             "a field of the value",
             {"talker.py": _NODE.format(".value")},
-            Report(
-                "talker.py:8:21",
-                "'.value' is the value itself, without 'double_value': AttributeError",
-            ),
+            Report("8:21", "'.value' is the value itself, without 'double_value': AttributeError"),
         ),
     )
 

@@ -38,9 +38,7 @@ class FileOfAuthor(Rule):
         Example(
             "in a home directory",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
-            Report(
-                "talker.py:5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"
-            ),
+            Report("5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"),
         ),
         Example(
             "a relative path",

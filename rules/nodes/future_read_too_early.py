@@ -44,16 +44,14 @@ class FutureReadTooEarly(RclpyRule):
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
             Report(
-                "caller.py:7:16",
-                "'future' is not done here: result() returns None; use add_done_callback()",
+                "7:16", "'future' is not done here: result() returns None; use add_done_callback()"
             ),
         ),
         Example(
             "in the callback, called directly",
             {"caller.py": _NODE.format("self.answer(future)")},
             Report(
-                "caller.py:7:9",
-                "'future' is not done here: result() returns None; use add_done_callback()",
+                "7:9", "'future' is not done here: result() returns None; use add_done_callback()"
             ),
         ),
     )

@@ -49,7 +49,7 @@ class GoalNeverSucceeds(Rule):
             "sets no state",
             {"server.py": _NODE.format("")},
             Report(
-                "server.py:15:9",
+                "15:9",
                 "result returned without succeed(): goals of the action server of "
                 "line 9 end as aborted",
             ),

@@ -26,7 +26,7 @@ class ImportFromRclpy(PythonRule):
         Example(
             "from the package",
             {"talker.py": "from rclpy import Node\n"},
-            Report("talker.py:1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"),
+            Report("1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"),
         ),
     )
 

@@ -29,10 +29,7 @@ class InitAsContextManager(RclpyRule):
         Example(
             "a with statement",
             {"talker.py": _WITH},
-            Report(
-                "talker.py:5:10",
-                "rclpy.init() is not a context manager on Jazzy: TypeError at start",
-            ),
+            Report("5:10", "rclpy.init() is not a context manager on Jazzy: TypeError at start"),
         ),
     )
 

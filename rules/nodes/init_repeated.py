@@ -33,7 +33,7 @@ class InitRepeated(RclpyRule):
         Example(
             "twice",
             {"talker.py": _MAIN.format("    rclpy.init()\n")},
-            Report("talker.py:6:5", "rclpy.init() is already called in line 5: RuntimeError"),
+            Report("6:5", "rclpy.init() is already called in line 5: RuntimeError"),
         ),
         Example(
             "in the constructor of a node",
@@ -45,10 +45,7 @@ class InitRepeated(RclpyRule):
                 "        rclpy.init()\n"
                 "        super().__init__('talker')\n"
             },
-            Report(
-                "talker.py:13:9",
-                "rclpy.init() is called before this node is constructed: RuntimeError",
-            ),
+            Report("13:9", "rclpy.init() is called before this node is constructed: RuntimeError"),
         ),
     )
 

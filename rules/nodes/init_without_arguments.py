@@ -30,7 +30,7 @@ class InitWithoutArguments(RclpyRule):
             "an empty list",
             {"talker.py": _MAIN.format("args=[]")},
             Report(
-                "talker.py:5:21",
+                "5:21",
                 "an empty list replaces the command line: --ros-args have no effect",
                 fix="pass the arguments on",
             ),

@@ -35,7 +35,7 @@ class LogFPrefixMissing(RclpyRule):
         Example(
             "a missing f prefix",
             {"talker.py": _NODE.format("'heard {text}'")},
-            Report("talker.py:6:32", "{text} is logged literally: the string has no f prefix"),
+            Report("6:32", "{text} is logged literally: the string has no f prefix"),
         ),
     )
 

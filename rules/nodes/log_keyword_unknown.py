@@ -44,7 +44,7 @@ class LogKeywordUnknown(RclpyRule):
             "unknown option",
             {"talker.py": _NODE.format("text, throttle=1.0")},
             Report(
-                "talker.py:6:38",
+                "6:38",
                 "a logger has no option 'throttle': TypeError; did you mean "
                 "'throttle_duration_sec'?",
             ),

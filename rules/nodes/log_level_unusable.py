@@ -48,14 +48,14 @@ class LogLevelUnusable(RclpyRule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'debug'")},
-            Report("talker.py:8:37", "'debug' is not a LoggingSeverity: ValueError"),
-            Report("talker.py:9:36", "'debug' is not a LoggingSeverity: ValueError"),
+            Report("8:37", "'debug' is not a LoggingSeverity: ValueError"),
+            Report("9:36", "'debug' is not a LoggingSeverity: ValueError"),
         ),
         Example(
             "a number",
             {"talker.py": _NODE.format("1")},
-            Report("talker.py:8:37", "1 is not a LoggingSeverity: ValueError"),
-            Report("talker.py:9:36", "1 is not a LoggingSeverity: ValueError"),
+            Report("8:37", "1 is not a LoggingSeverity: ValueError"),
+            Report("9:36", "1 is not a LoggingSeverity: ValueError"),
         ),
     )
 

@@ -42,20 +42,18 @@ class LogMessageNotText(RclpyRule):
         Example(
             "a number",
             {"talker.py": _NODE.format("42")},
-            Report(
-                "talker.py:6:32", "log message is not a str: TypeError", fix="convert it to a str"
-            ),
+            Report("6:32", "log message is not a str: TypeError", fix="convert it to a str"),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
         Example(
             "arguments to format",
             {"talker.py": _NODE.format("'%d', 42")},
-            Report("talker.py:6:38", "loggers do not format arguments: TypeError; use an f-string"),
+            Report("6:38", "loggers do not format arguments: TypeError; use an f-string"),
         ),
         Example(
             "a number added",
             {"talker.py": _NODE.format("'heard ' + 1")},
-            Report("talker.py:6:32", "a number is added to a str: TypeError; use an f-string"),
+            Report("6:32", "a number is added to a str: TypeError; use an f-string"),
         ),
     )
 

@@ -37,9 +37,7 @@ class LogSeverityVaries(RclpyRule):
         Example(
             "a conditional method",
             {"talker.py": _NODE.format(_CHOICE)},
-            Report(
-                "talker.py:6:15", "log statement with two severities: ValueError; write two calls"
-            ),
+            Report("6:15", "log statement with two severities: ValueError; write two calls"),
         ),
     )
 

@@ -38,7 +38,7 @@ class LoopVariableInLambda(RclpyRule):
             "not bound",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
             Report(
-                "listener.py:9:52",
+                "9:52",
                 "'name' is read when the callback runs: all callbacks get the last "
                 "value; bind it: name=name",
             ),

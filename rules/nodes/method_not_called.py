@@ -43,19 +43,14 @@ class MethodNotCalled(Rule):
         Example(
             "not called: for its result, as conditions, as a statement",
             {"talker.py": _NODE.format("", "", "", "", "")},
+            Report("10:22", "'get_clock' is a method that is not called; write get_clock()"),
+            Report("11:15", "rclpy.ok is a function: always true; write rclpy.ok()"),
             Report(
-                "talker.py:10:22", "'get_clock' is a method that is not called; write get_clock()"
-            ),
-            Report("talker.py:11:15", "rclpy.ok is a function: always true; write rclpy.ok()"),
-            Report(
-                "talker.py:11:32",
+                "11:32",
                 "'service_is_ready' is a method that is not called; write service_is_ready()",
             ),
-            Report(
-                "talker.py:13:9",
-                "'destroy_node' is a method that is not called; write destroy_node()",
-            ),
-            Report("talker.py:14:9", "rclpy.shutdown is not called; add the parentheses"),
+            Report("13:9", "'destroy_node' is a method that is not called; write destroy_node()"),
+            Report("14:9", "rclpy.shutdown is not called; add the parentheses"),
         ),
     )
 

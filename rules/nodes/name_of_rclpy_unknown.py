@@ -39,17 +39,17 @@ class NameOfRclpyUnknown(Rule):
         Example(
             "a module and an import",
             {"talker.py": "from rclpy.nodes import Node\nfrom rclpy.qos import Reliability\n"},
-            Report("talker.py:1:1", "rclpy has no 'nodes': ImportError; did you mean 'node'?"),
+            Report("1:1", "rclpy has no 'nodes': ImportError; did you mean 'node'?"),
             Report(
-                "talker.py:2:23",
+                "2:23",
                 "rclpy.qos has no 'Reliability': ImportError; did you mean 'ReliabilityPolicy'?",
             ),
         ),
         Example(
             "a function and a member",
             {"talker.py": _CODE.format("qos", "ReliabilityPolicy", "initialize", "SURE")},
-            Report("talker.py:4:1", "rclpy has no 'initialize': AttributeError"),
-            Report("talker.py:5:7", "rclpy.qos.ReliabilityPolicy has no 'SURE': AttributeError"),
+            Report("4:1", "rclpy has no 'initialize': AttributeError"),
+            Report("5:7", "rclpy.qos.ReliabilityPolicy has no 'SURE': AttributeError"),
         ),
     )
 

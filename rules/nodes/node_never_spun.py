@@ -43,16 +43,14 @@ class NodeNeverSpun(RclpyRule):
             "never spun",
             {"talker.py": _NODE.format("")},
             Report(
-                "talker.py:16:12",
-                "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+                "16:12", "nothing spins this Talker: its callbacks never run; call rclpy.spin()"
             ),
         ),
         Example(
             "sleeping in a loop",
             {"talker.py": _NODE.format("    time.sleep(9)\n")},
             Report(
-                "talker.py:16:12",
-                "nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+                "16:12", "nothing spins this Talker: its callbacks never run; call rclpy.spin()"
             ),
         ),
         Example(
@@ -70,9 +68,7 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "spun once",
             {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
-            Report(
-                "talker.py:17:5", "spin_once() outside a loop runs at most one callback; use spin()"
-            ),
+            Report("17:5", "spin_once() outside a loop runs at most one callback; use spin()"),
         ),
     )
 

@@ -37,36 +37,30 @@ class NodeNotConstructed(RclpyRule):
         Example(
             "without a name",
             {"talker.py": _NODE.format("__init__", _INIT.replace("'talker'", ""))},
-            Report("talker.py:6:9", "Node.__init__() is called without a node name: TypeError"),
+            Report("6:9", "Node.__init__() is called without a node name: TypeError"),
         ),
         Example(
             "without parentheses",
             {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "super"))},
-            Report(
-                "talker.py:6:9", "'super' is not called: TypeError; write super().__init__(...)"
-            ),
+            Report("6:9", "'super' is not called: TypeError; write super().__init__(...)"),
         ),
         Example(
             "too late",
             {"talker.py": _NODE.format("__init__", "") + _INIT},
             Report(
-                "talker.py:6:9",
-                "self.create_timer is used before Node.__init__() in line 7: AttributeError",
+                "6:9", "self.create_timer is used before Node.__init__() in line 7: AttributeError"
             ),
         ),
         Example(
             "misspelled",
             {"talker.py": _NODE.format("_init_", _INIT)},
-            Report(
-                "talker.py:5:9",
-                "'_init_' is never called as a constructor; did you mean '__init__'?",
-            ),
+            Report("5:9", "'_init_' is never called as a constructor; did you mean '__init__'?"),
         ),
         Example(
             "without self",
             {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "Node"))},
             Report(
-                "talker.py:6:9",
+                "6:9",
                 "Node.__init__() is called without self: TypeError; write super().__init__(...)",
             ),
         ),

@@ -39,12 +39,12 @@ class NodeWithoutBase(RclpyRule):
         Example(
             "no base class",
             {"talker.py": _NODE.format("")},
-            Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
         ),
         Example(
             "object as base class",
             {"talker.py": _NODE.format("(object)")},
-            Report("talker.py:4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
         ),
     )
 

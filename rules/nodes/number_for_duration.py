@@ -43,22 +43,15 @@ class NumberForDuration(RclpyRule):
         Example(
             "numbers",
             {"talker.py": _NODE.format("1.0", "5.0")},
+            Report("8:22", "Time plus or minus a number: TypeError; use Duration(seconds=...)"),
             Report(
-                "talker.py:8:22",
-                "Time plus or minus a number: TypeError; use Duration(seconds=...)",
-            ),
-            Report(
-                "talker.py:11:16",
-                "Duration compared with a number: TypeError; use Duration(seconds=...)",
+                "11:16", "Duration compared with a number: TypeError; use Duration(seconds=...)"
             ),
         ),
         Example(
             "a positional argument",
             {"talker.py": _NODE.format("Duration(1.0)", "Duration(seconds=5.0)")},
-            Report(
-                "talker.py:8:47",
-                "Duration() takes only keyword arguments: TypeError; write seconds=...",
-            ),
+            Report("8:47", "Duration() takes only keyword arguments: TypeError; write seconds=..."),
         ),
     )
 

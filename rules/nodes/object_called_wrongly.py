@@ -55,17 +55,15 @@ class ObjectCalledWrongly(RclpyRule):
             "four calls",
             {"talker.py": _NODE.format("()", "Trigger()", "self.done()", "")},
             Report(
-                "talker.py:10:55",
+                "10:55",
                 "qos_profile_sensor_data is a profile, not a function: TypeError; remove the ()",
             ),
-            Report("talker.py:13:9", "done() is called here; pass the function itself, without ()"),
+            Report("13:9", "done() is called here; pass the function itself, without ()"),
             Report(
-                "talker.py:13:32",
+                "13:32",
                 "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
             ),
-            Report(
-                "talker.py:16:9", "a Publisher is not callable: TypeError; call one of its methods"
-            ),
+            Report("16:9", "a Publisher is not callable: TypeError; call one of its methods"),
         ),
         Example(
             "a class of a module named action",
@@ -78,10 +76,7 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
-            Report(
-                "talker.py:12:22",
-                "'nanoseconds' is a property, not a method: TypeError; remove the ()",
-            ),
+            Report("12:22", "'nanoseconds' is a property, not a method: TypeError; remove the ()"),
         ),
     )
 

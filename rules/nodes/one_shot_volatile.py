@@ -41,7 +41,7 @@ class OneShotVolatile(RclpyRule):
             "volatile",
             {"server.py": _NODE.format("1")},
             Report(
-                "server.py:11:9",
+                "11:9",
                 "the only message on 'map' is published in the constructor: later "
                 "subscribers miss it; use TRANSIENT_LOCAL",
             ),

@@ -51,22 +51,22 @@ class OwnCallUnfit(Rule):
         Example(
             "a constructor",
             {"talker.py": _NODE.format("'a'") + "\n\nTALKER = Talker('talker')\n"},
-            Report("talker.py:16:10", "Talker() takes no arguments, but gets 1: TypeError"),
+            Report("16:10", "Talker() takes no arguments, but gets 1: TypeError"),
         ),
         Example(
             "no argument",
             {"talker.py": _NODE.format("")},
-            Report("talker.py:9:9", "talk() is missing 'text': TypeError"),
+            Report("9:9", "talk() is missing 'text': TypeError"),
         ),
         Example(
             "too many arguments",
             {"talker.py": _NODE.format("'a', 2, 3")},
-            Report("talker.py:9:9", "talk() takes 2 arguments, but gets 3: TypeError"),
+            Report("9:9", "talk() takes 2 arguments, but gets 3: TypeError"),
         ),
         Example(
             "an unknown keyword",
             {"talker.py": _NODE.format("txt='a'")},
-            Report("talker.py:9:9", "talk() has no argument 'txt': TypeError"),
+            Report("9:9", "talk() has no argument 'txt': TypeError"),
         ),
         Example(
             "overridden in a subclass, or reassigned",

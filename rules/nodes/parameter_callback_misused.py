@@ -41,16 +41,12 @@ class ParameterCallbackMisused(RclpyRule):
         Example(
             "called",
             {"talker.py": _NODE.format("self.on_set([])", "[0]")},
-            Report(
-                "talker.py:9:45", "self.on_set([]) is called here: TypeError; pass it without ()"
-            ),
+            Report("9:45", "self.on_set([]) is called here: TypeError; pass it without ()"),
         ),
         Example(
             "a str",
             {"talker.py": _NODE.format("'on_set'", "[0]")},
-            Report(
-                "talker.py:9:45", "the callback must be a function, but this is a str: TypeError"
-            ),
+            Report("9:45", "the callback must be a function, but this is a str: TypeError"),
         ),
         Example(
             "the list as a parameter, as a dict",
@@ -77,13 +73,8 @@ class ParameterCallbackMisused(RclpyRule):
                     "        return",
                 )
             },
-            Report(
-                "talker.py:13:22",
-                "'parameters' is a list of parameters, not a dict: AttributeError",
-            ),
-            Report(
-                "talker.py:14:28", "'parameters' is a list of parameters, not of pairs: TypeError"
-            ),
+            Report("13:22", "'parameters' is a list of parameters, not a dict: AttributeError"),
+            Report("14:28", "'parameters' is a list of parameters, not of pairs: TypeError"),
         ),
     )
 

@@ -39,10 +39,9 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a str; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
-            Report("talker.py:8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
+            Report("8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
             Report(
-                "talker.py:9:38",
-                "expected name, default and descriptor, but this has 4 values: TypeError",
+                "9:38", "expected name, default and descriptor, but this has 4 values: TypeError"
             ),
         ),
         Example(
@@ -55,12 +54,9 @@ class ParameterDeclaredWrongly(RclpyRule):
                 )
             },
             Report(
-                "talker.py:8:45",
-                "floating_point_range must be a list with one range, not a range: TypeError",
+                "8:45", "floating_point_range must be a list with one range, not a range: TypeError"
             ),
-            Report(
-                "talker.py:9:55", "expected a ParameterDescriptor object, not the class: TypeError"
-            ),
+            Report("9:55", "expected a ParameterDescriptor object, not the class: TypeError"),
         ),
         Example(
             "a class that is not a node",
@@ -73,7 +69,7 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a number",
             {"talker.py": _NODE.format("1.0", "None", "")},
-            Report("talker.py:8:32", "the parameter name must be a str, not 1.0: TypeError"),
+            Report("8:32", "the parameter name must be a str, not 1.0: TypeError"),
         ),
     )
 

@@ -54,22 +54,15 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "no default",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
-            Report(
-                "talker.py:9:40", "parameter 'rate' needs a default or a Parameter.Type: ValueError"
-            ),
-            Report(
-                "talker.py:10:47",
-                "parameter 'mode' needs a default or a Parameter.Type: ValueError",
-            ),
+            Report("9:40", "parameter 'rate' needs a default or a Parameter.Type: ValueError"),
+            Report("10:47", "parameter 'mode' needs a default or a Parameter.Type: ValueError"),
         ),
         Example(
             "a class; a constant of ParameterType",
             {"talker.py": _NODE.format("float", "", "ParameterType.PARAMETER_STRING")},
+            Report("9:40", "expected Parameter.Type.DOUBLE, not the class 'float': TypeError"),
             Report(
-                "talker.py:9:40", "expected Parameter.Type.DOUBLE, not the class 'float': TypeError"
-            ),
-            Report(
-                "talker.py:10:47",
+                "10:47",
                 "this constant makes the parameter an integer; expected Parameter.Type.STRING",
             ),
         ),
@@ -90,18 +83,12 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "only a name",
             {"talker.py": _PLAIN.format("'rate'")},
-            Report(
-                "talker.py:7:32",
-                "parameter 'rate' has no default: its value is None until it is set",
-            ),
+            Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
         ),
         Example(
             "an empty list",
             {"talker.py": _PLAIN.format("'names', []")},
-            Report(
-                "talker.py:7:32",
-                "parameter 'names' becomes a byte array: the default is an empty list",
-            ),
+            Report("7:32", "parameter 'names' becomes a byte array: the default is an empty list"),
         ),
     )
 

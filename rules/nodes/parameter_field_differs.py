@@ -65,7 +65,7 @@ class ParameterFieldDiffers(Rule):
             "another field",
             {"talker.py": _NODE.format("integer_value")},
             Report(
-                "talker.py:8:23",
+                "8:23",
                 "'period' is declared as double: integer_value is always empty; use double_value",
                 unsafe_fix="read the field of the declared type",
             ),
@@ -75,7 +75,7 @@ class ParameterFieldDiffers(Rule):
             "through variables",
             {"talker.py": _VARIABLES.format("string_value")},
             Report(
-                "talker.py:9:23",
+                "9:23",
                 "'period' is declared as double: string_value is always empty; use double_value",
                 unsafe_fix="read the field of the declared type",
             ),

@@ -49,8 +49,8 @@ class ParameterMadeWrongly(RclpyRule):
         Example(
             "no pairs, a type without a value",
             {"talker.py": _NODE.format("'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]")},
-            Report("talker.py:8:38", "expected a pair ('name', default): TypeError"),
-            Report("talker.py:9:45", "type without a value: ValueError"),
+            Report("8:38", "expected a pair ('name', default): TypeError"),
+            Report("9:45", "type without a value: ValueError"),
         ),
         Example(
             "a value in place of the type, another type",
@@ -60,11 +60,8 @@ class ParameterMadeWrongly(RclpyRule):
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
                 )
             },
-            Report("talker.py:9:48", "the second argument is the type: TypeError; write value=..."),
-            Report(
-                "talker.py:9:95",
-                "type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
-            ),
+            Report("9:48", "the second argument is the type: TypeError; write value=..."),
+            Report("9:95", "type is Parameter.Type.DOUBLE, but the value is a str: ValueError"),
         ),
     )
 

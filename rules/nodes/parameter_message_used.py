@@ -38,26 +38,17 @@ class ParameterMessageUsed(RclpyRule):
         Example(
             "used in arithmetic",
             {"talker.py": _NODE.format("")},
-            Report(
-                "talker.py:8:24",
-                "get_parameter_value() returns a message, not the value; use .value",
-            ),
+            Report("8:24", "get_parameter_value() returns a message, not the value; use .value"),
         ),
         Example(
             "compared",
             {"talker.py": _NODE.format(" > 1.0").replace("1.0 / ", "")},
-            Report(
-                "talker.py:8:18",
-                "get_parameter_value() returns a message, not the value; use .value",
-            ),
+            Report("8:18", "get_parameter_value() returns a message, not the value; use .value"),
         ),
         Example(
             "used as a period",
             {"talker.py": _NODE.format("").replace("1.0 / ", "")},
-            Report(
-                "talker.py:9:27",
-                "get_parameter_value() returns a message, not the value; use .value",
-            ),
+            Report("9:27", "get_parameter_value() returns a message, not the value; use .value"),
         ),
     )
 

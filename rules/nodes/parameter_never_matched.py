@@ -51,14 +51,13 @@ class ParameterNeverMatched(Rule):
             "another name",
             {"talker.py": _NODE.format("rates", "DOUBLE")},
             Report(
-                "talker.py:14:28",
-                "never true: the node declares no parameter 'rates'; did you mean 'rate'?",
+                "14:28", "never true: the node declares no parameter 'rates'; did you mean 'rate'?"
             ),
         ),
         Example(
             "another type",
             {"talker.py": _NODE.format("rate", "INTEGER")},
-            Report("talker.py:14:52", "never true: 'rate' is declared as double, not INTEGER"),
+            Report("14:52", "never true: 'rate' is declared as double, not INTEGER"),
         ),
     )
 

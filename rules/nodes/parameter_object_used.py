@@ -46,7 +46,7 @@ class ParameterObjectUsed(RclpyRule):
             "the object",
             {"talker.py": _NODE.format("")},
             Report(
-                "talker.py:8:16",
+                "8:16",
                 "this is the Parameter (used in line 9), not its value; append .value",
                 fix="append .value",
             ),
@@ -56,19 +56,15 @@ class ParameterObjectUsed(RclpyRule):
             "a condition, a comparison, a name",
             {"talker.py": _OTHERS.format("", "", "")},
             Report(
-                "talker.py:7:17",
+                "7:17",
                 "this is the Parameter (used in line 10), not its value; append .value",
                 fix="append .value",
             ),
             Report(
-                "talker.py:8:12",
-                "this is the Parameter, not its value; append .value",
-                fix="append .value",
+                "8:12", "this is the Parameter, not its value; append .value", fix="append .value"
             ),
             Report(
-                "talker.py:9:27",
-                "this is the Parameter, not its value; append .value",
-                fix="append .value",
+                "9:27", "this is the Parameter, not its value; append .value", fix="append .value"
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),

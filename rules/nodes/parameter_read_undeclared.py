@@ -54,7 +54,7 @@ class ParameterReadUndeclared(Rule):
             "another parameter declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
             Report(
-                "talker.py:8:21",
+                "8:21",
                 "parameter 'rate' is not declared: ParameterNotDeclaredException; "
                 "did you mean 'rates'?",
             ),
@@ -63,12 +63,12 @@ class ParameterReadUndeclared(Rule):
             "read in a list, undeclared",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
             Report(
-                "talker.py:9:46",
+                "9:46",
                 "parameter 'rats' is not declared: ParameterNotDeclaredException; "
                 "did you mean 'rate'?",
             ),
             Report(
-                "talker.py:10:34",
+                "10:34",
                 "parameter 'rates' is not declared: ParameterNotDeclaredException; "
                 "did you mean 'rate'?",
             ),
@@ -77,7 +77,7 @@ class ParameterReadUndeclared(Rule):
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
             Report(
-                "talker.py:7:21",
+                "7:21",
                 "parameter 'rate' is read before it is declared in line 8: "
                 "ParameterNotDeclaredException",
             ),

@@ -35,7 +35,7 @@ class ParameterRepeated(RclpyRule):
             "one parameter twice",
             {"talker.py": _NODE.format("rate")},
             Report(
-                "talker.py:8:32",
+                "8:32",
                 "parameter 'rate' is already declared in line 7: ParameterAlreadyDeclaredException",
             ),
         ),
@@ -43,7 +43,7 @@ class ParameterRepeated(RclpyRule):
             "a parameter of every node",
             {"talker.py": _NODE.format("use_sim_time")},
             Report(
-                "talker.py:8:32",
+                "8:32",
                 "'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
             ),
         ),

@@ -59,15 +59,10 @@ class ParameterResultMissing(RclpyRule):
         Example(
             "nothing, a bool, a rejection",
             {"talker.py": _NODE.format("parameters", _MIXED)},
+            Report("10:9", "on_set() does not return a SetParametersResult on every path"),
+            Report("12:13", "returns True, not a SetParametersResult: every change is rejected"),
             Report(
-                "talker.py:10:9", "on_set() does not return a SetParametersResult on every path"
-            ),
-            Report(
-                "talker.py:12:13",
-                "returns True, not a SetParametersResult: every change is rejected",
-            ),
-            Report(
-                "talker.py:14:13",
+                "14:13",
                 "returns a SetParametersResult without successful=True: every change is rejected",
             ),
         ),
@@ -75,17 +70,14 @@ class ParameterResultMissing(RclpyRule):
             "never set",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
             Report(
-                "talker.py:12:9",
+                "12:9",
                 "returns a SetParametersResult without successful=True: every change is rejected",
             ),
         ),
         Example(
             "no argument",
             {"talker.py": _NODE.format("", _RIGHT)},
-            Report(
-                "talker.py:10:9",
-                "on_set() takes 0 arguments, but gets 1, the parameters: TypeError",
-            ),
+            Report("10:9", "on_set() takes 0 arguments, but gets 1, the parameters: TypeError"),
         ),
         Example(
             "a lambda, a coroutine, a generator",

@@ -43,7 +43,7 @@ class ParameterSetRefused(Rule):
             "another type",
             {"talker.py": _NODE.format("", "value=2")},
             Report(
-                "talker.py:12:30",
+                "12:30",
                 "'rate' (talker.py:9) is declared as double, but this is an "
                 "integer: it keeps its value",
             ),
@@ -51,13 +51,13 @@ class ParameterSetRefused(Rule):
         Example(
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
-            Report("talker.py:12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
+            Report("12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
         ),
         Example(
             "no value",
             {"talker.py": _NODE.format("", "")},
             Report(
-                "talker.py:12:30",
+                "12:30",
                 "'rate' (talker.py:9) is declared as double, but this has no value: "
                 "it keeps its value",
             ),

@@ -36,17 +36,13 @@ class ParameterValueCalled(RclpyRule):
             "called",
             {"talker.py": _NODE.format("value()")},
             Report(
-                "talker.py:8:21",
-                "'value' is a property of Parameter, not a method: TypeError; remove the ()",
+                "8:21", "'value' is a property of Parameter, not a method: TypeError; remove the ()"
             ),
         ),
         Example(
             "a field of the message",
             {"talker.py": _NODE.format("get_parameter_value().double_value()")},
-            Report(
-                "talker.py:8:21",
-                "'double_value' is a field, not a method: TypeError; remove the ()",
-            ),
+            Report("8:21", "'double_value' is a field, not a method: TypeError; remove the ()"),
         ),
     )
 

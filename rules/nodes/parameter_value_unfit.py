@@ -49,9 +49,7 @@ class ParameterValueUnfit(Rule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'2.0'")},
-            Report(
-                "talker.py:11:27", "'rate' is declared as string, but 1.0 is a number: TypeError"
-            ),
+            Report("11:27", "'rate' is declared as string, but 1.0 is a number: TypeError"),
         ),
         Example(
             "a double in range(), added to a str",
@@ -59,13 +57,8 @@ class ParameterValueUnfit(Rule):
                 "talker.py": _NODE.format("2.0")
                 + "        for _ in range(self.rate):\n            print('Hz: ' + self.rate)\n"
             },
-            Report(
-                "talker.py:15:24",
-                "'rate' is declared as double, but range() takes integers: TypeError",
-            ),
-            Report(
-                "talker.py:16:19", "'rate' is declared as double, but 'Hz: ' is a str: TypeError"
-            ),
+            Report("15:24", "'rate' is declared as double, but range() takes integers: TypeError"),
+            Report("16:19", "'rate' is declared as double, but 'Hz: ' is a str: TypeError"),
         ),
     )
 

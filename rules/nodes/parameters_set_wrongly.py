@@ -35,23 +35,17 @@ class ParametersSetWrongly(RclpyRule):
         Example(
             "a parameter",
             {"talker.py": _NODE.format("Parameter('rate', value=2.0)")},
-            Report(
-                "talker.py:7:29", "set_parameters() takes a list: TypeError; write [Parameter(...)]"
-            ),
+            Report("7:29", "set_parameters() takes a list: TypeError; write [Parameter(...)]"),
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("{'rate': 2.0}")},
-            Report(
-                "talker.py:7:29", "set_parameters() takes a list: TypeError; write [Parameter(...)]"
-            ),
+            Report("7:29", "set_parameters() takes a list: TypeError; write [Parameter(...)]"),
         ),
         Example(
             "pairs",
             {"talker.py": _NODE.format("[('rate', 2.0)]")},
-            Report(
-                "talker.py:7:30", "not a Parameter: TypeError; write Parameter('name', value=...)"
-            ),
+            Report("7:30", "not a Parameter: TypeError; write Parameter('name', value=...)"),
         ),
     )
 

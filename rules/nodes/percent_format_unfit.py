@@ -42,16 +42,12 @@ class PercentFormatUnfit(MessageRule):
         Example(
             "two placeholders",
             {"listener.py": _NODE.format("%d: %s")},
-            Report(
-                "listener.py:11:32", "format string with 2 placeholders gets 1 value: TypeError"
-            ),
+            Report("11:32", "format string with 2 placeholders gets 1 value: TypeError"),
         ),
         Example(
             "no placeholder",
             {"listener.py": _NODE.format("heard 5 %%")},
-            Report(
-                "listener.py:11:32", "format string with no placeholder gets 1 value: TypeError"
-            ),
+            Report("11:32", "format string with no placeholder gets 1 value: TypeError"),
         ),
     )
 

@@ -40,7 +40,7 @@ class PrintInNode(RclpyRule):
         Example(
             "a print",
             {"talker.py": _NODE.format("print")},
-            Report("talker.py:6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
+            Report("6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
         ),
         Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
     )

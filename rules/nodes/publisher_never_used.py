@@ -47,9 +47,7 @@ class PublisherNeverUsed(Rule):
         Example(
             "never used",
             {"talker.py": _NODE.format("pass")},
-            Report(
-                "talker.py:9:28", "publisher 'chatter_pub' is never used: no messages on 'chatter'"
-            ),
+            Report("9:28", "publisher 'chatter_pub' is never used: no messages on 'chatter'"),
         ),
     )
 

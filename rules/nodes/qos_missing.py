@@ -35,14 +35,12 @@ class QosMissing(RclpyRule):
         Example(
             "no argument",
             {"talker.py": _NODE.format("", "")},
-            Report(
-                "talker.py:8:9", "create_publisher() is missing a depth or a QoS profile: TypeError"
-            ),
+            Report("8:9", "create_publisher() is missing a depth or a QoS profile: TypeError"),
         ),
         Example(
             "a profile without a depth",
             {"talker.py": _NODE.format(_QOS, ", QoSProfile()")},
-            Report("talker.py:9:9", "QoS profile without a depth: InvalidQoSProfileException"),
+            Report("9:9", "QoS profile without a depth: InvalidQoSProfileException"),
         ),
     )
 

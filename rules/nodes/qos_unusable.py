@@ -52,18 +52,18 @@ class QosUnusable(RclpyRule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'10'")},
-            Report("talker.py:9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
+            Report("9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
         ),
         Example(
             "a negative depth",
             {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
-            Report("talker.py:9:67", "the depth is -1, but must not be negative: ValueError"),
+            Report("9:67", "the depth is -1, but must not be negative: ValueError"),
         ),
         Example(
             "only a policy",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
             Report(
-                "talker.py:9:50",
+                "9:50",
                 "DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the "
                 "depth; write QoSProfile(depth=10, ...)",
             ),
@@ -76,7 +76,7 @@ class QosUnusable(RclpyRule):
                 )
             },
             Report(
-                "talker.py:9:82",
+                "9:82",
                 "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
                 "another policy takes effect",
             ),
@@ -101,11 +101,8 @@ class QosUnusable(RclpyRule):
         Example(
             "str values in a profile",
             {"talker.py": _NODE.format("QoSProfile(depth='10', reliability='reliable')")},
-            Report("talker.py:9:67", "the depth must be an int, not a str: AssertionError"),
-            Report(
-                "talker.py:9:85",
-                "reliability must be a ReliabilityPolicy, not a str: AssertionError",
-            ),
+            Report("9:67", "the depth must be an int, not a str: AssertionError"),
+            Report("9:85", "reliability must be a ReliabilityPolicy, not a str: AssertionError"),
         ),
     )
 

@@ -40,10 +40,7 @@ class ResponseNotReturned(Rule):
         Example(
             "nothing",
             {"server.py": _NODE.format("")},
-            Report(
-                "server.py:10:9",
-                "report() does not return the response (service of line 8): TypeError",
-            ),
+            Report("10:9", "report() does not return the response (service of line 8): TypeError"),
         ),
         Example(
             "on one path only, and a bool",
@@ -54,19 +51,17 @@ class ResponseNotReturned(Rule):
                 )
             },
             Report(
-                "server.py:10:9",
+                "10:9",
                 "report() does not return the response on every path (service of "
                 "line 8): TypeError",
             ),
-            Report(
-                "server.py:13:13", "returns a bool, not the response (service of line 8): TypeError"
-            ),
+            Report("13:13", "returns a bool, not the response (service of line 8): TypeError"),
         ),
         Example(
             "a field of the response",
             {"server.py": _NODE.format("        return response.success\n")},
             Report(
-                "server.py:12:9",
+                "12:9",
                 "returns the field response.success, not the response (service of "
                 "line 8): TypeError",
             ),
@@ -75,7 +70,7 @@ class ResponseNotReturned(Rule):
             "the request",
             {"server.py": _NODE.format("        return Trigger.Request()\n")},
             Report(
-                "server.py:12:9",
+                "12:9",
                 "returns std_srvs/srv/Trigger.Request, not the response (service of "
                 "line 8): TypeError",
             ),
@@ -88,7 +83,7 @@ class ResponseNotReturned(Rule):
                 )
             },
             Report(
-                "server.py:13:9",
+                "13:9",
                 "returns the class std_srvs/srv/Trigger.Response, not the response "
                 "(service of line 8): TypeError",
             ),
@@ -96,9 +91,7 @@ class ResponseNotReturned(Rule):
         Example(
             "a dict",
             {"server.py": _NODE.format("        return {'success': True}\n")},
-            Report(
-                "server.py:12:9", "returns a dict, not the response (service of line 8): TypeError"
-            ),
+            Report("12:9", "returns a dict, not the response (service of line 8): TypeError"),
         ),
     )
 

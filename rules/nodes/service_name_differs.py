@@ -42,13 +42,13 @@ class ServiceNameDiffers(Rule):
         Example(
             "a typo",
             {"nodes.py": _NODE.format("reports")},
-            Report("nodes.py:17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"),
+            Report("17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"),
         ),
         Example(
             "private on one side",
             {"nodes.py": _NODE.format("~/report")},
             Report(
-                "nodes.py:17:51",
+                "17:51",
                 "no service '~/report'; did you mean 'report' (nodes.py:8)? ~ "
                 "expands to the node name",
             ),

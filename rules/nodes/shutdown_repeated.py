@@ -35,7 +35,7 @@ class ShutdownRepeated(RclpyRule):
             "shutdown",
             {"talker.py": _MAIN.format("shutdown")},
             Report(
-                "talker.py:12:9",
+                "12:9",
                 "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
                 fix="use try_shutdown()",
             ),

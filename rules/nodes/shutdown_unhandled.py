@@ -47,7 +47,7 @@ class ShutdownUnhandled(RclpyRule):
             "none caught",
             {"talker.py": _IMPORTS + _BARE},
             Report(
-                "talker.py:8:5",
+                "8:5",
                 "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
                 "catch KeyboardInterrupt and ExternalShutdownException",
             ),
@@ -65,7 +65,7 @@ class ShutdownUnhandled(RclpyRule):
             "SIGTERM not caught",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
             Report(
-                "talker.py:9:9",
+                "9:9",
                 "SIGTERM ends this with a traceback and exit code 1; catch "
                 "ExternalShutdownException",
             ),

@@ -44,7 +44,7 @@ class SpinInCallback(RclpyRule):
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             Report(
-                "caller.py:12:9",
+                "12:9",
                 "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
                 "the same node: no callback runs after that",
             ),

@@ -36,12 +36,12 @@ class SpunWrongly(RclpyRule):
         Example(
             "a class",
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
-            Report("talker.py:14:5", "'Talker' is a class, not a node: TypeError; write Talker()"),
+            Report("14:5", "'Talker' is a class, not a node: TypeError; write Talker()"),
         ),
         Example(
             "after shutdown",
             {"talker.py": _NODE.format("    rclpy.shutdown()\n    rclpy.spin(node)\n")},
-            Report("talker.py:15:5", "rclpy is already shut down in line 14: nothing is spun"),
+            Report("15:5", "rclpy is already shut down in line 14: nothing is spun"),
         ),
         Example(
             "an executor",
@@ -51,9 +51,7 @@ class SpunWrongly(RclpyRule):
                     "    rclpy.spin(executor)\n"
                 ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
             },
-            Report(
-                "talker.py:17:5", "this is an executor, not a node: AttributeError; call its spin()"
-            ),
+            Report("17:5", "this is an executor, not a node: AttributeError; call its spin()"),
         ),
     )
 

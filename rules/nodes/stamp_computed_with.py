@@ -45,8 +45,7 @@ class StampComputedWith(RclpyRule):
             "not converted",
             {"viewer.py": _NODE.format("msg.header.stamp")},
             Report(
-                "viewer.py:12:15",
-                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+                "12:15", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
             ),
         ),
         Example(
@@ -57,12 +56,10 @@ class StampComputedWith(RclpyRule):
                 "        return stamp < other.header.stamp or stamp - 0.1\n"
             },
             Report(
-                "viewer.py:17:16",
-                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+                "17:16", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
             ),
             Report(
-                "viewer.py:17:46",
-                "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+                "17:46", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
             ),
         ),
         Example(

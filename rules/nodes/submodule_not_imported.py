@@ -46,7 +46,7 @@ class SubmoduleNotImported(PythonRule):
         Example(
             "not imported",
             {"talker.py": _NODE.format("")},
-            Report("talker.py:4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
+            Report("4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
         ),
     )
 

@@ -42,27 +42,22 @@ class SuperInitMissing(RclpyRule):
         Example(
             "missing",
             {"talker.py": _NODE.format("self.count = 0")},
-            Report(
-                "talker.py:5:9",
-                "Talker.__init__() does not call super().__init__(): AttributeError",
-            ),
+            Report("5:9", "Talker.__init__() does not call super().__init__(): AttributeError"),
         ),
         Example(
             "the class above Node",
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
-            Report("talker.py:6:9", "this super() skips the constructor of Node; write super()"),
+            Report("6:9", "this super() skips the constructor of Node; write super()"),
         ),
         Example(
             "an unbound super",
             {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
-            Report("talker.py:6:9", "super() with only a class is unbound; write super()"),
+            Report("6:9", "super() with only a class is unbound; write super()"),
         ),
         Example(
             "self twice",
             {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
-            Report(
-                "talker.py:6:9", "super() already passes self; the first argument is the node name"
-            ),
+            Report("6:9", "super() already passes self; the first argument is the node name"),
         ),
     )
 

@@ -58,18 +58,14 @@ class ThreadTargetCalled(RclpyRule):
         Example(
             "called, zero, not awaited",
             {"talker.py": _NODE.format("()", "0.0", "")},
-            Report(
-                "talker.py:9:33", "work() is called here, not in the thread; pass it without ()"
-            ),
-            Report("talker.py:10:27", "timer with period 0 uses all CPU time"),
-            Report("talker.py:19:9", "coroutine ask() is not awaited: it never runs"),
+            Report("9:33", "work() is called here, not in the thread; pass it without ()"),
+            Report("10:27", "timer with period 0 uses all CPU time"),
+            Report("19:9", "coroutine ask() is not awaited: it never runs"),
         ),
         Example(
             "an argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
-            Report(
-                "talker.py:9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"
-            ),
+            Report("9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"),
         ),
         Example(
             "spun immediately",
@@ -77,10 +73,7 @@ class ThreadTargetCalled(RclpyRule):
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
             },
-            Report(
-                "talker.py:10:33",
-                "spins here, not in the thread; write target=rclpy.spin, args=(node,)",
-            ),
+            Report("10:33", "spins here, not in the thread; write target=rclpy.spin, args=(node,)"),
         ),
     )
 

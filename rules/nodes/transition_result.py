@@ -47,7 +47,7 @@ class TransitionResult(RclpyRule):
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
             Report(
-                "talker.py:10:9",
+                "10:9",
                 "on_configure() returns nothing, not a TransitionCallbackReturn: "
                 "AttributeError at the transition",
             ),
@@ -56,11 +56,10 @@ class TransitionResult(RclpyRule):
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
             Report(
-                "talker.py:10:9",
-                "on_configure() takes 0 arguments, but gets the state: the transition fails",
+                "10:9", "on_configure() takes 0 arguments, but gets the state: the transition fails"
             ),
             Report(
-                "talker.py:11:9",
+                "11:9",
                 "returns True, not a TransitionCallbackReturn: AttributeError at the transition",
             ),
         ),
@@ -72,16 +71,14 @@ class TransitionResult(RclpyRule):
                 )
             },
             Report(
-                "talker.py:10:9",
+                "10:9",
                 "super().on_activate(state) is not called: the publisher of line 8 stays inactive",
             ),
         ),
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            Report(
-                "talker.py:10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"
-            ),
+            Report("10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"),
         ),
     )
 

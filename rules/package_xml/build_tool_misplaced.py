@@ -30,9 +30,7 @@ class BuildToolMisplaced(Rule):
         Example(
             "needed to run",
             {"package.xml": _MANIFEST.format("depend")},
-            Report(
-                "package.xml:2:11", "'ament_cmake' builds the package: write <buildtool_depend>"
-            ),
+            Report("2:11", "'ament_cmake' builds the package: write <buildtool_depend>"),
         ),
     )
 

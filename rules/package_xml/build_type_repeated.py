@@ -33,8 +33,7 @@ class BuildTypeRepeated(Rule):
             "two",
             {"package.xml": _MANIFEST.format("")},
             Report(
-                "package.xml:4:5",
-                "a second build type, after the one in line 3: colcon ignores the package",
+                "4:5", "a second build type, after the one in line 3: colcon ignores the package"
             ),
         ),
     )

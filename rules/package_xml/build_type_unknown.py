@@ -35,7 +35,7 @@ class BuildTypeUnknown(Rule):
                 "</export></package>\n"
             },
             Report(
-                "package.xml:2:15",
+                "2:15",
                 "unknown build type 'ament_pyton': colcon skips the package; "
                 "closest: 'ament_python'",
                 fix="write ament_python",

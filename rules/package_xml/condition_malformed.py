@@ -27,7 +27,7 @@ class ConditionMalformed(Rule):
         Example(
             "one sign",
             {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")},
-            Report("package.xml:2:22", "condition '$ROS_VERSION = 2': '=' is not expected"),
+            Report("2:22", "condition '$ROS_VERSION = 2': '=' is not expected"),
         ),
     )
 

@@ -34,7 +34,7 @@ class DependencyCycle(Rule):
         Example(
             "both ways",
             {"package.xml": _TALKER},
-            Report("package.xml:3:11", "dependency cycle: talker needs listener needs talker"),
+            Report("3:11", "dependency cycle: talker needs listener needs talker"),
             neighbours={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },
@@ -43,9 +43,7 @@ class DependencyCycle(Rule):
             "on itself",
             {"package.xml": _ITSELF.format("  <exec_depend>talker</exec_depend>\n")},
             Report(
-                "package.xml:3:16",
-                "<exec_depend> 'talker': a package cannot depend on itself",
-                fix="remove it",
+                "3:16", "<exec_depend> 'talker': a package cannot depend on itself", fix="remove it"
             ),
             fixed={"package.xml": _ITSELF.format("")},
         ),

@@ -29,7 +29,7 @@ class DependencyIsIndexName(Rule):
             "the name for pip",
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
             Report(
-                "package.xml:2:16",
+                "2:16",
                 "rosdep has no rule for 'numpy'; its key is 'python3-numpy'",
                 fix="write python3-numpy",
             ),

@@ -46,13 +46,13 @@ class DependencyMalformed(Rule):
         Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
-            Report("package.xml:3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
+            Report("3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
         ),
         Example(
             "a version",
             {"package.xml": _MANIFEST.format("numpy&gt;=1.2")},
             Report(
-                "package.xml:3:16",
+                "3:16",
                 "'numpy>=1.2' contains a version, which rosdep treats as part of the name; use "
                 "version_gte='...'",
             ),
@@ -61,15 +61,14 @@ class DependencyMalformed(Rule):
             "a package of Debian",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
             Report(
-                "package.xml:3:16",
-                "'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'",
+                "3:16", "'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'"
             ),
         ),
         Example(
             "a build type",
             {"package.xml": _MANIFEST.format("ament_python")},
             Report(
-                "package.xml:3:16",
+                "3:16",
                 "'ament_python' is a build type, not a package: rosdep cannot "
                 "resolve it; remove it",
             ),
@@ -77,7 +76,7 @@ class DependencyMalformed(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
-            Report("package.xml:2:3", "<depend> names no package", fix="remove it"),
+            Report("2:3", "<depend> names no package", fix="remove it"),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
         Example(
@@ -89,14 +88,9 @@ class DependencyMalformed(Rule):
                     "  <exec_depend>python-numpy"
                 )
             },
-            Report(
-                "package.xml:3:16",
-                "'rclpy std_msgs' is more than one name: write an element for each",
-            ),
-            Report("package.xml:4:16", "rosdep keys have dashes: use 'python3-numpy'"),
-            Report(
-                "package.xml:5:16", "'python-numpy' belongs to Python 2; closest: 'python3-numpy'"
-            ),
+            Report("3:16", "'rclpy std_msgs' is more than one name: write an element for each"),
+            Report("4:16", "rosdep keys have dashes: use 'python3-numpy'"),
+            Report("5:16", "'python-numpy' belongs to Python 2; closest: 'python3-numpy'"),
         ),
     )
 

@@ -32,9 +32,7 @@ class DependencyMisspelled(Rule):
             "a letter is missing",
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
             Report(
-                "package.xml:2:11",
-                "no package 'std_msg' is known; closest: 'std_msgs'",
-                fix="write std_msgs",
+                "2:11", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),

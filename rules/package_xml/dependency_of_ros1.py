@@ -50,8 +50,8 @@ class DependencyOfRos1(Rule):
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            Report("package.xml:2:21", "'catkin' belongs to ROS 1; use ament_cmake"),
-            Report("package.xml:3:11", "'rospy' belongs to ROS 1; use rclpy"),
+            Report("2:21", "'catkin' belongs to ROS 1; use ament_cmake"),
+            Report("3:11", "'rospy' belongs to ROS 1; use rclpy"),
         ),
     )
 

@@ -43,7 +43,7 @@ class DependencyRedundant(Rule):
                 "</package>\n"
             },
             Report(
-                "package.xml:3:16",
+                "3:16",
                 "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon refuses both",
                 fix="remove it",
             ),
@@ -60,7 +60,7 @@ class DependencyRedundant(Rule):
                 "</package>\n"
             },
             Report(
-                "package.xml:3:16",
+                "3:16",
                 "<exec_depend> 'std_msgs' is already declared in line 2",
                 fix="remove it",
                 severity=Severity.WARNING,

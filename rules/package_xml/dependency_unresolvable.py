@@ -61,7 +61,7 @@ class DependencyUnresolvable(Rule):
             "neither",
             {"package.xml": _MANIFEST.format("pyserial-3")},
             Report(
-                "package.xml:3:11",
+                "3:11",
                 "rosdep's cache has no rule for 'pyserial-3', and no package of the "
                 "workspace or of AMENT_PREFIX_PATH has the name",
             ),
@@ -71,7 +71,7 @@ class DependencyUnresolvable(Rule):
             "another spelling",
             {"package.xml": _MANIFEST.format("Serial")},
             Report(
-                "package.xml:3:11",
+                "3:11",
                 "rosdep's cache has no rule for 'Serial', and no package of the "
                 "workspace or of AMENT_PREFIX_PATH has the name; it has "
                 "'python3-serial'",

@@ -34,9 +34,7 @@ class DescriptionPlaceholder(Rule):
                 "  <description>TODO: Package description</description>\n"
                 "</package>\n"
             },
-            Report(
-                "package.xml:2:3", "the description is a placeholder, 'TODO: Package description'"
-            ),
+            Report("2:3", "the description is a placeholder, 'TODO: Package description'"),
         ),
         Example(
             "nothing",

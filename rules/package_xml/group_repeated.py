@@ -29,7 +29,7 @@ class GroupRepeated(Rule):
         Example(
             "one group",
             {"package.xml": _MANIFEST.format("drivers")},
-            Report("package.xml:3:3", "member of the group 'drivers', which line 2 depends on"),
+            Report("3:3", "member of the group 'drivers', which line 2 depends on"),
         ),
     )
 

@@ -32,16 +32,14 @@ class LicenseNotSpdx(Rule):
             "another spelling",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
             Report(
-                "package.xml:2:12",
-                "the SPDX identifier of 'GPLv3' is GPL-3.0-only",
-                fix="write GPL-3.0-only",
+                "2:12", "the SPDX identifier of 'GPLv3' is GPL-3.0-only", fix="write GPL-3.0-only"
             ),
             fixed={"package.xml": "<package>\n  <license>GPL-3.0-only</license>\n</package>\n"},
         ),
         Example(
             "which BSD?",
             {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
-            Report("package.xml:2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),
+            Report("2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),
         ),
     )
 

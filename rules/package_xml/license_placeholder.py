@@ -33,7 +33,7 @@ class LicensePlaceholder(Rule):
                 "</package>\n"
             },
             Report(
-                "package.xml:2:12",
+                "2:12",
                 "the license is a placeholder, 'TODO: License declaration': nobody "
                 "may use the package",
             ),
@@ -41,7 +41,7 @@ class LicensePlaceholder(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <license> </license>\n</package>\n"},
-            Report("package.xml:2:3", "the license is empty: colcon refuses the package"),
+            Report("2:3", "the license is empty: colcon refuses the package"),
         ),
     )
 

@@ -38,7 +38,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="root@todo.todo">root</maintainer>\n'
                 "</package>\n"
             },
-            Report("package.xml:2:22", "maintainer email 'root@todo.todo' is a placeholder"),
+            Report("2:22", "maintainer email 'root@todo.todo' is a placeholder"),
         ),
         Example(
             "no name",
@@ -56,7 +56,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com">TODO</maintainer>\n'
                 "</package>\n"
             },
-            Report("package.xml:2:3", "the name of <maintainer> is a placeholder"),
+            Report("2:3", "the name of <maintainer> is a placeholder"),
         ),
     )
 

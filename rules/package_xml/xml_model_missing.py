@@ -35,7 +35,7 @@ class XmlModelMissing(Rule):
             "without",
             {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
             Report(
-                "package.xml:2:2",
+                "2:2",
                 "no <?xml-model ...?> line: no tool validates this manifest",
                 fix="name the schema",
             ),

@@ -31,7 +31,7 @@ class KeyRepeated(Rule):
             "twice",
             {"a.yaml": _FILE.format("rate")},
             Report(
-                "a.yaml:4:5",
+                "4:5",
                 "'rate' is already set in line 3: the first value is ignored; remove one of them",
             ),
         ),

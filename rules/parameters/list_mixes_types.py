@@ -30,7 +30,7 @@ class ListMixesTypes(Rule):
             "integers among doubles",
             {"config/a.yaml": _FILE.format("[1, 2.5, -3]")},
             Report(
-                "config/a.yaml:3:16",
+                "3:16",
                 "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
                 fix="write all as doubles",
             ),
@@ -39,10 +39,7 @@ class ListMixesTypes(Rule):
         Example(
             "a word that YAML reads as a boolean",
             {"config/a.yaml": _FILE.format("[left, right, off]")},
-            Report(
-                "config/a.yaml:3:26",
-                "list 'gains' mixes string (left) and bool (off): rcl rejects the file",
-            ),
+            Report("3:26", "list 'gains' mixes string (left) and bool (off): rcl rejects the file"),
         ),
     )
 

@@ -100,7 +100,7 @@ class ParameterTypeDiffers(Rule):
             "a string for a parameter of every node",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
             Report(
-                "a.yaml:3:19",
+                "3:19",
                 "'use_sim_time' (declared by rclpy) is a bool, but this is a "
                 "string: InvalidParameterTypeException",
             ),

@@ -57,9 +57,7 @@ class RosParametersMissing(Rule):
         Example(
             "missing for one of two nodes",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
-            Report(
-                "config/a.yaml:5:3", "'rate' is not under 'ros__parameters': rcl rejects the file"
-            ),
+            Report("5:3", "'rate' is not under 'ros__parameters': rcl rejects the file"),
         ),
     )
 

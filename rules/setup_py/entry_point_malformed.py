@@ -35,16 +35,13 @@ class EntryPointMalformed(Rule):
                     "        'listener = listener.node:main',\n"
                 )
             },
-            Report(
-                "setup.py:5:9",
-                "missing comma after this console script: it is joined to the next",
-            ),
+            Report("5:9", "missing comma after this console script: it is joined to the next"),
         ),
         Example(
             "no function",
             {"setup.py": _SETUP.format("        'talker = talker.node',\n")},
             Report(
-                "setup.py:5:9",
+                "5:9",
                 "console script 'talker = talker.node': no function is named: name "
                 "= module:function",
             ),

@@ -33,9 +33,7 @@ class EntryPointRepeated(Rule):
         Example(
             "one name",
             {"setup.py": _SETUP.format("talker")},
-            Report(
-                "setup.py:8:9", "'talker' is the name of another entry point: only one is installed"
-            ),
+            Report("8:9", "'talker' is the name of another entry point: only one is installed"),
         ),
     )
 

@@ -49,15 +49,14 @@ class KeywordMisspelled(Rule):
             "the keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
             Report(
-                "setup.py:6:5",
-                "setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'",
+                "6:5", "setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'"
             ),
         ),
         Example(
             "the group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
             Report(
-                "setup.py:7:9",
+                "7:9",
                 "setuptools ignores the unknown group 'console_script'; closest: 'console_scripts'",
             ),
         ),

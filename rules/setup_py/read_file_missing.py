@@ -28,16 +28,12 @@ class ReadFileMissing(Rule):
         Example(
             "missing",
             {"setup.py": _SETUP.format(_READ)},
-            Report(
-                "setup.py:5:27", "setup.py opens README.md, which does not exist: the build stops"
-            ),
+            Report("5:27", "setup.py opens README.md, which does not exist: the build stops"),
         ),
         Example(
             "a script",
             {"setup.py": _SETUP.format("scripts=['scripts/talk']")},
-            Report(
-                "setup.py:5:13", "scripts names scripts/talk, which does not exist: the build stops"
-            ),
+            Report("5:13", "scripts names scripts/talk, which does not exist: the build stops"),
         ),
     )
 

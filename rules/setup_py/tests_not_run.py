@@ -48,7 +48,7 @@ class TestsNotRun(Rule):
             "tests_require",
             {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
             Report(
-                "setup.py:5:19",
+                "5:19",
                 "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
                 "write extras_require={'test': ['pytest']}",
                 severity=Severity.WARNING,

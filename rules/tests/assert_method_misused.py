@@ -48,17 +48,12 @@ class AssertMethodMisused(TestRule):
         Example(
             "gone",
             {"test/test_text.py": _TEST.format("assertEquals")},
-            Report(
-                "test/test_text.py:6:9", "assertEquals was removed in Python 3.12; use assertEqual"
-            ),
+            Report("6:9", "assertEquals was removed in Python 3.12; use assertEqual"),
         ),
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
-            Report(
-                "test/test_text.py:6:9",
-                "assertTrue checks one value, the second is a message; use assertEqual",
-            ),
+            Report("6:9", "assertTrue checks one value, the second is a message; use assertEqual"),
         ),
     )
 

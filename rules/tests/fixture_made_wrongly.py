@@ -37,24 +37,19 @@ class FixtureMadeWrongly(Rule):
             "a scope that does not exist",
             {"test/test_text.py": _TEST.format("modul", "")},
             Report(
-                "test/test_text.py:9:2",
+                "9:2",
                 "unknown scope 'modul'; choose from function, class, module, package, session",
             ),
         ),
         Example(
             "a wider scope than that of what it takes",
             {"test/test_text.py": _TEST.format("module", "")},
-            Report(
-                "test/test_text.py:9:2",
-                "a fixture of scope 'module' cannot use word of scope 'function'",
-            ),
+            Report("9:2", "a fixture of scope 'module' cannot use word of scope 'function'"),
         ),
         Example(
             "two values",
             {"test/test_text.py": _TEST.format("function", "    yield 'b'\n")},
-            Report(
-                "test/test_text.py:9:2", "the fixture text yields twice: pytest takes one value"
-            ),
+            Report("9:2", "the fixture text yields twice: pytest takes one value"),
         ),
     )
 

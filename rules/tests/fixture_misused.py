@@ -48,27 +48,22 @@ class FixtureMisused(Rule):
         Example(
             "called",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
-            Report(
-                "test/test_text.py:10:12",
-                "text is a fixture: take it as an argument instead of calling it",
-            ),
+            Report("10:12", "text is a fixture: take it as an argument instead of calling it"),
         ),
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            Report("test/test_text.py:9:5", "there is no fixture 'txt'; closest: 'text'"),
+            Report("9:5", "there is no fixture 'txt'; closest: 'text'"),
         ),
         Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
-            Report("test/test_text.py:10:12", "the fixture text returns nothing, so this is None"),
+            Report("10:12", "the fixture text returns nothing, so this is None"),
         ),
         Example(
             "self outside of a class",
             {"test/test_text.py": _TEST.format("return 'a'", "self", "'a'")},
-            Report(
-                "test/test_text.py:9:5", "test_text is not a method: pytest finds no fixture 'self'"
-            ),
+            Report("9:5", "test_text is not a method: pytest finds no fixture 'self'"),
         ),
     )
 

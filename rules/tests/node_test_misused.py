@@ -43,13 +43,10 @@ class NodeTestMisused(Rule):
             "no init, nothing spins",
             {"test/test_node.py": _TEST.format("pass", "pass")},
             Report(
-                "test/test_node.py:8:12",
+                "8:12",
                 "nothing calls rclpy.init() before this node is made: NotInitializedException",
             ),
-            Report(
-                "test/test_node.py:10:5",
-                "nothing spins in this test, so the callback is never called",
-            ),
+            Report("10:5", "nothing spins in this test, so the callback is never called"),
         ),
         Example(
             "initialized again",
@@ -57,10 +54,7 @@ class NodeTestMisused(Rule):
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
                 "def test_two():\n    rclpy.init()\n"
             },
-            Report(
-                "test/test_node.py:9:5",
-                "the test in line 5 calls init() as well, but nothing calls shutdown()",
-            ),
+            Report("9:5", "the test in line 5 calls init() as well, but nothing calls shutdown()"),
         ),
     )
 

@@ -47,18 +47,15 @@ class TestCaseMisused(TestRule):
         Example(
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
-            Report("test/test_text.py:5:9", "unittest never calls set_up; use setUp"),
+            Report("5:9", "unittest never calls set_up; use setUp"),
             Report(
-                "test/test_text.py:8:9",
-                "unittest gives test_text no arguments, but it takes 'tmp_path': TypeError",
+                "8:9", "unittest gives test_text no arguments, but it takes 'tmp_path': TypeError"
             ),
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
-            Report(
-                "test/test_text.py:5:9", "pytest calls setUp in a TestCase only; use setup_method"
-            ),
+            Report("5:9", "pytest calls setUp in a TestCase only; use setup_method"),
         ),
         Example(
             "an argument of setUp, an instance method setUpClass, parametrize",

@@ -40,10 +40,8 @@ class TestMisdefined(Rule):
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n    def test_all():\n        assert True\n"
             },
-            Report(
-                "test/test_text.py:5:30", "test_text takes no argument 'number': pytest stops here"
-            ),
-            Report("test/test_text.py:9:9", "test_all is a method without self: TypeError"),
+            Report("5:30", "test_text takes no argument 'number': pytest stops here"),
+            Report("9:9", "test_all is a method without self: TypeError"),
         ),
         Example(
             "a name that a fixture takes",

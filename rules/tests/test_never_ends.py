@@ -45,7 +45,7 @@ class TestNeverEnds(Rule):
                 )
             },
             Report(
-                "test/test_node.py:9:5",
+                "9:5",
                 "call() waits for a response while nothing spins: use call_async, "
                 "and spin until it is done",
             ),
@@ -54,8 +54,7 @@ class TestNeverEnds(Rule):
             "for ever",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
             Report(
-                "test/test_node.py:8:5",
-                "nothing ends this: the test waits forever; use spin_once with timeout_sec",
+                "8:5", "nothing ends this: the test waits forever; use spin_once with timeout_sec"
             ),
         ),
     )

@@ -48,18 +48,12 @@ class TestNeverRun(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format(_CHECK)},
-            Report(
-                "test/test_text.py:5:5",
-                "pytest does not run check: its name does not begin with test",
-            ),
+            Report("5:5", "pytest does not run check: its name does not begin with test"),
         ),
         Example(
             "a class of another name",
             {"test/test_text.py": _TEST.format(_CLASS)},
-            Report(
-                "test/test_text.py:5:7",
-                "pytest does not run TextTests: its name does not begin with Test",
-            ),
+            Report("5:7", "pytest does not run TextTests: its name does not begin with Test"),
         ),
         Example(
             "inside of a test: a class that the test runs",
@@ -68,9 +62,7 @@ class TestNeverRun(Rule):
         Example(
             "inside of a test: a function that nothing calls",
             {"test/test_text.py": _OUTER.format(_MORE)},
-            Report(
-                "test/test_text.py:8:5", "test_more is inside test_text: pytest does not collect it"
-            ),
+            Report("8:5", "test_more is inside test_text: pytest does not collect it"),
         ),
         Example(
             "a method of another name, a fixture",
@@ -81,14 +73,8 @@ class TestNeverRun(Rule):
                 + _CLASS.replace("TextTests", "TestText")
                 + "\n    def check(self):\n        assert True\n"
             },
-            Report(
-                "test/test_text.py:5:5",
-                "test_data is a fixture, so pytest does not run it as a test",
-            ),
-            Report(
-                "test/test_text.py:13:9",
-                "pytest does not run check: its name does not begin with test",
-            ),
+            Report("5:5", "test_data is a fixture, so pytest does not run it as a test"),
+            Report("13:9", "pytest does not run check: its name does not begin with test"),
         ),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from scaffold.diagnostic import Diagnostic, Severity
@@ -25,7 +25,7 @@ class Report:
     """What a user reads about one diagnostic of an example, word for word.
 
     Args:
-        at: The place, ``path:line:column``.
+        at: The place, ``path:line:column``, or ``line:column`` in the only file of the example.
         message: The message.
         fix: The title of a safe fix.
         unsafe_fix: The title of a fix that ``--unsafe-fixes`` applies.
@@ -46,6 +46,14 @@ class Report:
         self.fix = fix
         self.unsafe_fix = unsafe_fix
         self.severity = severity
+
+    def within(self, files: Iterable[str]) -> Report:
+        """Return it with a path: where it has none, that of the only file."""
+        if self.at.count(":") > 1:
+            return self
+        (path,) = files
+        fixes = {"fix": self.fix, "unsafe_fix": self.unsafe_fix}
+        return Report(f"{path}:{self.at}", self.message, **fixes, severity=self.severity)
 
     @property
     def path(self) -> str:
@@ -83,11 +91,16 @@ class Example:
     ) -> None:
         self.title = title
         self.files = files
-        self.reports = reports
+        self._reports = reports
         self.fixed = fixed
         self.executable = executable
         self.neighbours = neighbours or {}
         self.rosdep_keys = rosdep_keys
+
+    @property
+    def reports(self) -> tuple[Report, ...]:
+        """The reports, each with a path."""
+        return tuple(report.within(self.files) for report in self._reports)
 
 
 class Rule:
