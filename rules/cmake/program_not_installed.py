@@ -33,7 +33,7 @@ class ProgramNotInstalled(Rule):
     code = "CM012"
     name = "program-not-installed"
     other_severities = {
-        Severity.WARNING: "no other program of its directory is installed: it may be a helper",
+        Severity.WARNING: "no other program of its directory is installed: it may be a helper"
     }
     examples = (
         Example(

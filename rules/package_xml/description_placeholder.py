@@ -40,7 +40,7 @@ class DescriptionPlaceholder(Rule):
             "nothing",
             {"package.xml": "<package>\n  <description> </description>\n</package>\n"},
             Report(
-                "package.xml:2:3",
+                "2:3",
                 "the description is empty: colcon refuses the package",
                 severity=Severity.ERROR,
             ),

@@ -25,9 +25,7 @@ class ImportUndeclared(Rule):
 
     code = "PX020"
     name = "import-undeclared"
-    other_severities = {
-        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`",
-    }
+    other_severities = {Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`"}
     examples = (
         Example(
             "declared; the standard library, own modules and guarded imports need nothing",

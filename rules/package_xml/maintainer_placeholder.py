@@ -47,7 +47,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com"></maintainer>\n'
                 "</package>\n"
             },
-            Report("package.xml:2:3", "<maintainer> has no name", severity=Severity.ERROR),
+            Report("2:3", "<maintainer> has no name", severity=Severity.ERROR),
         ),
         Example(
             "a placeholder for a name",
