@@ -1,0 +1,76 @@
+"""All codes for what ament's linters report on Jazzy: names, severities, fixes, documentation.
+
+Those of ament_flake8 and ament_pep257 are the codes that people know from flake8 and pydocstyle,
+a line each in ``scaffold/data/style_codes.txt``; what the ini file of the one and the convention
+``ament`` of the other leave out is not there. The other linters of ament have no codes of their
+own: ours are in a module for each linter.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+
+from scaffold.ament.codes import ament_copyright, ament_lint_cmake, ament_xmllint
+from scaffold.ament.codes.code import (
+    BOTH,
+    COPYRIGHT,
+    LINT_CMAKE,
+    LINTERS,
+    XMLLINT,
+    AmentCode,
+)
+from scaffold.ament.finding import FLAKE8, PEP257
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import Fix, Safety
+from scaffold.source import Location
+
+__all__ = [
+    "CODES",
+    "COPYRIGHT",
+    "LINTERS",
+    "LINT_CMAKE",
+    "STYLE",
+    "XMLLINT",
+    "AmentCode",
+    "diagnostic",
+]
+
+_STYLE_FILE = os.path.join(
+    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "style_codes.txt"
+)
+_STYLE_LINTERS = {"flake8": FLAKE8, "pep257": PEP257, "both": BOTH}
+
+
+def _style_codes() -> Iterator[AmentCode]:
+    with open(_STYLE_FILE, encoding="utf-8") as file:
+        next(file)  # says what the columns are
+        for line in file:
+            code, name, linters, severity, fix, summary = line.rstrip("\n").split(None, 5)
+            safety = None if fix == "-" else Safety(fix)
+            who = _STYLE_LINTERS[linters]
+            yield AmentCode(code, name, summary, who, Severity(severity), safety)
+
+
+STYLE: Mapping[str, AmentCode] = {row.code: row for row in _style_codes()}
+"""Those about Python style and docstrings, in alphabetical order."""
+CODES: Mapping[str, AmentCode] = {
+    row.code: row
+    for row in sorted(
+        [*STYLE.values(), *ament_lint_cmake.ROWS, *ament_copyright.ROWS, *ament_xmllint.ROWS]
+    )
+}
+"""By code, in alphabetical order."""
+
+
+def diagnostic(
+    code: str,
+    at: Location,
+    message: str,
+    fix: Fix | None = None,
+    severity: Severity | None = None,
+    cause: str = "",
+) -> Diagnostic:
+    """Return a diagnostic of a code, with the name and severity that the table gives it."""
+    row = CODES[code]
+    return Diagnostic(code, row.name, severity or row.severity, at, message, fix, cause)
