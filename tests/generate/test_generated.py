@@ -273,6 +273,7 @@ def test_colcon_builds_without_a_word_on_stderr(workspace: Workspace) -> None:
 @needs_ros
 @needs_system_linter("ament_lint_auto")
 @needs_system_linter("ament_copyright")
+@pytest.mark.timeout(2400)
 def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_path: Path) -> None:
     reachable(system_module("ament_copyright"), tmp_path)
     path = os.pathsep.join(filter(None, [str(tmp_path), workspace.ros.variables.get("PYTHONPATH")]))

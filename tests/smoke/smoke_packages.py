@@ -251,7 +251,7 @@ LATE_ONCE = talker(
     self.is_late = not os.path.exists('../has_run')
     open('../has_run', 'a').close()
     """,
-    tick="time.sleep(0.2 * self.is_late)",
+    tick="time.sleep(0.45 * self.is_late)",
 )
 
 BAD = {
@@ -263,7 +263,7 @@ BAD = {
     "leaves": talker("/leaves", period="0.5", tick="raise SystemExit"),
     "parent": PARENT,
     "silent": talker("/silent", tick="return"),
-    "slow": talker("/slow", imports="import time", tick="time.sleep(0.2)"),
+    "slow": talker("/slow", imports="import time", tick="time.sleep(0.45)"),
     "traceback": talker("/traceback", handled="ExternalShutdownException"),
     "unspun": talker("/unspun", wait="node.destroy_node()"),
 }
