@@ -39,10 +39,16 @@ EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTime
 """What code of this tool raises when a file asks for more than there is; the file is at fault."""
 
 
+EXHAUSTION = (
+    "nested too deeply",
+    "takes too long to check",
+    "nested too deeply, or too large for the memory",
+)
+"""What `exhausted` says."""
+
+
 def exhausted(error: BaseException) -> str:
     """Return the message for one of ``EXHAUSTED``."""
     if isinstance(error, RecursionError):
-        return "nested too deeply"
-    if isinstance(error, OutOfTimeError):
-        return "takes too long to check"
-    return "nested too deeply, or too large for the memory"
+        return EXHAUSTION[0]
+    return EXHAUSTION[1 if isinstance(error, OutOfTimeError) else 2]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
 from scaffold.api.launch import LaunchCall, LaunchFile, may_be_set_elsewhere, set_names
 
 _LAUNCH = (
@@ -19,7 +19,7 @@ _DECLARED = "        DeclareLaunchArgument('node', default_value='talker'),\n"
 _USED = "LaunchConfiguration('node')"
 
 
-class ConfigurationUndeclared(Rule):
+class ConfigurationUndeclared(LaunchRule):
     """A ``LaunchConfiguration`` is read that nothing declares or sets.
 
     **Why.** ``ros2 launch`` stops: ``launch configuration 'node' does not exist``; and
@@ -79,26 +79,25 @@ class ConfigurationUndeclared(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            names = set_names(package, launch)
-            if names is None or launch.function is None:
+    def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        names = set_names(package, launch)
+        if names is None or launch.function is None:
+            return
+        seen: set[str] = set()
+        for call in launch.find("LaunchConfiguration"):
+            name = launch.text(call, "variable_name")
+            if not isinstance(name, str) or name in names or name in seen:
                 continue
-            seen: set[str] = set()
-            for call in launch.find("LaunchConfiguration"):
-                name = launch.text(call, "variable_name")
-                if not isinstance(name, str) or name in names or name in seen:
-                    continue
-                if "default" in call.given or call.is_open:
-                    continue
-                if _is_unused(launch, call):
-                    continue
-                seen.add(name)
-                if may_be_set_elsewhere(package, launch, name):
-                    continue
-                have = ", ".join(sorted(set(launch.declared))) or "nothing"
-                message = f"the launch configuration {name!r} is never set; declared here: {have}"
-                yield self.report(launch.location(call.call), message)
+            if "default" in call.given or call.is_open:
+                continue
+            if _is_unused(launch, call):
+                continue
+            seen.add(name)
+            if may_be_set_elsewhere(package, launch, name):
+                continue
+            have = ", ".join(sorted(set(launch.declared))) or "nothing"
+            message = f"the launch configuration {name!r} is never set; declared here: {have}"
+            yield self.report(launch.location(call.call), message)
 
 
 def _is_unused(launch: LaunchFile, call: LaunchCall) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
 from scaffold.api.launch import LaunchFile, later_declarations, may_be_set_elsewhere, steps
 
 _LAUNCH = (
@@ -18,7 +18,7 @@ _LAUNCH = (
 _DECLARED = "DeclareLaunchArgument('name', default_value='a')"
 
 
-class DeclaredTooLate(Rule):
+class DeclaredTooLate(LaunchRule):
     """A launch argument is declared after an action that reads it.
 
     **Why.** Actions are executed in their order, and the default is set by the declaration:
@@ -71,22 +71,21 @@ class DeclaredTooLate(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            known = steps(launch)
-            if known is None:
-                continue
-            declared = later_declarations(launch, known)
-            reported: set[str] = set()
-            for index, step in enumerate(known):
-                for call in step.reads:
-                    name = str(launch.text(call, "variable_name"))
-                    if declared.get(name, -1) <= index or name in reported:
-                        continue
-                    if may_be_set_elsewhere(package, launch, name):
-                        continue
-                    reported.add(name)
-                    line = step.action.location.line
-                    what = f"the {step.action.kind} in line {line} reads it"
-                    message = f"{name!r} is declared after its use: {what} before it has a value"
-                    yield self.report(launch.location(call.call), message)
+    def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        known = steps(launch)
+        if known is None:
+            return
+        declared = later_declarations(launch, known)
+        reported: set[str] = set()
+        for index, step in enumerate(known):
+            for call in step.reads:
+                name = str(launch.text(call, "variable_name"))
+                if declared.get(name, -1) <= index or name in reported:
+                    continue
+                if may_be_set_elsewhere(package, launch, name):
+                    continue
+                reported.add(name)
+                line = step.action.location.line
+                what = f"the {step.action.kind} in line {line} reads it"
+                message = f"{name!r} is declared after its use: {what} before it has a value"
+                yield self.report(launch.location(call.call), message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
 from scaffold.api.launch import Included, LaunchCall, LaunchFile, given_arguments, included
 
 _INCLUDED = (
@@ -38,7 +38,7 @@ def _files(path: str, given: str) -> dict[str, str]:
     }
 
 
-class IncludeDoesNotFit(Rule):
+class IncludeDoesNotFit(LaunchRule):
     """An include gives other arguments than the launch file has, or includes the file itself.
 
     **Why.** ``ros2 launch`` stops: ``Included launch description missing required argument
@@ -76,12 +76,11 @@ class IncludeDoesNotFit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("IncludeLaunchDescription"):
-                other = included(package, launch, call)
-                if other is not None:
-                    yield from self._check_names(launch, call, other)
+    def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("IncludeLaunchDescription"):
+            other = included(package, launch, call)
+            if other is not None:
+                yield from self._check_names(launch, call, other)
 
     def _check_names(
         self, launch: LaunchFile, call: LaunchCall, other: Included

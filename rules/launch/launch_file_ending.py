@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, Severity
 from scaffold.api.launch import FUNCTION, LaunchFile
 
 _LAUNCH = (
@@ -13,7 +13,7 @@ _LAUNCH = (
 )
 
 
-class LaunchFileEnding(Rule):
+class LaunchFileEnding(LaunchRule):
     """A launch file has a name that ``ros2 launch`` does not offer.
 
     **Why.** ``ros2 launch <package> <TAB>`` and tools that look for launch files list only what
@@ -40,14 +40,13 @@ class LaunchFileEnding(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            directory, _, name = launch.path.rpartition("/")
-            if name.endswith("launch.py") or "launch" not in directory.split("/"):
-                continue
-            if launch.function is not None and not package.has(f"{directory}/__init__.py"):
-                message = (
-                    f"defines {FUNCTION}, but `ros2 launch` lists only names that end with "
-                    f"launch.py, not {name}"
-                )
-                yield self.report(package.start_of(launch.path), message)
+    def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        directory, _, name = launch.path.rpartition("/")
+        if name.endswith("launch.py") or "launch" not in directory.split("/"):
+            return
+        if launch.function is not None and not package.has(f"{directory}/__init__.py"):
+            message = (
+                f"defines {FUNCTION}, but `ros2 launch` lists only names that end with "
+                f"launch.py, not {name}"
+            )
+            yield self.report(package.start_of(launch.path), message)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Package, Report
 from scaffold.api.launch import FUNCTION, LaunchFile
 
 _LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
 
 
-class LaunchFunctionMissing(Rule):
+class LaunchFunctionMissing(LaunchRule):
     """A launch file does not define ``generate_launch_description``.
 
     **Why.** ``ros2 launch``: ``launch file ... does not contain the required function
@@ -46,22 +46,21 @@ class LaunchFunctionMissing(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            module = launch.module
-            name = launch.path.rpartition("/")[2]
-            if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
-                continue
-            is_test = "generate_test_description" in module.functions
-            if "/launch/" not in f"/{launch.path}" or is_test:
-                continue
-            near = get_close_matches(FUNCTION, module.functions, 1, 0.85)
-            if near:
-                at = module.functions[near[0]].location
-                start = module.source.offset(at.line, at.column)
-                edit = Edit(launch.path, start, start + len(near[0]), FUNCTION)
-                message = f"`ros2 launch` calls {FUNCTION}, not {near[0]}"
-                yield self.report(at, message, Fix(f"write {FUNCTION}", (edit,)))
-            else:
-                message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
-                yield self.report(package.start_of(launch.path), message)
+    def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        module = launch.module
+        name = launch.path.rpartition("/")[2]
+        if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
+            return
+        is_test = "generate_test_description" in module.functions
+        if "/launch/" not in f"/{launch.path}" or is_test:
+            return
+        near = get_close_matches(FUNCTION, module.functions, 1, 0.85)
+        if near:
+            at = module.functions[near[0]].location
+            start = module.source.offset(at.line, at.column)
+            edit = Edit(launch.path, start, start + len(near[0]), FUNCTION)
+            message = f"`ros2 launch` calls {FUNCTION}, not {near[0]}"
+            yield self.report(at, message, Fix(f"write {FUNCTION}", (edit,)))
+        else:
+            message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
+            yield self.report(package.start_of(launch.path), message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
 from scaffold.api.messages import MessageTypes, unstamped
 
 _NODE = (
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class StampNeverSet(Rule):
+class StampNeverSet(MessageRule):
     """A measurement is published with a frame, but nothing ever sets the stamp in its header.
 
     **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
@@ -59,19 +59,18 @@ class StampNeverSet(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package):
-            if types.module.in_tests:
+    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+        if types.module.in_tests:
+            return
+        for unset in unstamped(types):
+            if _is_used_elsewhere(package, types, unset.sent.args[0]):
                 continue
-            for unset in unstamped(types):
-                if _is_used_elsewhere(package, types, unset.sent.args[0]):
-                    continue
-                line = types.module.location(unset.sent).line
-                message = (
-                    f"{unset.message.name} is published in line {line} with a zero stamp; "
-                    "set header.stamp"
-                )
-                yield self.report(types.module.location(unset.made), message)
+            line = types.module.location(unset.sent).line
+            message = (
+                f"{unset.message.name} is published in line {line} with a zero stamp; "
+                "set header.stamp"
+            )
+            yield self.report(types.module.location(unset.made), message)
 
 
 def _is_used_elsewhere(package: Package, types: MessageTypes, sent: ast.expr) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned
 from scaffold.api.rclpy import ActionServer
@@ -29,7 +29,7 @@ _NODE = (
 _JUDGED = "return GoalResponse.ACCEPT"
 
 
-class ActionCallbackResult(Rule):
+class ActionCallbackResult(MessageRule):
     """A callback of an action server returns nothing, or a value the server cannot use.
 
     **Why.** A goal callback that does not return a ``GoalResponse`` rejects every goal, a cancel
@@ -80,15 +80,16 @@ class ActionCallbackResult(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for types in MessageTypes.of_package(package) if package.name != "rclpy" else ():
-            seen: set[tuple[str, FunctionNode]] = set()
-            for server in types.facts.action_servers:
-                for name in ("execute_callback", *_ANSWERS):
-                    function = _function(types, server, name)
-                    if function is not None and (name, function) not in seen:
-                        seen.add((name, function))
-                        yield from self._check(types, server, function, _ANSWERS.get(name, ""))
+    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        seen: set[tuple[str, FunctionNode]] = set()
+        for server in types.facts.action_servers:
+            for name in ("execute_callback", *_ANSWERS):
+                function = _function(types, server, name)
+                if function is not None and (name, function) not in seen:
+                    seen.add((name, function))
+                    yield from self._check(types, server, function, _ANSWERS.get(name, ""))
 
     def _check(
         self, types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str

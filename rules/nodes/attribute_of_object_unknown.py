@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import RclpyFile, class_of, has, known_names, rclpy_files
+from scaffold.api.rclpy import RclpyFile, class_of, has, known_names
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -28,7 +28,7 @@ _ELSEWHERE = {
 }
 
 
-class AttributeOfObjectUnknown(Rule):
+class AttributeOfObjectUnknown(RclpyRule):
     """An attribute of a publisher, client, goal handle, future, clock or time does not exist.
 
     **Why.** ``AttributeError: 'Publisher' object has no attribute 'send'``.
@@ -49,11 +49,12 @@ class AttributeOfObjectUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package) if package.name != "rclpy" else ():
-            for node in facts.module.walk(ast.Attribute):
-                if isinstance(node.ctx, ast.Load):
-                    yield from self._check(facts, node)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        for node in facts.module.walk(ast.Attribute):
+            if isinstance(node.ctx, ast.Load):
+                yield from self._check(facts, node)
 
     def _check(self, facts: RclpyFile, node: ast.Attribute) -> Iterator[Diagnostic]:
         owner = class_of(facts, node.value)

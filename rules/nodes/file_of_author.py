@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.python import PathValue
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _READERS = frozenset(
     {"open", "io.open", "pathlib.Path", "cv2.imread", "numpy.load", "numpy.loadtxt"}
@@ -18,7 +18,7 @@ _HOME = r"/(home|Users)/[a-z][\w.-]*/.+"
 _NODE = "import rclpy\n\n\ndef words():\n    with open({}) as file:\n        return file.read()\n"
 
 
-class FileOfAuthor(Rule):
+class FileOfAuthor(RclpyRule):
     """A node opens a file in a home directory, or a file of its package by a relative path.
 
     **Why.** ``FileNotFoundError`` on every other machine; a relative path is resolved against the
@@ -63,26 +63,25 @@ class FileOfAuthor(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            module = facts.module
-            for call in module.walk(ast.Call):
-                name = module.qualified_name(call.func)
-                if name not in _READERS or not call.args:
-                    continue
-                value = facts.evaluator.evaluate(call.args[0])
-                text = value.text if isinstance(value, PathValue) else value
-                if not isinstance(text, str):
-                    continue
-                if re.fullmatch(_HOME, text):
-                    message = f"{text!r} exists only on the author's machine"
-                    yield self.report(module.location(call.args[0]), message)
-                elif name == "open" and _reads(call) and _is_in(package, text):
-                    message = (
-                        f"{text!r} is relative to the directory of the shell, not the package; "
-                        "use get_package_share_directory()"
-                    )
-                    yield self.report(module.location(call.args[0]), message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        module = facts.module
+        for call in module.walk(ast.Call):
+            name = module.qualified_name(call.func)
+            if name not in _READERS or not call.args:
+                continue
+            value = facts.evaluator.evaluate(call.args[0])
+            text = value.text if isinstance(value, PathValue) else value
+            if not isinstance(text, str):
+                continue
+            if re.fullmatch(_HOME, text):
+                message = f"{text!r} exists only on the author's machine"
+                yield self.report(module.location(call.args[0]), message)
+            elif name == "open" and _reads(call) and _is_in(package, text):
+                message = (
+                    f"{text!r} is relative to the directory of the shell, not the package; "
+                    "use get_package_share_directory()"
+                )
+                yield self.report(module.location(call.args[0]), message)
 
 
 def _reads(call: ast.Call) -> bool:

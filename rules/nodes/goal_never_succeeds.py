@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import ActionServer, RclpyFile, rclpy_files
+from scaffold.api.rclpy import ActionServer, RclpyFile
 
 _ENDS = frozenset({"abort", "canceled"})
 _NODE = (
@@ -26,7 +26,7 @@ _NODE = (
 )
 
 
-class GoalNeverSucceeds(Rule):
+class GoalNeverSucceeds(RclpyRule):
     """An execute callback returns the result without setting the goal state.
 
     **Why.** rclpy treats the goal as failed: "Goal state not set, assuming aborted"; the client
@@ -56,22 +56,23 @@ class GoalNeverSucceeds(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package) if package.name != "rclpy" else ():
-            seen: set[FunctionNode] = set()
-            if facts.module.index.attributes("succeed"):
-                continue
-            for server in facts.action_servers:
-                function = _work(facts, server)
-                if function is not None and function not in seen:
-                    seen.add(function)
-                    if _leaves_open(function):
-                        line = server.location.line
-                        message = (
-                            "result returned without succeed(): goals of the action server of "
-                            f"line {line} end as aborted"
-                        )
-                        yield self.report(facts.module.location(function.body[-1]), message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        seen: set[FunctionNode] = set()
+        if facts.module.index.attributes("succeed"):
+            return
+        for server in facts.action_servers:
+            function = _work(facts, server)
+            if function is not None and function not in seen:
+                seen.add(function)
+                if _leaves_open(function):
+                    line = server.location.line
+                    message = (
+                        "result returned without succeed(): goals of the action server of "
+                        f"line {line} end as aborted"
+                    )
+                    yield self.report(facts.module.location(function.body[-1]), message)
 
 
 def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:

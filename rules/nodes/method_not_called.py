@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.rclpy import NODE, RclpyFile, class_of, is_method, rclpy_files
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api.rclpy import NODE, RclpyFile, class_of, is_method
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
@@ -25,7 +25,7 @@ _NODE = (
 )
 
 
-class MethodNotCalled(Rule):
+class MethodNotCalled(RclpyRule):
     """A method of an rclpy object is referenced where only a call makes sense.
 
     **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition, a
@@ -54,20 +54,21 @@ class MethodNotCalled(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package) if package.name != "rclpy" else ():
-            for node in facts.module.walk(ast.Attribute):
-                if not isinstance(node.ctx, ast.Load) or not _needs_value(facts, node):
-                    continue
-                if facts.module.qualified_name(node) == "rclpy.ok":
-                    message = "rclpy.ok is a function: always true; write rclpy.ok()"
-                    yield self.report(facts.module.location(node), message)
-                elif facts.module.qualified_name(node) in _FUNCTIONS:
-                    message = f"{facts.module.text(node)} is not called; add the parentheses"
-                    yield self.report(facts.module.location(node), message)
-                elif _is_method_of_rclpy(facts, node):
-                    message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
-                    yield self.report(facts.module.location(node), message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        for node in facts.module.walk(ast.Attribute):
+            if not isinstance(node.ctx, ast.Load) or not _needs_value(facts, node):
+                continue
+            if facts.module.qualified_name(node) == "rclpy.ok":
+                message = "rclpy.ok is a function: always true; write rclpy.ok()"
+                yield self.report(facts.module.location(node), message)
+            elif facts.module.qualified_name(node) in _FUNCTIONS:
+                message = f"{facts.module.text(node)} is not called; add the parentheses"
+                yield self.report(facts.module.location(node), message)
+            elif _is_method_of_rclpy(facts, node):
+                message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
+                yield self.report(facts.module.location(node), message)
 
 
 def _needs_value(facts: RclpyFile, node: ast.Attribute) -> bool:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import is_harmless, misfit
-from scaffold.api.rclpy import called_function, rclpy_files
+from scaffold.api.rclpy import RclpyFile, called_function
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class OwnCallUnfit(Rule):
+class OwnCallUnfit(RclpyRule):
     """A method of the node, or a function of the file, gets other arguments than it takes.
 
     **Why.** ``TypeError: Talker.talk() missing 1 required positional argument: 'text'`` when the
@@ -77,11 +77,10 @@ class OwnCallUnfit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                called = called_function(package, facts, call)
-                problem = misfit(call, called.takes, bound=called.bound) if called else ""
-                if called and problem and not is_harmless(facts.module, call, "TypeError"):
-                    message = f"{called.name}() {problem}: TypeError"
-                    yield self.report(facts.module.location(call), message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            called = called_function(package, facts, call)
+            problem = misfit(call, called.takes, bound=called.bound) if called else ""
+            if called and problem and not is_harmless(facts.module, call, "TypeError"):
+                message = f"{called.name}() {problem}: TypeError"
+                yield self.report(facts.module.location(call), message)

@@ -5,17 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
 from scaffold.api.parameters import Declared, declared_by
 from scaffold.api.python import UNKNOWN
-from scaffold.api.rclpy import (
-    FIELDS,
-    RclpyFile,
-    is_listed_parameter,
-    name_asked,
-    parameter_read,
-    rclpy_files,
-)
+from scaffold.api.rclpy import FIELDS, RclpyFile, is_listed_parameter, name_asked, parameter_read
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -36,7 +29,7 @@ _VARIABLES = (
 )
 
 
-class ParameterFieldDiffers(Rule):
+class ParameterFieldDiffers(RclpyRule):
     """A parameter is read from a field of ParameterValue that belongs to another type.
 
     **Why.** No error: the other fields are 0, False or empty, whatever the parameter is set to.
@@ -83,22 +76,21 @@ class ParameterFieldDiffers(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for name in FIELDS:
-                for field in facts.module.index.attributes(name):
-                    read, declared = _read(package, facts, field)
-                    if not declared or field.attr == f"{declared}_value":
-                        continue
-                    parents = facts.module.parents(field)
-                    if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
-                        continue  # a fallback
-                    _, end = facts.module.span(field)
-                    edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
-                    message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
-                    message += f"use {declared}_value"
-                    fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
-                    yield self.report(facts.module.location(field), message, fix)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for name in FIELDS:
+            for field in facts.module.index.attributes(name):
+                read, declared = _read(package, facts, field)
+                if not declared or field.attr == f"{declared}_value":
+                    continue
+                parents = facts.module.parents(field)
+                if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
+                    continue  # a fallback
+                _, end = facts.module.span(field)
+                edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
+                message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
+                message += f"use {declared}_value"
+                fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
+                yield self.report(facts.module.location(field), message, fix)
 
 
 def _read(package: Package, facts: RclpyFile, field: ast.Attribute) -> tuple[str, str]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.parameters import Declared, a_type, declared_by
-from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set, rclpy_files
+from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set
 
 _NODE = (
     "from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor\n"
@@ -23,7 +23,7 @@ _RANGE = (
 )
 
 
-class ParameterSetRefused(Rule):
+class ParameterSetRefused(RclpyRule):
     """A node sets one of its parameters to a value that rclpy rejects.
 
     **Why.** No error: ``set_parameters`` returns ``successful=False`` and the reason, ``Wrong
@@ -78,16 +78,15 @@ class ParameterSetRefused(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for owner, made in parameters_set(facts):
-                problem = _problem(declared_by(owner, package), made)
-                if problem:
-                    yield self.report(facts.module.location(made.node), problem)
-            for attribute in facts.module.index.attributes("undeclare_parameter"):
-                problem = _undeclared(package, facts, attribute)
-                if problem:
-                    yield self.report(facts.module.location(attribute), problem)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for owner, made in parameters_set(facts):
+            problem = _problem(declared_by(owner, package), made)
+            if problem:
+                yield self.report(facts.module.location(made.node), problem)
+        for attribute in facts.module.index.attributes("undeclare_parameter"):
+            problem = _undeclared(package, facts, attribute)
+            if problem:
+                yield self.report(facts.module.location(attribute), problem)
 
 
 def _problem(declared: Declared, made: ParameterMade) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.parameters import declared_by
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import RclpyFile, parameter_read, rclpy_files
+from scaffold.api.rclpy import RclpyFile, parameter_read
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -23,7 +23,7 @@ _NODE = (
 )
 
 
-class ParameterValueUnfit(Rule):
+class ParameterValueUnfit(RclpyRule):
     """The value of a parameter is used as if it had another type than declared.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
@@ -62,13 +62,12 @@ class ParameterValueUnfit(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if not facts.parameter_reads and not facts.parameters:
-                continue
-            for node, problem in _problems(package, facts):
-                if not is_harmless(facts.module, node, "TypeError"):
-                    yield self.report(facts.module.location(node), problem)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if not facts.parameter_reads and not facts.parameters:
+            return
+        for node, problem in _problems(package, facts):
+            if not is_harmless(facts.module, node, "TypeError"):
+                yield self.report(facts.module.location(node), problem)
 
 
 def _problems(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:

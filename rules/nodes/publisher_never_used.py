@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, ViewError
 from scaffold.api.python import Unknown
-from scaffold.api.rclpy import RclpyFile, rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class PublisherNeverUsed(Rule):
+class PublisherNeverUsed(RclpyRule):
     """A publisher is assigned to an attribute that nothing in the package reads.
 
     **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it.
@@ -51,17 +51,16 @@ class PublisherNeverUsed(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            if not facts.init_calls or facts.module.in_tests:
-                continue  # a class that other packages may inherit from, or use
-            for publisher in facts.publishers:
-                name = _kept_in(facts, publisher.call)
-                if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
-                    continue
-                if _mentions(package, name) == 1:
-                    message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
-                    yield self.report(publisher, message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        if not facts.init_calls or facts.module.in_tests:
+            return  # a class that other packages may inherit from, or use
+        for publisher in facts.publishers:
+            name = _kept_in(facts, publisher.call)
+            if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
+                continue
+            if _mentions(package, name) == 1:
+                message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
+                yield self.report(publisher, message)
 
 
 def _kept_in(facts: RclpyFile, call: ast.Call) -> str:

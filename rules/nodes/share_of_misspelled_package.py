@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.launch import Use, meant_package
 from scaffold.api.manifest import other_name
 from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api.rclpy import RclpyFile
 
 _FUNCTIONS = frozenset(
     f"ament_index_python{module}.{function}"
@@ -25,7 +25,7 @@ _NODE = (
 _MANIFEST = "<package format='3'><name>talker_py</name></package>\n"
 
 
-class ShareOfMisspelledPackage(Rule):
+class ShareOfMisspelledPackage(RclpyRule):
     """A node looks up the files of a package whose name is misspelled.
 
     **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is reached.
@@ -57,21 +57,18 @@ class ShareOfMisspelledPackage(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts in rclpy_files(package):
-            for call in facts.module.walk(ast.Call):
-                if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
-                    continue
-                name = facts.evaluator.evaluate(call.args[0])
-                if not isinstance(name, str) or name == other_name(package):
-                    continue
-                at = facts.module.location(call.args[0])
-                closest = meant_package(package, Use(name, at, None, at))
-                if closest is not None and not is_harmless(
-                    facts.module, call, "PackageNotFoundError"
-                ):
-                    message = (
-                        f"no package {name!r}: PackageNotFoundError; did you mean "
-                        f"{closest.name!r} ({closest.reason})?"
-                    )
-                    yield self.report(at, message)
+    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+        for call in facts.module.walk(ast.Call):
+            if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
+                continue
+            name = facts.evaluator.evaluate(call.args[0])
+            if not isinstance(name, str) or name == other_name(package):
+                continue
+            at = facts.module.location(call.args[0])
+            closest = meant_package(package, Use(name, at, None, at))
+            if closest is not None and not is_harmless(facts.module, call, "PackageNotFoundError"):
+                message = (
+                    f"no package {name!r}: PackageNotFoundError; did you mean "
+                    f"{closest.name!r} ({closest.reason})?"
+                )
+                yield self.report(at, message)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import time_limit
@@ -65,8 +65,13 @@ def _unread(path: str, linters: int, why: str) -> _File:
 class StyleCheck:
     """Checks the Python files of packages; ruff runs in the background from the start."""
 
-    def __init__(self, packages: Sequence[Package]) -> None:
+    def __init__(
+        self,
+        packages: Sequence[Package],
+        is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
+    ) -> None:
         self._scratch = ""
+        self._is_wanted = is_wanted
         self._run: ruff.Run | None = None
         self._cache = Cache.of_user(_identity)
         self._files = {id(package): self._read(package) for package in packages}
@@ -82,16 +87,21 @@ class StyleCheck:
         Raises:
             EnvironmentMissingError: ruff does not run.
         """
-        found: list[Diagnostic] = []
-        counts: dict[str, int] = {}
+        return [one for found in self.by_file(package).values() for one in found]
+
+    def by_file(self, package: Package) -> dict[str, list[Diagnostic]]:
+        """Return the same by path; raises like `diagnostics`."""
+        by_file: dict[str, list[Diagnostic]] = {}
         for file in self._files.pop(id(package), ()):
             findings = self._findings(file, package)
             package.is_repeatable &= not file.ran_out_of_time
+            found = by_file[file.path] = list[Diagnostic]()
+            counts: dict[str, int] = {}
             for one in findings:
                 counts[one.code] = count = counts.get(one.code, 0) + 1
                 if count <= MOST_FINDINGS + 1:
                     found.append(_diagnostic(package, file.path, one))
-        return found
+        return by_file
 
     def _findings(self, file: _File, package: Package) -> list[Finding]:
         if file.findings is not None:
@@ -141,6 +151,8 @@ class StyleCheck:
         files: list[_File] = []
         links = getattr(package.tree, "broken_links", ())
         for path, linters in select((*package.tree.files, *links)).items():
+            if not self._is_wanted(package, path):
+                continue
             try:
                 data = package.tree.read(path, most_bytes(path))
             except LargeFileError:

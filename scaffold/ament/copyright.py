@@ -58,7 +58,7 @@ def _headers(package: Package) -> list[Header]:
         if os.path.splitext(path)[1] not in EXTENSIONS or path == "setup.py":
             continue
         try:
-            data = package.tree.read(path)
+            data = package.bytes_of(path)
         except LargeFileError:
             with suppress(ViewError):
                 package.data(path)  # which makes it known as too large

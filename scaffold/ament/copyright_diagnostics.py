@@ -101,7 +101,7 @@ def _is_repository(package: Package) -> bool:
 def _wrong(package: Package, name: str) -> str:
     if not package.has(name):
         return f"the repository has no {name}"
-    data = package.tree.read(name)
+    data = package.bytes_of(name)
     if not data:
         return f"{name} is empty"
     if identify_file(name, data) is None:

@@ -38,7 +38,7 @@ def of_package(package: Package) -> list[str]:
 def mistake(package: Package, path: str) -> tuple[Location, str] | None:
     """Return the first place where an XML file is not well-formed, and what is wrong there."""
     try:
-        data = package.tree.read(path)
+        data = package.bytes_of(path)
     except OSError as error:
         return Location.start_of(path), f"cannot be read: {error.strerror or error}"
     return check(path, data)
@@ -188,7 +188,7 @@ def _verdicts(package: Package) -> list[Verdict]:
 def _uses(package: Package, path: str) -> Iterator[_Use]:
     """Yield the schemas that a well-formed file names."""
     try:
-        data = package.tree.read(path) if path != "package.xml" else b""
+        data = package.bytes_of(path) if path != "package.xml" else b""
     except OSError:
         return
     if b"xml-model" not in data and b"noNamespaceSchemaLocation" not in data:
@@ -252,7 +252,7 @@ def _reads_others(root: etree._Element) -> bool:
 
 def _read(package: Package, path: str) -> bytes:
     if not path.startswith(".."):
-        return package.tree.read(path, MOST_BYTES)
+        return package.bytes_of(path, MOST_BYTES)
     if package.root is None:
         raise FileNotFoundError(path)
     # beside the package, in the same repository

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 from scaffold.check.rule import Rule
 from scaffold.diagnostic import Diagnostic
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.launch.python_file import LaunchFile
@@ -16,75 +17,123 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 
-class PythonRule(Rule):
-    """Reads every Python file of a package that can be parsed."""
+class FileRule(Rule):
+    """Reads the files of one kind, each by itself.
+
+    A subclass has ``check_file``, or ``check_in`` if it looks at more than the file.
+    """
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         """Yield what is wrong in any of the files."""
-        for module in package.modules():
-            yield from self.check_file(module)
+        for path in self.paths(package):
+            try:
+                yield from self.check_path(package, path)
+            except ViewError:
+                continue
+
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that may be of the kind."""
+        return package.python_files
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        raise NotImplementedError
+
+    def check_in(self, package: Package, file: Any) -> Iterator[Diagnostic]:  # noqa: ANN401,ARG002
+        """Yield what is wrong in a file, in the light of its package."""
+        return self.check_file(file)
+
+    def check_file(self, file: Any) -> Iterator[Diagnostic]:  # noqa: ANN401  see the subclasses
+        """Yield what is wrong in a file."""
+        raise NotImplementedError
+
+    @property
+    def looks_further(self) -> bool:
+        """Whether what is found in a file may depend on other files."""
+        return type(self).check_in is not FileRule.check_in
+
+
+class PythonRule(FileRule):
+    """Reads every Python file of a package that can be parsed."""
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        return self.check_in(package, package.module(path))
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""
         raise NotImplementedError
 
 
-class TestRule(Rule):
+class TestRule(FileRule):
     """Reads the Python files that pytest collects."""
 
     __test__ = False  # not for pytest itself
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
-        from scaffold.model.tests import test_modules
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that pytest collects."""
+        from scaffold.model.tests import test_paths
 
-        for module in test_modules(package):
-            yield from self.check_file(module)
+        return test_paths(package)
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        return self.check_in(package, package.module(path))
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""
         raise NotImplementedError
 
 
-class RclpyRule(Rule):
+class RclpyRule(FileRule):
     """Reads the Python files that import rclpy, tests aside: those try what nodes must not do."""
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
-        from scaffold.model.rclpy.file import rclpy_files
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that import rclpy."""
+        from scaffold.model.rclpy.file import rclpy_paths
 
-        for file in rclpy_files(package):
-            yield from self.check_file(file)
+        return rclpy_paths(package)
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        from scaffold.model.rclpy.file import node_facts
+
+        return self.check_in(package, node_facts(package, path))
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""
         raise NotImplementedError
 
 
-class MessageRule(Rule):
+class MessageRule(FileRule):
     """Reads the Python files that use classes of messages, services or actions."""
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
         from scaffold.model.messages.inference import MessageTypes
 
-        for types in MessageTypes.of_package(package):
-            yield from self.check_file(types)
+        types = MessageTypes.of(package, path)
+        return self.check_in(package, types) if types.is_relevant else iter(())
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""
         raise NotImplementedError
 
 
-class LaunchRule(Rule):
+class LaunchRule(FileRule):
     """Reads the launch files that are written in Python."""
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that import launch, those of tests left out."""
+        from scaffold.model.launch.python_file import launch_paths
+
+        return launch_paths(package)
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
         from scaffold.model.launch.python_file import LaunchFile
 
-        for launch in LaunchFile.of_package(package):
-            yield from self.check_file(launch)
+        return self.check_in(package, LaunchFile.of(package, path))
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""

@@ -1,48 +1,141 @@
-"""Checks a workspace in worker processes; the order of the results does not depend on them."""
+"""Spreads a check over worker processes by size; its results and their order are the same."""
 
 from __future__ import annotations
 
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from scaffold.check.cache import worker_reads
-from scaffold.check.session import Result
 from scaffold.diagnostic import Diagnostic
-from scaffold.model.discovery.targets import Target
+from scaffold.files.disk import size
 from scaffold.model.package import Package
+from scaffold.record import NamedTuple
 
-BATCH = 16
-"""Packages per batch: large enough to share the start of ruff, small enough for progress."""
+if TYPE_CHECKING:
+    from scaffold.check.result import Earlier, Result
+    from scaffold.check.session import Ruled, Session
+    from scaffold.model.discovery.targets import Target
 
-Batch = Callable[[Sequence[Target]], list[Result]]
-_Found = tuple[list[tuple[int, list[Diagnostic]]], list[worker_reads.Note]]
+WORTH_WORKERS = 150_000
+"""Bytes of Python from which on worker processes cost less than they save."""
+TASK = 250_000
+"""Bytes of Python per task: large enough to share the start of ruff, small enough to share out."""
+MOST_PACKAGES = 16
+"""Of a task, for progress."""
 
-_work: tuple[Batch, Sequence[Target], Sequence[Package]]
+Style = dict[str, list[Diagnostic]]
+
+
+class _Task(NamedTuple):
+    """The rules and the style of some packages, or the style alone of some files of one."""
+
+    start: int
+    stop: int
+    has_rules: bool
+    paths: frozenset[str] | None
+    """The files whose style is checked; ``None`` for all."""
+
+
+class _Done(NamedTuple):
+    """What a task found, by the place of the package."""
+
+    rules: dict[int, Ruled]
+    style: dict[int, Style]
+    learnt: list[worker_reads.Note]
+
+
+class _Work(NamedTuple):
+    session: Session
+    targets: Sequence[Target]
+    earlier: Mapping[str, Earlier]
+    packages: Sequence[Package]
+    tasks: Sequence[_Task]
+
+
+_work: _Work
 """Set before the workers are forked and inherited by them: rules are loaded by path and could not
-be sent; only numbers go in, and diagnostics and notes come out."""
+be sent; only numbers go in, and what was found and learnt comes out."""
 
 
-def batches(check: Batch, targets: Sequence[Target]) -> Iterator[Result]:
-    """Check targets in batches; yield results in their order."""
+def run(
+    session: Session, targets: Sequence[Target], earlier: Mapping[str, Earlier]
+) -> Iterator[Result]:
+    """Check packages; yield their results in the order given.
+
+    Args:
+        session: What checks them.
+        targets: The packages.
+        earlier: What an earlier run found in some, by directory.
+    """
     global _work  # noqa: PLW0603  see its docstring
-    packages = _all_packages(targets)
-    _work = check, targets, packages
-    starts = range(0, len(targets), BATCH)
-    workers = min(len(os.sched_getaffinity(0)), len(starts))
-    if workers == 1:
-        for start in starts:
-            yield from check(targets[start : start + BATCH])
+    sizes = [_sizes(target.package, earlier) for target in targets]
+    tasks = list(_tasks(sizes))
+    workers = min(len(os.sched_getaffinity(0)), len(tasks))
+    if workers < 2 or sum(sum(one.values()) for one in sizes) < WORTH_WORKERS:  # noqa: PLR2004
+        for start in range(0, len(targets), MOST_PACKAGES):
+            yield from session.run_batch(targets[start : start + MOST_PACKAGES], None, earlier)
         return
+    packages = _all_packages(targets)
+    _work = _Work(session, targets, earlier, packages, tasks)
     with multiprocessing.get_context("fork").Pool(workers, _end_with_the_terminal) as pool:
-        for start, (found, learnt) in zip(starts, pool.imap(_run, starts), strict=True):
-            for note in learnt:
+        rules: dict[int, Ruled] = {}
+        style: dict[int, Style] = {}
+        for number, done in enumerate(pool.imap(_run, range(len(tasks))), 1):
+            for note in done.learnt:
                 note.add_to(packages)
-            for target, (files, diagnostics) in zip(
-                targets[start : start + BATCH], found, strict=True
-            ):
-                yield Result(target.package, files, diagnostics)
+            rules.update(done.rules)
+            for at, found in done.style.items():
+                style.setdefault(at, {}).update(found)
+            is_complete = number == len(tasks) or tasks[number].has_rules
+            for at in sorted(rules) if is_complete else ():
+                yield session.result(targets[at], rules.pop(at), style.pop(at, {}))
+
+
+def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
+    """Return the sizes of the Python files that are to be read, as far as they are on disk."""
+    known = earlier.get(package.directory)
+    if package.root is None:
+        return {}
+    root = package.root
+    return {
+        path: size(os.path.join(root, path))
+        for path in (*package.tree.files, *getattr(package.tree, "broken_links", ()))
+        if path.endswith(".py") and (known is None or package.full_path(path) in known.edited)
+    }
+
+
+def _tasks(sizes: Sequence[Mapping[str, int]]) -> Iterator[_Task]:
+    """Yield the tasks; the rules of a package come before the rest of its style."""
+    start, bytes_so_far = 0, 0
+    for at, files in enumerate(sizes):
+        total = sum(files.values())
+        is_full = bytes_so_far + total > TASK or at - start >= MOST_PACKAGES
+        if is_full and at > start:
+            yield _Task(start, at, has_rules=True, paths=None)
+            start, bytes_so_far = at, 0
+        bytes_so_far += total
+        if total > 2 * TASK:
+            yield _Task(at, at + 1, has_rules=True, paths=frozenset())
+            for paths in _cut(files):
+                yield _Task(at, at + 1, has_rules=False, paths=paths)
+            start, bytes_so_far = at + 1, 0
+    if start < len(sizes):
+        yield _Task(start, len(sizes), has_rules=True, paths=None)
+
+
+def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
+    paths: list[str] = []
+    total = 0
+    for path, bytes_ in files.items():
+        paths.append(path)
+        total += bytes_
+        if total > TASK:
+            yield frozenset(paths)
+            paths, total = [], 0
+    yield frozenset(paths)
 
 
 def _end_with_the_terminal() -> None:
@@ -50,10 +143,20 @@ def _end_with_the_terminal() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def _run(start: int) -> _Found:
-    check, targets, packages = _work
-    found = [(one.files, one.diagnostics) for one in check(targets[start : start + BATCH])]
-    return found, list(worker_reads.take(packages))
+def _run(number: int) -> _Done:
+    session, targets, earlier, packages, tasks = _work
+    task = tasks[number]
+    places = range(task.start, task.stop)
+    backend = session.start_style([targets[at].package for at in places], earlier, task.paths)
+    rules: dict[int, Ruled] = {}
+    style: dict[int, Style] = {}
+    for at in places:
+        package = targets[at].package
+        if task.has_rules:
+            rules[at] = session.check_rules(package, earlier.get(package.directory))
+        style[at] = backend.by_file(package) if backend else {}
+        package.forget()
+    return _Done(rules, style, list(worker_reads.take(packages)))
 
 
 def _all_packages(targets: Sequence[Target]) -> list[Package]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import CodeType, ModuleType
 
@@ -16,12 +16,11 @@ from scaffold.errors import ContentError
 from scaffold.files.disk import digest
 
 
-def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]]:
+def load(roots: Sequence[str]) -> list[type[Rule]]:
     """Return the rules of the content directories, sorted by code.
 
     Args:
         roots: The ``rules`` directories.
-        without: The areas, directories in them, that are left out.
 
     Raises:
         ContentError: a file does not load, holds no rule or more than one, is not named like
@@ -36,8 +35,6 @@ def load(roots: Sequence[str], without: Collection[str] = ()) -> list[type[Rule]
         files = _rule_files(root)
         codes = rule_bytecode.codes(root, [path for _, path in files], _compile)
         for (area, path), code in zip(files, codes, strict=True):
-            if area in without:
-                continue
             rule = _load_file(prefix, area, path, code)
             other = taken.get(rule.code) or taken.get(rule.name)
             if other is not None:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 
 from scaffold import time_limit
 from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
+from scaffold.check.file_rules import FileRule
+from scaffold.check.result import Earlier, Part, Verdict
 from scaffold.check.rule import Rule
 from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, crash_message
-from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
+from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
 from scaffold.model.package import Package
+from scaffold.model.reads import Reads, recorded
 from scaffold.source import Location, TooLargeError, ViewError
 
 MOST_REFUSED = 100
@@ -23,34 +26,135 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
 
     A file that cannot be parsed gives one SC001, a rule that fails one SC002.
     """
-    said: list[Diagnostic] = []
-    for rule in rules:
-        said += _run(rule, package)
-    said.extend(_unparsable(package))
-    return sorted(set(said), key=lambda diagnostic: diagnostic.sort_key)
+    return Check(package).run(rules)
 
 
-def _run(rule: Rule, package: Package) -> list[Diagnostic]:
-    """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
-    said: list[Diagnostic] = []
-    for _ in range(MOST_REFUSED):
-        said.clear()
-        try:
-            with time_limit.limited():
-                # One more than is shown, so that the session knows of it.
-                said.extend(islice(rule.check(package), MOST_FINDINGS + 1))
-        except ViewError:
-            pass
-        except EXHAUSTED as error:
-            package.is_repeatable &= not isinstance(error, OutOfTimeError)
-            path = _file_at_fault(package, error)
-            if path is not None and package.refuse(path, exhausted(error)):
+class Check:
+    """The rules at work on one package.
+
+    Args:
+        package: The package.
+        earlier: What was found in it earlier: its parts are taken over where they hold.
+    """
+
+    def __init__(self, package: Package, earlier: Earlier | None = None) -> None:
+        self._package = package
+        self._kept: dict[str, Part] = {}
+        self._reads: dict[str, Reads] = {}
+        self._found: dict[str, list[Diagnostic]] = {}
+        self._unparsable: list[Diagnostic] = []
+        self._is_whole = True
+        """Whether each finding belongs to a part."""
+        if earlier is not None:
+            self._take_over(earlier)
+
+    def _take_over(self, earlier: Earlier) -> None:
+        package, verdict = self._package, earlier.verdict
+        edited = frozenset(earlier.edited)
+        package.assume_imports(
+            {
+                path: imports
+                for path, imports in verdict.imports.items()
+                if package.full_path(path) not in edited
+            }
+        )
+        same = {
+            package.full_path(path)
+            for path, imports in verdict.imports.items()
+            if package.full_path(path) in edited and _imports(package, path) == imports
+        }
+        self._kept = {
+            key: part
+            for key, part in verdict.parts.items()
+            if part.files.isdisjoint(edited) and (edited - same).isdisjoint(part.imports)
+        }
+        self._unparsable = [
+            one for one in verdict.unparsable if package.full_path(one.location.path) not in edited
+        ]
+
+    def run(self, rules: Iterable[Rule]) -> list[Diagnostic]:
+        """Return what the rules say, in reading order."""
+        for rule in rules:
+            if rule.code in self._kept:
                 continue
-            said.append(_crash(rule, package, error))
-        except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
-            said.append(_crash(rule, package, error))
-        break
-    return said
+            for key, found in self._run(rule).items():
+                self._found.setdefault(key, []).extend(found)
+        self._unparsable = [*dict.fromkeys([*self._unparsable, *_unparsable(self._package)])]
+        said = [one for part in self._kept.values() for one in part.diagnostics]
+        said += [one for found in self._found.values() for one in found]
+        said = [*dict.fromkeys([*said, *self._unparsable])]
+        return sorted(said, key=lambda diagnostic: diagnostic.sort_key)
+
+    def verdict(self, style: Mapping[str, Sequence[Diagnostic]]) -> Verdict | None:
+        """Return what was found in parts, ``None`` if it cannot be taken apart.
+
+        Args:
+            style: What is known of the style of files.
+        """
+        exhausted_here = any(one.message in EXHAUSTION for one in self._unparsable)
+        if exhausted_here or not self._is_whole:
+            return None  # files may have been refused because of others
+        made = {
+            key: Part(*reads.all(), tuple(self._found.get(key, ())))
+            for key, reads in self._reads.items()
+        }
+        imports = self._package.known_imports
+        return Verdict({**self._kept, **made}, style, self._unparsable, imports)
+
+    def _run(self, rule: Rule) -> Mapping[str, list[Diagnostic]]:
+        """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
+        package = self._package
+        for _ in range(MOST_REFUSED):
+            found: dict[str, list[Diagnostic]] = {}
+            try:
+                with time_limit.limited():
+                    self._collect(rule, found)
+            except EXHAUSTED as error:
+                self._is_whole = False
+                package.is_repeatable &= not isinstance(error, OutOfTimeError)
+                path = _file_at_fault(package, error)
+                if path is not None and package.refuse(path, exhausted(error)):
+                    continue
+                found.setdefault(rule.code, []).append(_crash(rule, package, error))
+            except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
+                self._is_whole = False
+                found.setdefault(rule.code, []).append(_crash(rule, package, error))
+            break
+        return found
+
+    def _collect(self, rule: Rule, found: dict[str, list[Diagnostic]]) -> None:
+        """Add to ``found`` what a rule says, by part."""
+        # One more than is shown, so that the session knows of it.
+        most = MOST_FINDINGS + 1
+        for key, say in self._steps(rule):
+            said = found.setdefault(key, [])
+            reads = self._reads.setdefault(key, Reads())
+            try:
+                with recorded(reads):
+                    said.extend(islice(say(), most))
+            except ViewError:
+                continue  # what the rule needs is not there
+            most -= len(said)
+            self._is_whole &= most > 0  # else the other files count for what is left out
+
+    def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
+        """Yield what is to be run of a rule, each step with the part that it belongs to."""
+        package = self._package
+        if not isinstance(rule, FileRule):
+            yield rule.code, lambda: rule.check(package)
+            return
+        for path in rule.paths(package):
+            key = f"{rule.code} {path}" if rule.looks_further else path
+            if key not in self._kept:
+                self._reads.setdefault(key, Reads()).files.add(package.full_path(path))
+                yield key, lambda path=path: rule.check_path(package, path)  # type: ignore[misc]
+
+
+def _imports(package: Package, path: str) -> Collection[str] | None:
+    try:
+        return package.imports(path)
+    except ViewError:
+        return None
 
 
 def _crash(rule: Rule, package: Package, error: Exception) -> Diagnostic:
@@ -73,10 +177,10 @@ def _file_at_fault(package: Package, error: Exception) -> str | None:
 
 
 def _unparsable(package: Package) -> list[Diagnostic]:
-    found = {
+    found = dict.fromkeys(
         (isinstance(error, TooLargeError), error.location, error.message)
         for error in package.parse_errors
-    }
+    )
     return [
         (FileTooLarge if too_large else UnparsableFile)().report(location, message)
         for too_large, location, message in found

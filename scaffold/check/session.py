@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
@@ -14,9 +14,10 @@ from scaffold.check.engine_rules import (
     TooManyFindings,
     UnparsableFile,
 )
+from scaffold.check.result import Earlier, Result, Verdict
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
-from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, Severity
+from scaffold.diagnostic import MOST_FINDINGS, Diagnostic
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
@@ -25,38 +26,13 @@ if TYPE_CHECKING:
     from scaffold.ament import StyleCheck
 
 
-PARALLEL_FROM = 8
-"""Packages from which on worker processes cost less than they save."""
+class Ruled(NamedTuple):
+    """What the rules found in a package."""
 
-
-class Result(NamedTuple):
-    """What was found in one package."""
-
-    package: Package
     files: int
-    diagnostics: list[Diagnostic]
-
-
-class Summary(NamedTuple):
-    """Counts over a whole run."""
-
-    packages: int
-    files: int
-    errors: int
-    warnings: int
-    infos: int
-
-    @classmethod
-    def of(cls, results: Sequence[Result]) -> Summary:
-        """Count."""
-        severities = [d.severity for result in results for d in result.diagnostics]
-        return cls(
-            len(results),
-            sum(result.files for result in results),
-            severities.count(Severity.ERROR),
-            severities.count(Severity.WARNING),
-            severities.count(Severity.INFO),
-        )
+    found: list[Diagnostic]
+    verdict: Verdict | None
+    """The same in parts, with the style of the files that are not to be checked again."""
 
 
 def _do_nothing() -> None:
@@ -75,46 +51,68 @@ class Session:
         self.after_rule: Callable[[], None] = _do_nothing
         """Called after each rule that ran over a package, for who shows how far it is."""
 
-    def run(self, targets: Sequence[Target]) -> Iterator[Result]:
-        """Check packages, several at a time where that pays; yield in the order given."""
-        if len(targets) < PARALLEL_FROM:
-            yield from self.run_batch(targets)
-            return
-        from scaffold.check.parallel import batches
+    def run(
+        self, targets: Sequence[Target], earlier: Mapping[str, Earlier] | None = None
+    ) -> Iterator[Result]:
+        """Check packages, in several processes where that pays; yield in the order given.
 
-        yield from batches(self.run_batch, targets)
+        Args:
+            targets: The packages.
+            earlier: What an earlier run found in some, by directory.
+        """
+        from scaffold.check.parallel import run
 
-    def run_batch(self, targets: Sequence[Target], style: StyleCheck | None = None) -> list[Result]:
+        return run(self, targets, earlier or {})
+
+    def run_batch(
+        self,
+        targets: Sequence[Target],
+        style: StyleCheck | None = None,
+        earlier: Mapping[str, Earlier] | None = None,
+    ) -> list[Result]:
         """Check packages in this process, with one start of the style backend for all.
 
         Args:
             targets: The packages.
             style: The style backend, where it has been started for them.
+            earlier: What an earlier run found in some, by directory.
         """
-        style = style or self._start_style([target.package for target in targets])
+        known = earlier or {}
+        style = style or self.start_style([target.package for target in targets], known)
         results: list[Result] = []
         for target in targets:
-            found = self._check_rules(target.package)
-            found += style.diagnostics(target.package) if style else []
-            result = Result(target.package, len(target.package.files), self._report(target, found))
-            results.append(result)
-            _ = target.package.identity  # while the manifest is at hand
-            target.package.forget()
+            package = target.package
+            rules = self.check_rules(package, known.get(package.directory))
+            results.append(self.result(target, rules, style.by_file(package) if style else {}))
+            package.forget()
         return results
+
+    def result(
+        self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
+    ) -> Result:
+        """Put together what rules and style found in a package."""
+        everything = {**(rules.verdict.style if rules.verdict else {}), **style}
+        found = [*rules.found, *(one for path in sorted(everything) for one in everything[path])]
+        verdict = rules.verdict._replace(style=everything) if rules.verdict else None
+        return Result(target.package, rules.files, self._report(target, found), verdict)
 
     def check(self, package: Package, style: StyleCheck | None = None) -> list[Diagnostic]:
         """Check one package, for instance one in memory; see `run_batch`."""
         (result,) = self.run_batch([Target(package)], style)
         return result.diagnostics
 
-    def check_style(self, target: Target) -> list[Diagnostic]:
-        """Check the style of one package only; see `check`."""
-        style = self._start_style([target.package])
-        if style is None:
-            return []
-        result = self._report(target, style.diagnostics(target.package))
-        target.package.forget()
-        return result
+    def check_style(
+        self, package: Package, paths: Collection[str]
+    ) -> Mapping[str, Sequence[Diagnostic]]:
+        """Check the style of some files only; return what is found, by path."""
+        style = self.start_style([package], None, paths)
+        found = style.by_file(package) if style else {}
+        package.forget()
+        return found
+
+    def selected(self, target: Target, found: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Return what is asked for, in reading order."""
+        return self._report(target, list(found))
 
     @property
     def rule_count(self) -> int:
@@ -126,21 +124,44 @@ class Session:
             yield rule
             self.after_rule()
 
-    def _start_style(self, packages: Sequence[Package]) -> StyleCheck | None:
+    def start_style(
+        self,
+        packages: Sequence[Package],
+        earlier: Mapping[str, Earlier] | None = None,
+        paths: Collection[str] | None = None,
+    ) -> StyleCheck | None:
+        """Start the style backend, unless nobody asks for style.
+
+        Args:
+            packages: What is to be checked.
+            earlier: What is known of some, by directory; files whose style is known are left out.
+            paths: Check these files alone.
+        """
         chosen = self.selection.select
         if chosen and all(prefix[:2] in self._areas for prefix in chosen):
             return None
         from scaffold.ament import StyleCheck
 
-        return StyleCheck(packages)
+        def is_wanted(package: Package, path: str) -> bool:
+            known = (earlier or {}).get(package.directory)
+            if known is not None and path in known.verdict.style:
+                return False
+            return paths is None or path in paths
 
-    def _check_rules(self, package: Package) -> list[Diagnostic]:
+        return StyleCheck(packages, is_wanted)
+
+    def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
+        """Run the rules over a package."""
         if package.parse_errors:
             # They were met for other packages: the verdict must not depend on who came first.
             package.forget()
             _ = package.name  # which everybody asks for: a malformed manifest is told of
-        said = runner.check(package, self._counted_rules())
-        return suppression.apply(package, said, self._ran)
+        check = runner.Check(package, earlier)
+        said = suppression.apply(package, check.run(self._counted_rules()), self._ran)
+        _ = package.identity  # while the manifest is at hand
+        return Ruled(
+            len(package.files), said, check.verdict(earlier.verdict.style if earlier else {})
+        )
 
     def _report(self, target: Target, found: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""

@@ -12,9 +12,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from scaffold.check.fixes.fixer import Fixed
+    from scaffold.check.result import Result
     from scaffold.check.rule import Rule
     from scaffold.check.selection import Selection
-    from scaffold.check.session import Result, Session
+    from scaffold.check.session import Session
     from scaffold.configuration.config import Config
     from scaffold.files.disk import Disk
     from scaffold.files.tree import Tree
@@ -185,7 +186,7 @@ def _report_options(options: argparse.Namespace) -> ReportOptions:
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
     """Fix, or show what would be fixed; report what remains."""
-    from scaffold.check.session import Result
+    from scaffold.check.result import Result
     from scaffold.cli.exit_codes import USAGE_ERROR
 
     written, has_failed = _write_fixes(options, session, targets)

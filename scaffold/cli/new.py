@@ -89,7 +89,7 @@ def run(options: argparse.Namespace) -> int:
             terminal.say_lines(f"Your answers as a command, to correct:\n    {command}")
         raise
     check = draft.Check(made)
-    found = check.end(registry.load(content.roots("rules"), without=check.silent_areas))
+    found = check.end(registry.load(content.roots("rules")))
     defects = [defect for defect in found if not dependency_names.is_about(defect, named)]
     if defects:
         _report_defects(defects)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from scaffold.check.session import Result
+    from scaffold.check.result import Result
     from scaffold.reporters import ReportOptions
 
 JOB_SUMMARY = "GITHUB_STEP_SUMMARY"

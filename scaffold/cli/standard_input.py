@@ -11,7 +11,8 @@ from scaffold.errors import InputError
 if TYPE_CHECKING:
     import argparse
 
-    from scaffold.check.session import Result, Session
+    from scaffold.check.result import Result
+    from scaffold.check.session import Session
     from scaffold.diagnostic import Diagnostic
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
@@ -72,7 +73,7 @@ def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
     Other files stay as they are, so fixes that change one are left out.
     """
     from scaffold.check.fixes import fixer
-    from scaffold.check.session import Result
+    from scaffold.check.result import Result
 
     name = _name(target)
 

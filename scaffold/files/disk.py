@@ -160,6 +160,11 @@ def holds(seen: Mapping[Question, Answer]) -> bool:
     return all(_answer(kind, path) == answer for (kind, path), answer in seen.items())
 
 
+def changed(seen: Mapping[Question, Answer]) -> list[Question]:
+    """Return the questions that have another answer now."""
+    return [asked for asked, answer in seen.items() if _answer(*asked) != answer]
+
+
 def digest(data: bytes) -> str:
     """Return a digest that no other data has."""
     try:
@@ -197,6 +202,14 @@ def read_file(path: str, most: int = MOST_BYTES) -> bytes:
     finally:
         os.close(descriptor)
     raise LargeFileError(path, max(size, count), most)
+
+
+def size(path: str) -> int:
+    """Return how many bytes a file has, to share out work by; no verdict may depend on it."""
+    try:
+        return os.stat(path).st_size
+    except OSError:
+        return 0
 
 
 def _names(directory: str) -> Names:

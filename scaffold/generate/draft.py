@@ -186,13 +186,6 @@ class Check:
         self._package = Package(tree, directory=package.name)
         self._style = StyleCheck([self._package])
 
-    @property
-    def silent_areas(self) -> frozenset[str]:
-        """The areas whose rules need not be loaded."""
-        from scaffold.check.areas import silent
-
-        return silent(self._package)
-
     def end(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
         """Return what the rules and the style say."""
         from scaffold.check.selection import Selection

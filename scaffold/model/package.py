@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
-from scaffold.files.disk import LargeFileError
+from scaffold.files.disk import MOST_BYTES, LargeFileError
 from scaffold.files.limits import most_bytes, too_large, why_unread
 from scaffold.files.tree import (
     CMAKE_LISTS,
@@ -18,6 +18,8 @@ from scaffold.files.tree import (
     MemoryTree,
     Tree,
 )
+from scaffold.model import reads
+from scaffold.model.reads import Reads
 from scaffold.record import NamedTuple
 from scaffold.source import Location, MissingFileError, ParseError, Source, TooLargeError, ViewError
 
@@ -70,6 +72,8 @@ class Package:
         self._neighbourhood: Neighbourhood | None = None
         self._identity: Identity | None = None
         self._views: dict[object, object] = {}
+        self._reads: dict[object, Reads] = {}
+        """What the remembered views were made of."""
         self._refused: dict[str, ParseError] = {}
 
     @classmethod
@@ -134,6 +138,7 @@ class Package:
             MissingFileError: there is no such file, or it cannot be read.
             ParseError: the file is not UTF-8.
         """
+        self._note(path)
         return self._view(("source", path), lambda: Source.decode(path, self._read(path)))
 
     def data(self, path: str) -> bytes:
@@ -144,7 +149,13 @@ class Package:
             ParseError: it cannot be read.
             TooLargeError: it is larger than people write.
         """
+        self._note(path)
         return self._view(("data", path), lambda: self._read(path))
+
+    def bytes_of(self, path: str, most: int = MOST_BYTES) -> bytes:
+        """Return what is in a file that no view is wanted of; raises OSError."""
+        self._note(path)
+        return self.tree.read(path, most)
 
     def editable(self, path: str) -> Source:
         """Return the text that the offsets of edits count in, in the file's own encoding."""
@@ -197,6 +208,7 @@ class Package:
 
             return SetupPy.parse(self.module(SETUP_PY))
 
+        self._note(SETUP_PY)
         return self._view("setup_py", parse)
 
     @property
@@ -218,6 +230,7 @@ class Package:
 
             return PythonModule.parse_bytes(path, self._read(path))
 
+        self._note(path)
         return self._view(("module", path), parse)
 
     def parsed_module(self, path: str) -> PythonModule | None:
@@ -225,14 +238,44 @@ class Package:
         known = self._views.get(("module", path))
         return None if isinstance(known, ViewError) else cast("PythonModule | None", known)
 
-    def modules(self, mentioning: Sequence[str] = ()) -> Iterator[PythonModule]:
+    def imports(self, path: str) -> frozenset[str]:
+        """Return the top-level packages that a Python file imports; raises ViewError.
+
+        Of a file that has not changed since an earlier run this is known without parsing it, and
+        what was made of this alone holds until the imports change.
+        """
+
+        def find() -> frozenset[str]:
+            with reads.recorded(Reads()):  # the caller's own
+                return frozenset(self.module(path).imports_by_root)
+
+        reads.note_imports(self.full_path(path))
+        return self._view(("imports", path), find)
+
+    def assume_imports(self, imports: Mapping[str, frozenset[str]]) -> None:
+        """Take over what an earlier run found out about files that have not changed since."""
+        self._views.update((("imports", path), names) for path, names in imports.items())
+
+    @property
+    def known_imports(self) -> Mapping[str, frozenset[str]]:
+        """What files import, as far as somebody asked."""
+        return {
+            key[1]: value
+            for key, value in self._views.items()
+            if isinstance(key, tuple) and key[0] == "imports" and isinstance(value, frozenset)
+        }
+
+    def modules(
+        self, paths: Iterable[str] | None = None, mentioning: Sequence[str] = ()
+    ) -> Iterator[PythonModule]:
         """All Python files that can be parsed; the others are reported by the runner.
 
         Args:
+            paths: Only these.
             mentioning: Words without which a file is of no interest; it is not even parsed.
         """
         words = [word.encode() for word in mentioning]
-        for path in self.python_files:
+        for path in self.python_files if paths is None else paths:
             try:
                 if all(word in self.data(path) for word in words):
                     yield self.module(path)
@@ -321,9 +364,17 @@ class Package:
     def remember(self, key: object, build: Callable[[], View]) -> View:
         """Return what ``build`` makes of the package; it is made once for a key.
 
-        For facts that several rules share and no view of this class has.
+        For facts that several rules share and no view of this class has. What it reads only when
+        it is used, it must note itself, as ``RclpyFile`` does.
         """
-        return self._view(("derived", key), build)
+        made_of = self._reads.get(key)
+        if made_of is None:
+            made_of = self._reads[key] = Reads()
+        reads.note_view(made_of)
+        if ("derived", key) in self._views:
+            return self._view(("derived", key), build)
+        with reads.recorded(made_of):
+            return self._view(("derived", key), build)
 
     def refuse(self, path: str, message: str) -> bool:
         """Count a file as unparsable from now on, for what only a look at its contents shows.
@@ -341,6 +392,7 @@ class Package:
     def forget(self) -> None:
         """Drop the views and the list of files: they are made again when asked for."""
         self._views.clear()
+        self._reads.clear()
         self._refused.clear()
         if self._workspace is None:
             self._neighbourhood = None
@@ -354,6 +406,14 @@ class Package:
         self.forget()
 
     # -- inside
+
+    def full_path(self, path: str) -> str:
+        """Return how a file is called where there are several packages."""
+        return f"{self.directory}/{path}"
+
+    def _note(self, path: str) -> None:
+        if reads.is_followed(path):
+            reads.note_file(self.full_path(path))
 
     @property
     def _by_depth(self) -> Mapping[int, Sequence[str]]:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.module import is_in_tests
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -39,10 +40,15 @@ class TestFunction(NamedTuple):
 
 def test_modules(package: Package) -> list[PythonModule]:
     """Return the files of tests that pytest collects."""
+    return list(package.modules(test_paths(package)))
+
+
+def test_paths(package: Package) -> list[str]:
+    """Return the paths of the same, whether they can be parsed or not."""
     return [
-        module
-        for module in package.modules()
-        if module.in_tests and _is_collected(module.path.rpartition("/")[2])
+        path
+        for path in package.python_files
+        if is_in_tests(path) and _is_collected(path.rpartition("/")[2])
     ]
 
 

@@ -10,7 +10,7 @@ from scaffold.diagnostic import Severity
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.check.session import Result
+    from scaffold.check.result import Result
 
 
 class ReportOptions(NamedTuple):

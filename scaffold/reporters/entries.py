@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from scaffold.ament.codes import STYLE
-from scaffold.check.session import Result
+from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple

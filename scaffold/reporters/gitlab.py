@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TextIO
 
-from scaffold.check.session import Result
+from scaffold.check.result import Result
 from scaffold.diagnostic import Severity
 from scaffold.printable import json_text, printable
 from scaffold.reporters import ReportOptions

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TextIO
 
-from scaffold.check.session import Result, Summary
+from scaffold.check.result import Result, Summary
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Fix
 from scaffold.model.package import Package

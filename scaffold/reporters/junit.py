@@ -7,7 +7,7 @@ from typing import TextIO
 from xml.etree import ElementTree as ET
 
 from scaffold.check.engine_rules import RuleCrashed
-from scaffold.check.session import Result
+from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions

@@ -18,7 +18,7 @@ from scaffold.reporters.paths import in_repository
 from scaffold.reporters.rule_pages import RulePage
 
 if TYPE_CHECKING:
-    from scaffold.check.session import Result
+    from scaffold.check.result import Result
     from scaffold.edits import Fix
     from scaffold.model.package import Package
     from scaffold.source import Location

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.text import Text
 
 from scaffold.ament.use import linter_use
-from scaffold.check.session import Result
+from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple

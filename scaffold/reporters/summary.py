@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from scaffold.check.session import Result, Summary
+from scaffold.check.result import Result, Summary
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Safety
 from scaffold.reporters.entries import SEVERITIES

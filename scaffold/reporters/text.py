@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import TextIO
 
-from scaffold.check.session import Result
+from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
 from scaffold.printable import printable

@@ -19,6 +19,7 @@ import pytest
 
 from scaffold.ament import ruff
 from scaffold.check.cache import rule_bytecode
+from scaffold.check.result import Earlier
 from scaffold.check.session import Session
 from scaffold.cli.main import main
 from scaffold.configuration import config, trust
@@ -468,13 +469,13 @@ def test_what_is_remembered_knows_about_trust(
     repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     checked: list[str] = []
-    check = Session._check_rules  # noqa: SLF001  the place where the rules run
+    check = Session.check_rules  # the place where the rules run
 
-    def watched(session: Session, package: Package) -> object:
+    def watched(session: Session, package: Package, *earlier: Earlier | None) -> object:
         checked.append(package.directory)
-        return check(session, package)
+        return check(session, package, *earlier)
 
-    monkeypatch.setattr(Session, "_check_rules", watched)
+    monkeypatch.setattr(Session, "check_rules", watched)
     cold, warm = run("check", "talker"), run("check", "talker")
     assert checked == ["talker"], "the second run is remembered"
     assert (warm.code, warm.out, warm.err) == (cold.code, cold.out, cold.err)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -10,16 +10,18 @@ from scaffold import edits as kinds
 from scaffold.check.cache.runs import Run, Slot
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.engine_rules import RuleCrashed
-from scaffold.check.session import Result, Session
+from scaffold.check.result import Earlier, Part, Result, Verdict
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Change, Fix, Safety
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
+from scaffold.model.reads import is_followed
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
 if TYPE_CHECKING:
     from scaffold.check.cache.runs import Seen
+    from scaffold.check.session import Session
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Identity, Package
@@ -35,7 +37,9 @@ class _Known(NamedTuple):
     needs: tuple[int, ...] | None
     """Places of the packages that the verdict depends on; ``None`` for all."""
     files: int
-    diagnostics: tuple[tuple[Any, ...], ...]
+    diagnostics: tuple[Any, ...]
+    verdict: tuple[Any, ...] | None
+    """The same in parts; see ``_encode_verdict``."""
 
 
 class Memory:
@@ -44,7 +48,11 @@ class Memory:
     def __init__(self, run: Run | None, targets: Sequence[Target]) -> None:
         self._targets = targets
         self._known: dict[int, _Known] = {}
-        """By place, the packages whose verdict still stands."""
+        """By place, the packages whose findings are the same."""
+        self._earlier: dict[str, Earlier] = {}
+        """By directory, those of which some findings are the same."""
+        self._needed: dict[int, tuple[int, ...] | None] = {}
+        """Which packages the rest of those needed."""
         self._trees: dict[int, Seen] = {}
         self._outside: Seen = {}
         if run is not None and run.is_same_outside():
@@ -53,22 +61,58 @@ class Memory:
     def _recall(self, run: Run, known: Sequence[_Known]) -> None:
         if [(one.directory, one.only) for one in known] != [_asked(one) for one in self._targets]:
             return
-        same = [run.is_same(at) for at in range(len(run.trees))]
-        for one, target, is_same in zip(known, self._targets, same, strict=True):
-            if not is_same and one.identity != tuple(target.package.identity):
+        edits = [self._edits(run, at) for at in range(len(known))]
+        for one, target, edited in zip(known, self._targets, edits, strict=True):
+            if edited is None and one.identity != tuple(target.package.identity):
                 return
         for at, one in enumerate(known):
-            needs = range(len(known)) if one.needs is None else one.needs
-            if same[at] and all(same[other] for other in needs):
-                self._known[at] = one
-                self._targets[at].package.identify(*one.identity)
-                self._outside = run.outside
-                self._trees[at] = run.trees[at] or {}
+            needs = [at, *(range(len(known)) if one.needs is None else one.needs)]
+            edited = frozenset[str]()
+            for other in needs:
+                if edits[other] is None:
+                    break
+                edited |= edits[other] or frozenset()
+            else:
+                self._remember(run, at, one, edited)
+
+    def _edits(self, run: Run, at: int) -> frozenset[str] | None:
+        """Return the Python files of a package that were edited, ``None`` after other changes."""
+        package = self._targets[at].package
+        changed = run.changed(at)
+        if changed is None:
+            return None
+        start = len(package.full_path(""))
+        edited: set[str] = set()
+        for kind, path in changed:
+            full = package.full_path(path[start:])
+            # What is no file any more has another name in its directory, or is another kind.
+            if kind != "content" or path != full or not is_followed(path):
+                return None
+            edited.add(full)
+        return frozenset(edited)
+
+    def _remember(self, run: Run, at: int, known: _Known, edited: frozenset[str]) -> None:
+        package = self._targets[at].package
+        if not edited or _is_beside(package, known, edited):
+            self._known[at] = known
+            self._trees[at] = run.trees[at] or {}
+        elif known.verdict is not None:
+            self._needed[at] = known.needs
+            self._earlier[package.directory] = Earlier.of(
+                package, _decode_verdict(known.verdict), edited
+            )
+            full = {("content", path) for path in edited}
+            seen = (run.trees[at] or {}).items()
+            self._trees[at] = {asked: answer for asked, answer in seen if asked not in full}
+        else:
+            return
+        package.identify(*known.identity)
+        self._outside = run.outside
 
     def run(self, session: Session) -> Iterator[Result]:
         """Yield the results of all packages in their order; check those that are not known."""
         fresh = [one for at, one in enumerate(self._targets) if at not in self._known]
-        checked = session.run(fresh)
+        checked = session.run(fresh, self._earlier)
         for at, target in enumerate(self._targets):
             known = self._known.get(at)
             if known is None:
@@ -108,16 +152,34 @@ class Memory:
         trees: list[Seen | None] = []
         found: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
-            known = self._known.get(at) or _Known(
-                *_asked(target),
-                (*identities[at],),
-                needs.of(target.package),
-                result.files,
-                tuple(_encode(one) for one in result.diagnostics),
-            )
+            needed = needs.of(target.package, self._needed.get(at, ()))
+            known = self._known.get(at) or _new(target, result, needed)
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             found.append(tuple(known))
         slot.save(Run(disk.seen, trees, found, code, output, (*warnings,)))
+
+
+def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Known:
+    encode = _Encoder()
+    return _Known(
+        *_asked(target),
+        (*target.package.identity,),
+        needed,
+        result.files,
+        tuple(map(encode, result.diagnostics)),
+        _encode_verdict(result.verdict, encode) if result.verdict else None,
+    )
+
+
+def _is_beside(package: Package, known: _Known, edited: frozenset[str]) -> bool:
+    """Tell whether nothing that was found in a package depends on the edited files."""
+    if known.verdict is None or any(path.startswith(package.full_path("")) for path in edited):
+        return False
+    paths, parts, *_ = known.verdict
+    places = {at for at, path in enumerate(paths) if path in edited}
+    return all(
+        places.isdisjoint(files) and places.isdisjoint(imports) for _, files, imports, _ in parts
+    )
 
 
 def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:
@@ -144,9 +206,16 @@ class Needs:
         self._places = {id(package): at for at, package in enumerate(packages)}
         self._defining = {at for at, one in enumerate(identities) if one.may_define_interfaces}
 
-    def of(self, package: Package) -> tuple[int, ...] | None:
-        """Return the places of the packages, ``None`` for all."""
-        needed: set[int] = set()
+    def of(self, package: Package, before: Iterable[int] | None = ()) -> tuple[int, ...] | None:
+        """Return the places of the packages, ``None`` for all.
+
+        Args:
+            package: What the verdict is about.
+            before: The places that what is left of an earlier verdict depends on.
+        """
+        if before is None:
+            return None
+        needed = set(before)
         pending = [package]
         while pending:
             used, uses_all, uses_interfaces = uses(pending.pop(), self._places)
@@ -156,6 +225,54 @@ class Needs:
             pending += [self._packages[at] for at in used - needed]
             needed |= used
         return tuple(sorted(needed))
+
+
+class _Encoder:
+    """Makes of diagnostics what marshal can write, of each once."""
+
+    def __init__(self) -> None:
+        self._made: dict[int, tuple[Any, ...]] = {}
+        self._kept: list[Diagnostic] = []
+
+    def __call__(self, one: Diagnostic) -> tuple[Any, ...]:
+        """Return a diagnostic as a tuple."""
+        if id(one) not in self._made:
+            self._kept.append(one)  # so that no other gets its number
+            self._made[id(one)] = _encode(one)
+        return self._made[id(one)]
+
+
+def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
+    """Return a verdict as a tuple; its paths are places in the first item."""
+    paths: dict[str, int] = {}
+
+    def places(files: Iterable[str]) -> tuple[int, ...]:
+        return tuple(paths.setdefault(path, len(paths)) for path in files)
+
+    parts = [
+        (key, places(part.files), places(part.imports), tuple(map(encode, part.diagnostics)))
+        for key, part in verdict.parts.items()
+    ]
+    style = [(path, tuple(map(encode, found))) for path, found in verdict.style.items()]
+    imports = [(path, tuple(sorted(names))) for path, names in verdict.imports.items()]
+    return tuple(paths), parts, style, tuple(map(encode, verdict.unparsable)), imports
+
+
+def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
+    paths, parts, style, unparsable, imports = stored
+
+    def files(places: Iterable[int]) -> frozenset[str]:
+        return frozenset(paths[at] for at in places)
+
+    return Verdict(
+        {
+            key: Part(files(read), files(imported), tuple(map(_decode, found)))
+            for key, read, imported, found in parts
+        },
+        {path: list(map(_decode, found)) for path, found in style},
+        list(map(_decode, unparsable)),
+        {path: frozenset(names) for path, names in imports},
+    )
 
 
 def _encode(one: Diagnostic) -> tuple[Any, ...]:

@@ -13,7 +13,7 @@ import sys
 
 from scaffold.configuration.content import built_in
 from scaffold.files import cache
-from scaffold.files.disk import digest, holds, stamp
+from scaffold.files.disk import changed, digest, stamp
 
 TYPE_CHECKING = False  # the one of typing is slow to import
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class Run:
         self.code = code
         self.output = output
         self.warnings = warnings
-        self._asked: dict[int, bool] = {}
+        self._changed: dict[int, list[Question] | None] = {}
 
     def is_current(self) -> bool:
         """Tell whether nothing has changed since, and the output is all there is to repeat."""
@@ -83,16 +83,20 @@ class Run:
 
     def is_same_outside(self) -> bool:
         """Tell whether nothing has changed outside of the packages; the disk is asked once."""
-        return self._holds(-1, self.outside)
+        return self._asked(-1, self.outside) == []
 
     def is_same(self, at: int) -> bool:
         """Tell whether nothing has changed in the package of a place; the disk is asked once."""
-        return self._holds(at, self.trees[at])
+        return self.changed(at) == []
 
-    def _holds(self, at: int, seen: Seen | None) -> bool:
-        if at not in self._asked:
-            self._asked[at] = seen is not None and holds(seen)
-        return self._asked[at]
+    def changed(self, at: int) -> list[Question] | None:
+        """Return what has changed in the package of a place, ``None`` if that is not known."""
+        return self._asked(at, self.trees[at])
+
+    def _asked(self, at: int, seen: Seen | None) -> list[Question] | None:
+        if at not in self._changed:
+            self._changed[at] = None if seen is None else changed(seen)
+        return self._changed[at]
 
 
 class Slot:

@@ -95,6 +95,19 @@ class Overlay:
         with suppress(OSError):
             yield self.before(path)
 
+    def edited_since(self, before: Overlay) -> list[str] | None:
+        """Return the files with another content, ``None`` if there is any other difference."""
+        if (self.files, self.executable) != (before.files, before.executable):
+            return None
+        changed = {*self.changed, *before.changed}
+        same = (self.real(path) in changed or path in changed for path in self.files)
+        candidates = [path for path, is_one in zip(self.files, same, strict=True) if is_one]
+        return [path for path in candidates if [*self._now(path)] != [*before._now(path)]]
+
+    def _now(self, path: str) -> Iterator[bytes]:
+        with suppress(OSError):
+            yield self.read(path)
+
     def copy(self) -> Overlay:
         """Return an independent copy."""
         twin = Overlay(self._base)

@@ -13,9 +13,11 @@ from scaffold.check.cache.results import Needs
 from scaffold.check.fixes import fixer
 from scaffold.check.fixes.fixer import MAX_ROUNDS, Fixed
 from scaffold.check.fixes.overlay import Overlay
-from scaffold.check.session import PARALLEL_FROM
+from scaffold.check.result import Earlier
+from scaffold.model.reads import is_followed
 
 if TYPE_CHECKING:
+    from scaffold.check.result import Result
     from scaffold.check.session import Session
     from scaffold.diagnostic import Diagnostic
     from scaffold.model.discovery.targets import Target
@@ -38,8 +40,25 @@ class _Piece:
         self.target = target
         self.package = target.package
         self.overlay = Overlay(target.package.tree)
-        self.diagnostics: list[Diagnostic] = []
+        self.result: Result | None = None
+        """Of the last check."""
+        self.checked = self.overlay
+        """The files as they were then."""
+        self.earlier: Earlier | None = None
+        """What is left of the last check, for the next one."""
+        self.style: dict[str, Sequence[Diagnostic]] = {}
+        """What was found in files that were edited since then."""
         self.applied = 0
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What the last check found."""
+        return self.result.diagnostics if self.result is not None else []
+
+    def take(self, result: Result) -> None:
+        """Keep what a check found."""
+        self.result, self.checked, self.earlier = result, self.overlay, None
+        self.style.clear()
 
     def apply(self, diagnostics: list[Diagnostic], *, unsafe: bool) -> bool:
         """Apply fixes; tell whether there were any."""
@@ -48,6 +67,21 @@ class _Piece:
         if applied:
             self.package.change(self.overlay)
         return applied > 0
+
+    def edited(self) -> frozenset[str] | None:
+        """Return the Python files that differ from the last check, ``None`` if others do."""
+        edited = self.overlay.edited_since(self.checked)
+        if edited is None or not all(map(is_followed, edited)):
+            return None
+        return frozenset(map(self.package.full_path, edited))
+
+    def leave(self, edited: frozenset[str] | None) -> None:
+        """Keep of the last check what does not depend on edited files, for the next one."""
+        verdict = self.result.verdict if self.result is not None else None
+        if edited is not None and verdict is not None:
+            left = Earlier.of(self.package, verdict, edited)
+            style = {**left.verdict.style, **self.style}
+            self.earlier = left._replace(verdict=left.verdict._replace(style=style))
 
 
 def fix(
@@ -88,10 +122,17 @@ def fix(
 
 
 def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
-    """Bring the style of a package to rest: that takes much less time than its rules."""
+    """Bring the style of edited files to rest: that takes much less time than the rules."""
+    before = piece.checked
     for _ in range(MAX_ROUNDS):
-        if not piece.apply(session.check_style(piece.target), unsafe=unsafe):
+        paths = piece.overlay.edited_since(before) or piece.package.files
+        found = session.check_style(piece.package, paths)
+        piece.style.update(found)
+        selected = session.selected(piece.target, (one for ones in found.values() for one in ones))
+        before = piece.overlay
+        if not piece.apply(selected, unsafe=unsafe):
             return
+    piece.style.clear()
 
 
 def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piece]:
@@ -100,12 +141,16 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
         return []
     packages = [one.package for one in pieces]
     needs = Needs(packages, [package.identity for package in packages])
-    places = {at for at, one in enumerate(pieces) if one in changed}
+    edits = {at: one.edited() for at, one in enumerate(pieces) if one in changed}
     affected: list[_Piece] = []
     for at, one in enumerate(pieces):
         needed = needs.of(one.package)
-        if at in places or needed is None or not places.isdisjoint(needed):
+        places = edits.keys() & (edits.keys() if needed is None else {at, *needed})
+        if places:
             affected.append(one)
+            files = [edits[place] for place in places]
+            is_known = None not in files
+            one.leave(frozenset().union(*(some or () for some in files)) if is_known else None)
     for workspace in {id(one.known_workspace): one.known_workspace for one in packages}.values():
         if workspace is not None:
             workspace.forget()
@@ -115,17 +160,18 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
 def _check(pieces: Sequence[_Piece], session: Session, progress: Progress, label: str) -> None:
     targets = [one.target for one in pieces]
     is_on_disk = all(not isinstance(one.package.tree, Overlay) for one in pieces)
-    if len(targets) >= PARALLEL_FROM and is_on_disk:
+    if is_on_disk:
         progress.begin(label, len(targets))
         for piece, result in zip(pieces, session.run(targets), strict=True):
-            piece.diagnostics = result.diagnostics
+            piece.take(result)
             progress.step()
         return
     progress.begin(label, len(targets) * session.rule_count)
     before, session.after_rule = session.after_rule, progress.step
     try:
         for piece in pieces:
-            (result,) = session.run_batch([piece.target])
-            piece.diagnostics = result.diagnostics
+            earlier = {piece.package.directory: piece.earlier} if piece.earlier else None
+            (result,) = session.run_batch([piece.target], None, earlier)
+            piece.take(result)
     finally:
         session.after_rule = before

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.signatures import signature
 from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.module import is_in_tests
 from scaffold.model.python.values import UNKNOWN, PathValue, Unknown, join_paths
 from scaffold.record import NamedTuple
-from scaffold.source import Location
+from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -128,6 +130,19 @@ class LaunchEvaluator(Evaluator):
         return UNKNOWN
 
 
+def launch_paths(package: Package) -> list[str]:
+    """Return the Python files that import launch; those that only tests use are left out."""
+
+    def find() -> Iterator[str]:
+        for path in package.python_files:
+            with suppress(ViewError):
+                imports_launch = not _ROOTS.isdisjoint(package.imports(path))
+                if imports_launch and not is_in_tests(path) and ".test." not in path:
+                    yield path
+
+    return package.remember("launch_paths", lambda: list(find()))
+
+
 class LaunchFile:
     """A Python launch file."""
 
@@ -150,14 +165,13 @@ class LaunchFile:
     @classmethod
     def of_package(cls, package: Package) -> list[LaunchFile]:
         """Return the launch files of a package; those that only tests use are left out."""
-        return package.remember("launch_py", lambda: list(cls._all(package)))
 
-    @classmethod
-    def _all(cls, package: Package) -> Iterator[LaunchFile]:
-        for module in package.modules():
-            in_tests = module.in_tests or ".test." in module.path
-            if not in_tests and not _ROOTS.isdisjoint(module.imports_by_root):
-                yield cls.of(package, module.path)
+        def find() -> Iterator[LaunchFile]:
+            for path in launch_paths(package):
+                with suppress(ViewError):
+                    yield cls.of(package, path)
+
+        return package.remember("launch_py", lambda: list(find()))
 
     @property
     def function(self) -> Function | None:

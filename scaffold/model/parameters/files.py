@@ -176,7 +176,7 @@ def _is_candidate(package: Package, path: str) -> bool:
     if not {"test", "tests"}.isdisjoint(path.split("/")) or path.startswith("."):
         return False
     try:
-        data = package.tree.read(path, yaml_tree.MAX_LENGTH)
+        data = package.bytes_of(path, yaml_tree.MAX_LENGTH)
     except OSError:
         return False
     if b"aram" not in data.lower():

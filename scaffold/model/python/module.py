@@ -81,6 +81,17 @@ class Class(NamedTuple):
     location: Location
 
 
+def is_in_tests(path: str) -> bool:
+    """Tell whether a file is a test, by its name or directory."""
+    *directories, name = path.split("/")
+    return (
+        not {"test", "tests"}.isdisjoint(directories)
+        or name == "conftest.py"
+        or (name.endswith(".py") and name.startswith("test_"))
+        or name.endswith(("_test.py", ".test.py"))
+    )
+
+
 class PythonModule:
     """A parsed Python file; it is never imported or run."""
 
@@ -257,13 +268,7 @@ class PythonModule:
     @cached_property
     def in_tests(self) -> bool:
         """Whether the file is a test, by its name or directory."""
-        *directories, name = self.path.split("/")
-        return (
-            not {"test", "tests"}.isdisjoint(directories)
-            or name == "conftest.py"
-            or (name.endswith(".py") and name.startswith("test_"))
-            or name.endswith(("_test.py", ".test.py"))
-        )
+        return is_in_tests(self.path)
 
     @cached_property
     def main_guard(self) -> Location | None:

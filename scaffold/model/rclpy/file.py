@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from scaffold.model.python.module import PythonModule
+from scaffold.model import reads
+from scaffold.model.python.module import PythonModule, is_in_tests
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy import callbacks as node_callbacks
@@ -77,6 +79,18 @@ def node_facts(modules: Modules, path: str) -> RclpyFile:
     return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
 
 
+def rclpy_paths(package: Package) -> Sequence[str]:
+    """Return the Python files that import rclpy; tests try what nodes must not do."""
+
+    def find() -> Iterator[str]:
+        for path in package.python_files:
+            with suppress(ViewError):
+                if "rclpy" in package.imports(path) and not is_in_tests(path):
+                    yield path
+
+    return package.remember("rclpy_paths", lambda: list(find()))
+
+
 def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator[RclpyFile]:
     """Yield what the Python files that import rclpy say; tests try what nodes must not do.
 
@@ -84,9 +98,8 @@ def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator
         package: The package.
         mentioning: Words without which a file is of no interest; it is not even parsed.
     """
-    for module in package.modules(mentioning):
-        if "rclpy" in module.imports_by_root and not module.in_tests:
-            yield node_facts(package, module.path)
+    for module in package.modules(rclpy_paths(package), mentioning):
+        yield node_facts(package, module.path)
 
 
 class RclpyFile:
@@ -96,6 +109,7 @@ class RclpyFile:
         self.module = module
         self.modules = modules
         """Where other files come from: the package."""
+        self._reads = reads.current()
         self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
@@ -198,7 +212,9 @@ class RclpyFile:
         for path in _module_paths(self.module.path, module):
             if path != self.module.path and self.modules.has(path):
                 try:
-                    return node_facts(self.modules, path)
+                    # What is made of the other file is kept here, for everybody who asks.
+                    with reads.recorded(self._reads):
+                        return node_facts(self.modules, path)
                 except ViewError:
                     return None
         return None

@@ -50,7 +50,7 @@ def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
     In front of each, the way from its directory to the package: ``src/talker/``.
     """
     with contextlib.suppress(OSError):
-        yield "", package.tree.read(name, _MOST_BYTES).decode(errors="replace")
+        yield "", package.bytes_of(name, _MOST_BYTES).decode(errors="replace")
     disk = package.outside
     for directory in _parents(package):
         with contextlib.suppress(OSError):

@@ -14,6 +14,7 @@ import pytest
 
 from scaffold.check import registry
 from scaffold.check.cache import runs as memory
+from scaffold.check.result import Earlier
 from scaffold.check.session import Session
 from scaffold.cli.main import main
 from scaffold.diagnostic import Diagnostic
@@ -88,13 +89,13 @@ class Runs:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
         self.checked: list[str] = []
         self._capsys = capsys
-        check = Session._check_rules  # noqa: SLF001  the place where the rules run
+        check = Session.check_rules  # the place where the rules run
 
-        def watched(session: Session, package: Package) -> object:
+        def watched(session: Session, package: Package, *earlier: Earlier | None) -> object:
             self.checked.append(os.path.basename(package.directory))
-            return check(session, package)
+            return check(session, package, *earlier)
 
-        monkeypatch.setattr(Session, "_check_rules", watched)
+        monkeypatch.setattr(Session, "check_rules", watched)
 
     def __call__(self, *words: str) -> str:
         """Return what `check` writes; ``checked`` holds what this run checked."""
@@ -655,3 +656,16 @@ def test_nothing_looks_at_files_without_a_note(part: str) -> None:
     told |= {"overlay.py", "temporary.py"}  # what --fix and the cache write is not remembered
     paths = list(top.rglob("*.py")) if top.is_dir() else [top]
     assert {p.name: a for p in paths if p.name not in told and (a := _asks(p))} == {}
+
+
+@pytest.mark.parametrize("part", ["rules", "scaffold/model", "scaffold/ament"])
+def test_files_of_a_package_are_read_through_it_alone(part: str) -> None:
+    """Else nobody notes which of them a finding depends on; style goes by content alone."""
+    top = Path(__file__).resolve().parents[3] / part
+    own = {"package.py", "backend.py", "reference.py"}
+    reads = [
+        path.name
+        for path in top.rglob("*.py")
+        if path.name not in own and "tree.read(" in path.read_text()
+    ]
+    assert reads == []

@@ -1,0 +1,91 @@
+"""What a run of `check` found: in each package, and counted."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+class Part(NamedTuple):
+    """What was found in one go: by a rule in a package, or by all rules that read one file."""
+
+    files: frozenset[str]
+    """The Python files that it depends on, by ``Package.full_path``."""
+    imports: frozenset[str]
+    """The files of which it depends only on what they import."""
+    diagnostics: tuple[Diagnostic, ...]
+
+
+class Verdict(NamedTuple):
+    """What was found in a package, in parts that hold while what they depend on is the same.
+
+    That is on condition that nothing but Python files was edited: after any other change nothing
+    of it holds.
+    """
+
+    parts: Mapping[str, Part]
+    """By the code of a rule that looks at the package; by path for all rules that look at that
+    file alone; by code and path for others that look at files one by one."""
+    style: Mapping[str, Sequence[Diagnostic]]
+    """What the linters of Python style find, by path."""
+    unparsable: Sequence[Diagnostic]
+    """The files that could not be read, each with the reason."""
+    imports: Mapping[str, frozenset[str]]
+    """The top-level packages that files import, by path."""
+
+
+class Earlier(NamedTuple):
+    """What an earlier check of a package found, and what was edited since."""
+
+    verdict: Verdict
+    """Its style is that of the files as they are now."""
+    edited: Collection[str]
+    """Python files of this and other packages, by ``Package.full_path``."""
+
+    @classmethod
+    def of(cls, package: Package, verdict: Verdict, edited: Collection[str]) -> Earlier:
+        """Return what is left after some files were edited."""
+        style = {
+            path: found
+            for path, found in verdict.style.items()
+            if package.full_path(path) not in edited
+        }
+        return cls(verdict._replace(style=style), edited)
+
+
+class Result(NamedTuple):
+    """What was found in one package."""
+
+    package: Package
+    files: int
+    diagnostics: list[Diagnostic]
+    verdict: Verdict | None = None
+    """The same in parts, where a later check can make use of it."""
+
+
+class Summary(NamedTuple):
+    """Counts over a whole run."""
+
+    packages: int
+    files: int
+    errors: int
+    warnings: int
+    infos: int
+
+    @classmethod
+    def of(cls, results: Sequence[Result]) -> Summary:
+        """Count."""
+        severities = [d.severity for result in results for d in result.diagnostics]
+        return cls(
+            len(results),
+            sum(result.files for result in results),
+            severities.count(Severity.ERROR),
+            severities.count(Severity.WARNING),
+            severities.count(Severity.INFO),
+        )

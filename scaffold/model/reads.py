@@ -1,0 +1,80 @@
+"""Which Python files a view of a package, or what a rule found, was made of.
+
+Only the content of these is followed file by file; after any other change in a package everything
+in it is checked again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+class Reads:
+    """The Python files that something was made of, directly or through views.
+
+    A view may read more files when it is used; that counts for everything made of it, also if
+    that was before.
+    """
+
+    __slots__ = ("files", "imports", "views")
+
+    def __init__(self) -> None:
+        self.files: set[str] = set()
+        """The files whose content was looked at."""
+        self.imports: set[str] = set()
+        """The files of which it was only asked what they import."""
+        self.views: set[Reads] = set()
+
+    def all(self) -> tuple[frozenset[str], frozenset[str]]:
+        """Return files and imports, those of the views included."""
+        seen = {self}
+        pending = [self]
+        while pending:
+            for view in pending.pop().views:
+                if view not in seen:
+                    seen.add(view)
+                    pending.append(view)
+        files = frozenset[str]().union(*(reads.files for reads in seen))
+        return files, frozenset[str]().union(*(reads.imports for reads in seen)) - files
+
+
+_recorders: list[Reads] = []
+
+
+@contextmanager
+def recorded(reads: Reads) -> Iterator[None]:
+    """Note in ``reads``, and only there, what the block looks at."""
+    _recorders.append(reads)
+    try:
+        yield
+    finally:
+        _recorders.pop()
+
+
+def current() -> Reads:
+    """Return where it is noted what is looked at now."""
+    return _recorders[-1] if _recorders else Reads()
+
+
+def note_file(path: str) -> None:
+    """Note that the content of a file was looked at."""
+    if _recorders:
+        _recorders[-1].files.add(path)
+
+
+def note_imports(path: str) -> None:
+    """Note that it was asked what a file imports."""
+    if _recorders:
+        _recorders[-1].imports.add(path)
+
+
+def note_view(reads: Reads) -> None:
+    """Note that something was used that is made of ``reads``."""
+    if _recorders and _recorders[-1] is not reads:
+        _recorders[-1].views.add(reads)
+
+
+def is_followed(path: str) -> bool:
+    """Tell whether changes of the content of a file are followed."""
+    return path.endswith(".py")

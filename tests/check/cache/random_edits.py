@@ -1,0 +1,145 @@
+"""Edits a workspace at random, as people, editors and version control do."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from random import Random
+
+Edit = Callable[[Path, Random], str]
+
+_TEXTS = (".py", ".xml", ".txt", ".cfg", ".yaml", ".yml", ".msg", ".srv", ".action")
+_LINES = (
+    "# a comment\n",
+    "import os\n",
+    "import rclpy\n",
+    "from launch import LaunchDescription\n",
+    "x = undefined  # noqa: F821\n",
+    "def broken(:\n",
+    "    pass\n",
+    "class Base:\n    pass\n",
+    "<depend>rclpy</depend>\n",
+    "\u00e4\n",
+)
+
+
+def edit(top: Path, random: Random) -> str:
+    """Change something below a directory; return what, for who reproduces it."""
+    change = random.choice(_EDITS)
+    return f"{change.__name__.strip('_')} {change(top, random)}"
+
+
+def _files(top: Path, endings: tuple[str, ...] = _TEXTS) -> list[Path]:
+    return sorted(path for path in top.rglob("*") if path.is_file() and path.suffix in endings)
+
+
+def _any(top: Path, random: Random) -> Path:
+    """Return a file, a Python file most of the time."""
+    endings = (".py",) if random.random() < 0.7 else _TEXTS
+    return random.choice(_files(top, endings) or _files(top))
+
+
+def _lines(path: Path) -> list[str]:
+    return path.read_text("utf-8", "surrogateescape").splitlines(keepends=True)
+
+
+def _write(path: Path, lines: Sequence[str]) -> str:
+    path.write_text("".join(lines), "utf-8", "surrogateescape")
+    return str(path)
+
+
+def _insert_line(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    lines = _lines(path)
+    lines.insert(random.randint(0, len(lines)), random.choice(_LINES))
+    return _write(path, lines)
+
+
+def _delete_line(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    lines = _lines(path)
+    if lines:
+        lines.pop(random.randrange(len(lines)))
+    return _write(path, lines)
+
+
+def _repeat_line(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    lines = _lines(path) or ["\n"]
+    lines.insert(random.randrange(len(lines)), random.choice(lines))
+    return _write(path, lines)
+
+
+def _replace_word(top: Path, random: Random) -> str:
+    """Put a word of one file in place of a word of another: names begin and end to match."""
+    path, other = _any(top, random), _any(top, random)
+    words = re.split(r"(\w+)", "".join(_lines(path)))
+    new = re.findall(r"\w+", "".join(_lines(other)))
+    if len(words) > 1 and new:
+        words[random.randrange(1, len(words), 2)] = random.choice(new)
+    return _write(path, words)
+
+
+def _misspell(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    words = re.split(r"(\w{4,})", "".join(_lines(path)))
+    if len(words) > 1:
+        at = random.randrange(1, len(words), 2)
+        words[at] = words[at][1:]
+    return _write(path, words)
+
+
+def _edit_two(top: Path, random: Random) -> str:
+    return f"{_replace_word(top, random)} {_insert_line(top, random)}"
+
+
+def _rename(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    new = path.with_name(f"{path.stem}_{random.randrange(100)}{path.suffix}")
+    path.rename(new)
+    return f"{path} to {new.name}"
+
+
+def _delete(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    if path.name != "package.xml":
+        path.unlink()
+    return str(path)
+
+
+def _copy(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    other = random.choice(_files(top)).with_name(path.name)
+    other.write_bytes(path.read_bytes())
+    return f"{path} to {other}"
+
+
+def _swap(top: Path, random: Random) -> str:
+    one, other = _any(top, random), _any(top, random)
+    first, second = one.read_bytes(), other.read_bytes()
+    if one.suffix == other.suffix:
+        one.write_bytes(second)
+        other.write_bytes(first)
+    return f"{one} with {other}"
+
+
+def _touch(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    at = random.randrange(10**9)
+    os.utime(path, (at, at))
+    return str(path)
+
+
+def _change_mode(top: Path, random: Random) -> str:
+    path = _any(top, random)
+    path.chmod(path.stat().st_mode ^ 0o111)
+    return str(path)
+
+
+_EDITS: Sequence[Edit] = (
+    *(_insert_line, _insert_line, _insert_line, _delete_line, _delete_line, _repeat_line),
+    *(_replace_word, _replace_word, _replace_word, _misspell, _misspell, _edit_two),
+    *(_rename, _delete, _copy, _swap, _touch, _change_mode),
+)
