@@ -143,10 +143,13 @@ def only(directory: Path, pattern: str) -> Path:
 
 def test_pre_commit_accepts_the_hook() -> None:
     run(sys.executable, "-m", "pre_commit", "validate-manifest", ROOT / ".pre-commit-hooks.yaml")
-    (hook,) = yaml_file.read(str(ROOT / ".pre-commit-hooks.yaml"))
-    command, verb = hook["entry"].split()
-    assert command == hook["id"] == "ros2-scaffold"
-    assert verb in VERBS
+    hooks = {hook["id"]: hook for hook in yaml_file.read(str(ROOT / ".pre-commit-hooks.yaml"))}
+    assert set(hooks) == {"ros2-scaffold-check", "ros2-scaffold-fix", "ros2-scaffold"}
+    assert hooks["ros2-scaffold-check"]["files"] == hooks["ros2-scaffold-fix"]["files"]
+    for hook in hooks.values():
+        command, verb, *_ = hook["entry"].split()
+        assert command == "ros2-scaffold"
+        assert verb in VERBS
 
 
 ADVISORIES = {

@@ -11,6 +11,7 @@ from scaffold.cli import flags, terminal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from scaffold.check.cache.runs import Slot
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
     from scaffold.check.rule import Rule
@@ -55,7 +56,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for action in (select, ignore):
         action.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
-        "--fix", action="store_true", help="apply the fixes that do not change behavior"
+        "--fix",
+        action="store_true",
+        help="apply the fixes that do not change behavior; those of single files may change others "
+        "of their packages",
     )
     parser.add_argument(
         "--unsafe-fixes",
@@ -63,6 +67,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="with --fix or --diff: also unsafe fixes, to be reviewed; else: count them",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
+    parser.add_argument(
+        "--whole-packages",
+        action="store_true",
+        help="check and fix the whole packages of single files, and skip files of no package",
+    )
     _add_report_arguments(parser)
     parser.add_argument(
         "--stdin-filename",
@@ -138,14 +147,14 @@ def run(options: argparse.Namespace) -> int:
     session = Session(rules, selection)
     if is_unsaved:
         return _check_unsaved(options, session, disk)
-    targets = discovery.find(options.paths, disk)
+    targets = discovery.find(options.paths, disk, whole_packages=options.whole_packages)
     if options.fix or options.diff:
         return _fix(options, session, targets)
     if options.reference:
         return _reference(targets)
     is_unfinished = _note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
-    slot = None if settings.content or is_unfinished else getattr(options, "slot", None)
+    slot = None if settings.content or is_unfinished else _slot(options, targets)
     memory = Memory(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = reports.write(options, results, _report_options(options))
@@ -167,6 +176,17 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
         (result,) = session.run_batch([target])
         reports.write(options, [result], _report_options(options))
     return exit_code([result], is_zero=options.exit_zero)
+
+
+def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> Slot | None:
+    """Return where the run is remembered: under its packages if files stand for them."""
+    from scaffold.check.cache.runs import Slot
+
+    slot: Slot | None = getattr(options, "slot", None)
+    if slot is None or not options.whole_packages:
+        return slot
+    flags = {name: value for name, value in vars(options).items() if name not in {"paths", "slot"}}
+    return Slot.of([repr(sorted(flags.items())), *(one.package.directory for one in targets)])
 
 
 def _report_options(options: argparse.Namespace) -> ReportOptions:
@@ -215,7 +235,7 @@ def _write_fixes(
     with ExitStack() as stack:
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
         if held.has_waited:  # what was found before may have changed
-            targets = discovery.find(options.paths)
+            targets = discovery.find(options.paths, whole_packages=options.whole_packages)
         targets = [one for one in targets if one.package.root in held.roots]
         trees = [target.package.tree for target in targets]
         with Bar() as bar:

@@ -150,19 +150,73 @@ def installing() -> dict[str, str]:
     return {"PIP_NO_INDEX": "0", "PIP_CONFIG_FILE": "", **given}
 
 
-def test_our_own_hook_runs_from_a_repository(
-    clone: Path, tmp_path: Path, variables: dict[str, str]
-) -> None:
+@pytest.fixture
+def shared(clone: Path, tmp_path: Path, variables: dict[str, str]) -> Repository:
+    """Return a repository with two packages and our own hooks, as the commits begin."""
     needs_index(tmp_path)
+    variables["PRE_COMMIT_HOME"] = str(clone.parent / "pre-commit")  # installed once
+    is_new = not (clone / ".git").exists()
     tool = Repository(clone, variables)
-    tool.commit()
-    package = make(tmp_path)
+    if is_new:
+        tool.commit()
     revision = tool.run("git", "rev-parse", "HEAD").strip()
-    (package / CONFIG).write_text(
-        f"repos:\n- repo: {clone}\n  rev: {revision}\n  hooks:\n  - id: ros2-scaffold\n"
-    )
-    repository = Repository(package, {**variables, **installing()})
+    top = tmp_path / "shared"
+    for name in ("listener", "talker"):
+        assert main(["new", name, *PERSON, "--destination-directory", str(top / "src")]) == 0
+    hooks = "".join(f"  - id: {name}\n" for name in ("ros2-scaffold-fix", "ros2-scaffold-check"))
+    (top / CONFIG).write_text(f"repos:\n- repo: {clone}\n  rev: {revision}\n  hooks:\n{hooks}")
+    (top / "setup.py").write_text("# of no package\n")
+    break_(top / "src" / "listener")
+    repository = Repository(top, {**variables, **installing()})
+    repository.commit()
     repository.run("pre-commit", "install", "--install-hooks")
-    assert "Passed" in repository.commit()
-    break_(package)
-    assert FINDING in repository.commit(code=1)
+    return repository
+
+
+def test_our_own_hooks_run_from_a_repository(shared: Repository) -> None:
+    node = shared.top / "src" / "talker" / "talker" / "minimal_publisher.py"
+    text = node.read_text()
+
+    # An edit of Python breaks the manifest: the fix is made, and the commit fails for it.
+    imported = "import geometry_msgs.msg  # noqa: F401\nimport rclpy\n"
+    node.write_text(text.replace("import rclpy\n", imported))
+    output = shared.commit(code=1)
+    assert "ros2-scaffold check --fix" in output
+    assert "files were modified by this hook" in output
+    assert "1 fix applied" in output
+    assert (
+        "<exec_depend>geometry_msgs</exec_depend>"
+        in (shared.top / "src" / "talker" / "package.xml").read_text()
+    )
+    assert "listener" not in output  # broken, but not part of the commit
+    assert shared.commit().count("Passed") == 2
+
+    # What has no safe fix is reported by its text until the author ends it.
+    node.write_text(text.replace("String", "Strin"))
+    output = shared.commit(code=1)
+    assert "Strin" in output
+    assert "src/talker/talker/minimal_publisher.py" in output
+    node.write_text(node.read_text().replace("Strin", "String"))
+    shared.commit()
+
+    # Files that no verdict depends on start nothing; other files of no package are skipped.
+    (shared.top / "src" / "listener" / "README.md").write_text("# Listener\n")
+    assert shared.commit().count("Skipped") == 2
+    (shared.top / "setup.py").write_text("import nothing\n")
+    assert shared.commit().count("Passed") == 2
+
+    # All files are all packages.
+    output = shared.run("pre-commit", "run", "--all-files", "ros2-scaffold-check", code=1)
+    assert "src/listener/" in output
+    assert FINDING in output
+
+
+def test_the_hook_of_earlier_versions_checks_all_packages(shared: Repository) -> None:
+    configuration = shared.top / CONFIG
+    text = configuration.read_text()
+    kept = [line for line in text.splitlines() if "ros2-scaffold-fix" not in line]
+    configuration.write_text("\n".join(kept).replace("ros2-scaffold-check", "ros2-scaffold"))
+    (shared.top / "setup.py").write_text("import nothing\n")
+    output = shared.commit(code=1)
+    assert "src/listener/" in output
+    assert FINDING in output

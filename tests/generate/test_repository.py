@@ -235,9 +235,10 @@ def test_a_configuration_of_pre_commit_is_left_to_its_owner(
     "there",
     [
         "repos:\n- repo: https://x\n  rev: a\n  hooks:\n  - id: ros2-scaffold\n",
+        "repos:\n- repo: https://x\n  rev: a\n  hooks:\n  - id: ros2-scaffold-fix\n",
         "repos:\n- repo: local\n  hooks:\n  - {id: ros2-scaffold, entry: ros2-scaffold check}\n",
     ],
-    ids=["our repository", "all packages"],
+    ids=["our repository", "our other hook", "all packages"],
 )
 def test_a_hook_that_checks_the_package_is_enough(there: str, workspace: Path) -> None:
     (workspace / CONFIG).write_text(there)

@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-COMMAND = "ros2-scaffold check"
-"""Checks all packages below the top of the repository."""
+_CHECK = "ros2-scaffold check"
+_COMMANDS = (
+    _CHECK,
+    f"{_CHECK} --whole-packages",
+    f"{_CHECK} --fix",
+    f"{_CHECK} --fix --whole-packages",
+)
+"""What hooks run that check all packages of the repository, or those of a commit."""
+_IDS = ("ros2-scaffold", "ros2-scaffold-check", "ros2-scaffold-fix")
+"""The hooks that our own repository has."""
 
 
 def missing_entry(there: bytes, text: str) -> str | None:
@@ -22,13 +30,21 @@ def missing_entry(there: bytes, text: str) -> str | None:
 
     (entry,) = yaml.safe_load(text)["repos"]
     (hook,) = entry["hooks"]
-    commands = {COMMAND, hook["entry"]}
-    for other in _hooks(there):
-        # One of our own repository has no entry, as it has that of the repository.
-        if other.get("id") == hook["id"] and other.get("entry", COMMAND) in commands:
-            return None
+    if any(_checks(other, hook.get("files")) for other in _hooks(there)):
+        return None
     line = yaml.safe_dump([entry], default_flow_style=True, sort_keys=False, width=float("inf"))
     return f"- {line.strip()[1:-1]}"
+
+
+def _checks(hook: dict[str, Any], files: str | None) -> bool:
+    """Tell whether a hook checks the package of some files, perhaps with others."""
+    # One of our own repository has no entry, as it has that of the repository.
+    command, chosen = hook.get("entry", _CHECK), hook.get("files")
+    if hook.get("id") not in _IDS or not isinstance(command, str):
+        return False
+    if command in _COMMANDS:
+        return chosen is None or chosen == files
+    return command.startswith(f"{_CHECK} ") and chosen == files is not None
 
 
 def _hooks(there: bytes) -> Iterator[dict[str, Any]]:

@@ -38,19 +38,29 @@ class _LooseFiles(DiskTree):
         return frozenset()
 
 
-def find(paths: Sequence[str], disk: Disk | None = None, *, are_saved: bool = True) -> list[Target]:
+def find(
+    paths: Sequence[str],
+    disk: Disk | None = None,
+    *,
+    are_saved: bool = True,
+    whole_packages: bool = False,
+) -> list[Target]:
     """Return the packages at or below the paths, and those of single files and directories.
 
     Args:
         paths: Directories and files.
         disk: Notes what was looked at, now and later, outside of the packages.
         are_saved: Whether files must be there; those of an editor may be new.
+        whole_packages: A file stands for its package, if colcon finds that around or below the
+            current directory; other files are skipped.
 
     Raises:
         InputError: a path does not exist, or holds no package.
     """
     disk = disk or Disk()
     workspace = Workspace(disk=disk)
+    if whole_packages:
+        paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
     whole: dict[str, Target] = {}
     for path in directories:
@@ -69,15 +79,41 @@ def find(paths: Sequence[str], disk: Disk | None = None, *, are_saved: bool = Tr
         targets.append(Target(package, frozenset(names)))
     for target in targets:
         workspace.add(target.package)
-    workspace.around = _surroundings(disk, workspace, directories)
+    top = [disk.real(os.curdir)] if whole_packages else []
+    workspace.around = _surroundings(disk, workspace, directories, top)
     return sorted(targets, key=lambda target: target.package.directory)
 
 
-def _surroundings(disk: Disk, workspace: Workspace, given: Sequence[str]) -> Surroundings | None:
-    """Return the packages beside those given, unless the whole workspace was given."""
+def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
+    """Return directories as they are, and the packages of files; see `find`."""
+    around = colcon.package_around(disk, os.path.abspath(os.curdir))
+    packages = [os.path.relpath(around)] if around else colcon.package_directories(disk, os.curdir)
+    by_place = {os.path.join(disk.real(one), ""): os.path.normpath(one) for one in packages}
+    found: dict[str, None] = {}
+    for path in paths:
+        if disk.is_directory(path) or not disk.exists(path):
+            found[path] = None
+            continue
+        real = disk.real(path)
+        found.update((one, None) for place, one in by_place.items() if real.startswith(place))
+    return [*found]
+
+
+def _surroundings(
+    disk: Disk, workspace: Workspace, given: Sequence[str], tops: Sequence[str]
+) -> Surroundings | None:
+    """Return the packages beside those given, unless the whole workspace was given.
+
+    Args:
+        disk: Notes what was looked at.
+        workspace: The packages given.
+        given: The directories that were searched for them.
+        tops: Directories whose packages belong together, besides those of the workspace.
+    """
     own = [disk.real(one.directory) for one in workspace if not isinstance(one.tree, _LooseFiles)]
     covered = [os.path.join(disk.real(path), "") for path in given]
-    sources = dict.fromkeys(filter(None, (colcon.sources_around(disk, one) for one in own)))
+    around = filter(None, (colcon.sources_around(disk, one) for one in own))
+    sources = dict.fromkeys([*around, *tops])
     open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
     return Surroundings(open_, frozenset(own), workspace) if open_ else None
 

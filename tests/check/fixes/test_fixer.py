@@ -235,6 +235,20 @@ def test_a_file_without_a_package_is_fixed(tmp_path: Path, monkeypatch: pytest.M
     assert (tmp_path / "b.py").read_bytes() == b"x = 1 \n"
 
 
+def test_whole_packages_of_files_are_fixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, {**package("a", f"{IMPORTS}\n"), **package("b", f"{IMPORTS}\n")})
+    fill(tmp_path, {"a/other.py": b"x = 1 \n", "loose.py": b"x = 1 \n"})
+    before = tree(tmp_path)
+    words = ["--select", "PX020,W291", "--whole-packages", "a/CMakeLists.txt", "loose.py"]
+    assert main(["check", "--fix", *words]) == 0
+    after = tree(tmp_path)
+    assert {path for path in after if after[path] != before[path]} == {
+        "a/package.xml",
+        "a/other.py",
+    }
+
+
 @pytest.mark.parametrize("is_terminal", [True, False])
 def test_a_bar_is_shown_on_a_terminal_only(tmp_path: Path, *, is_terminal: bool) -> None:
     fill(tmp_path, package("a", "import os\n"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -133,3 +134,41 @@ def test_setup_py_without_manifest(tmp_path: Path) -> None:
     (tmp_path / "setup.py").touch()
     with pytest.raises(InputError, match=r"no package\.xml; colcon does not take it"):
         found(tmp_path)
+
+
+def test_files_stand_for_their_whole_packages(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(workspace)
+    (workspace / "loose.py").touch()
+    packages = [os.path.normpath(one.package.directory) for one in discovery.find(["."])]
+    files = [str(Path(one) / "package.xml") for one in packages]
+    chosen = discovery.find([files[0], "loose.py", files[0]], whole_packages=True)
+    assert [(one.package.directory, one.only) for one in chosen] == [(packages[0], None)]
+    assert discovery.find(["loose.py"], whole_packages=True) == []
+    everything = discovery.find([*files, "loose.py"], whole_packages=True)
+    assert [one.package.directory for one in everything] == packages
+
+
+def test_files_below_an_ignored_directory_stand_for_nothing(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(workspace)
+    vendored = make_package(workspace / "vendored" / "other")
+    path = str(vendored.relative_to(workspace) / "package.xml")
+    assert discovery.find([path], whole_packages=True)
+    (workspace / "vendored" / "COLCON_IGNORE").touch()
+    assert discovery.find([path], whole_packages=True) == []
+
+
+def test_a_file_of_a_nested_package_stands_for_the_one_that_colcon_sees(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outer = make_package(tmp_path / "outer")
+    make_package(outer / "test" / "data" / "inner")
+    monkeypatch.chdir(tmp_path)
+    (target,) = discovery.find(["outer/test/data/inner/package.xml"], whole_packages=True)
+    assert target.package.directory == "outer"
+    monkeypatch.chdir(outer / "test")
+    (target,) = discovery.find(["data/inner/package.xml"], whole_packages=True)
+    assert target.package.directory == ".."
