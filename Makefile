@@ -73,11 +73,12 @@ format: $(VENV)/test.stamp
 	$(BIN)/ruff format .
 
 .PHONY: examples
-examples: $(VENV)/test.stamp
+examples: $(VENV)/rules.stamp
 	$(BIN)/python scripts/pin_examples.py $(CODES)
+	$(BIN)/ruff format --quiet rules
 
 .PHONY: docs
-docs: $(VENV)/test.stamp
+docs: $(VENV)/rules.stamp
 	$(SCAFFOLD) rules --write-docs docs/rules
 	$(BIN)/python scripts/document_api.py
 
