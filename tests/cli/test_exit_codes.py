@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from scaffold.check.parallel import WORTH_WORKERS
 from scaffold.cli import exit_codes
 from scaffold.cli.main import VERBS
 from tests import PATIENCE
@@ -320,12 +321,14 @@ class Interrupting(Rule):
 """
 
 
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) == 1, reason="needs two processors")
 def test_control_c_in_a_workspace_is_one_line(tmp_path: Path) -> None:
     for number in range(40):
         (tmp_path / "src" / f"p{number}").mkdir(parents=True)
         (tmp_path / "src" / f"p{number}" / "package.xml").write_text(
             f'<package format="3"><name>p{number}</name></package>\n'
         )
+        (tmp_path / "src" / f"p{number}" / "large.py").write_text("#\n" * (WORTH_WORKERS // 40))
     (tmp_path / "own" / "rules" / "area").mkdir(parents=True)
     (tmp_path / "own" / "rules" / "area" / "interrupting.py").write_text(INTERRUPTING_RULE)
     run = subprocess.run(
