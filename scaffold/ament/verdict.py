@@ -145,13 +145,16 @@ def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
         yield from (flakes.plain(one) for one in said if one.code in CODES)
         return
     yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
+    lines: dict[str, set[int]] = {}
+    for one in said:
+        lines.setdefault(one.code, set()).add(one.line)
     for module in (operators, keyword_spacing):
-        rows = [one.line for one in said if one.code in module.CODES]
-        rows += [
+        rows = {row for code in module.CODES for row in lines.get(code, ())}
+        rows |= {
             text.line_of(found.start())
             for found in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
-        ]
-        logical_lines = {row: text.logical_line_at(row) for row in sorted(set(rows))}
+        }
+        logical_lines = {row: text.logical_line_at(row) for row in sorted(rows)}
         for logical in dict.fromkeys(one for one in logical_lines.values() if one):
             yield from module.check(logical)
     for one in said:

@@ -38,7 +38,7 @@ def check(text: PythonText) -> Iterator[Finding]:
         return
     docstrings = _docstrings(text.tokens)
     for literal, start, end, token in _literals(text.tokens):
-        code = _judge(literal, is_docstring=token in docstrings)
+        code = _judge(literal, is_docstring=start in docstrings)
         if code:
             fix = _fix(code, literal, start, end, is_plain=token.type == STRING)
             row, column = start
@@ -108,9 +108,9 @@ def _fix(
     )
 
 
-def _docstrings(tokens: list[Token]) -> set[Token]:
-    """Return the string tokens where a docstring may stand."""
-    found: set[Token] = set()
+def _docstrings(tokens: list[Token]) -> set[Position]:
+    """Return the starts of the string tokens where a docstring may stand."""
+    found: set[Position] = set()
     awaited = True
     keyword = False
     depth = 0
@@ -119,7 +119,7 @@ def _docstrings(tokens: list[Token]) -> set[Token]:
             continue
         if token.type == STRING:
             if awaited:
-                found.add(token)
+                found.add(token.start)
             awaited = False
         elif token.type == NAME and token.string in ("class", "def"):
             keyword, awaited, depth = True, False, 0

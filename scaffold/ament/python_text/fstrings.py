@@ -141,6 +141,9 @@ class _Opened:
 
     def _expression(self, start: int, end: int) -> Iterator[TokenInfo]:
         """Yield the tokens of an expression; brackets around it keep line breaks out of it."""
+        if self._text[start:end].isidentifier():
+            yield self._token(tokenize.NAME, start, end)
+            return
         feed = io.StringIO(f"({self._text[start:end]})").readline
         row, column = self._place(start)
         try:
