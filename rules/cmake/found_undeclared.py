@@ -57,9 +57,9 @@ class FoundUndeclared(Rule):
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
-                "package.xml:3:4",
-                "CMakeLists.txt, line 3 finds 'std_msgs', which no dependency here "
-                "names; add <build_depend>std_msgs</build_depend>",
+                "CMakeLists.txt:3:14",
+                "finds 'std_msgs', which no dependency in package.xml names; add "
+                "<build_depend>std_msgs</build_depend>",
                 fix="declare std_msgs",
             ),
             fixed={
@@ -95,10 +95,9 @@ class FoundUndeclared(Rule):
                 and not found.in_testing
             ):
                 tag = "buildtool_depend"
-            last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
             message = (
-                f"CMakeLists.txt, line {found.location.line} finds {name!r}, which no dependency "
-                f"here names; add <{tag}>{name}</{tag}>"
+                f"finds {name!r}, which no dependency in package.xml names; "
+                f"add <{tag}>{name}</{tag}>"
             )
             fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
-            yield self.report(last.name_location, message, fix, cause=f"dependency {name}")
+            yield self.report(found, message, fix, cause=f"dependency {name}")

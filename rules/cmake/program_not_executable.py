@@ -49,9 +49,9 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
             Report(
                 "talker/node.py:1:1",
-                "CMakeLists.txt, line 2 installs it as a program, but it has no "
-                "executable bit: `colcon build --symlink-install` makes an "
-                "executable that does not start",
+                "CMakeLists.txt installs it as a program, but it has no executable "
+                "bit: `colcon build --symlink-install` makes an executable that "
+                "does not start",
                 fix="make talker/node.py executable",
             ),
             fixed={"talker/node.py": _NODE},
@@ -76,10 +76,9 @@ class ProgramNotExecutable(Rule):
                 or is_only_imported(package, path)
             ):
                 continue
-            line = program.location.line
             message = (
-                f"CMakeLists.txt, line {line} installs it as a program, but it has no executable "
-                "bit: `colcon build --symlink-install` makes an executable that does not start"
+                "CMakeLists.txt installs it as a program, but it has no executable bit: "
+                "`colcon build --symlink-install` makes an executable that does not start"
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
             yield self.report(package.start_of(path), message, fix, cause="not executable")

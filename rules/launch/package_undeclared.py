@@ -48,9 +48,9 @@ class PackageUndeclared(Rule):
                 "launch/a.launch.py": _LAUNCH,
             },
             Report(
-                "package.xml:3:4",
-                "launch/a.launch.py:8 starts a node of 'rviz2', which no dependency "
-                "here provides; add <exec_depend>rviz2</exec_depend>",
+                "launch/a.launch.py:8:22",
+                "starts a node of 'rviz2', which no dependency in package.xml "
+                "provides; add <exec_depend>rviz2</exec_depend>",
                 fix="declare rviz2",
             ),
             fixed={
@@ -66,9 +66,9 @@ class PackageUndeclared(Rule):
                 "launch/a.launch.py": _LAUNCH.replace("rviz2", "arm"),
             },
             Report(
-                "package.xml:3:4",
-                "launch/a.launch.py:8 starts a node of 'arm', which no dependency "
-                "here provides; add <exec_depend>arm</exec_depend>",
+                "launch/a.launch.py:8:22",
+                "starts a node of 'arm', which no dependency in package.xml "
+                "provides; add <exec_depend>arm</exec_depend>",
                 fix="declare arm",
                 severity=Severity.WARNING,
             ),
@@ -87,7 +87,6 @@ class PackageUndeclared(Rule):
         manifest = package.manifest
         there = declared(package, for_tests=False)
         seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
-        last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
         tag = "exec_depend" if manifest.format > 1 else "run_depend"
         for use in package_uses(package):
             if use.name in seen or use.is_optional or meant_package(package, use):
@@ -95,15 +94,14 @@ class PackageUndeclared(Rule):
             if not exists(package, use.name) or not use.location.path.startswith("launch"):
                 continue
             seen.add(use.name)
-            at = use.location
             does = "looks for" if use.executable is None else "starts a node of"
             message = (
-                f"{at.path}:{at.line} {does} {use.name!r}, which no dependency here provides; "
+                f"{does} {use.name!r}, which no dependency in package.xml provides; "
                 f"add <{tag}>{use.name}</{tag}>"
             )
             is_near = package.workspace.get(use.name) is not None
             yield self.report(
-                last.name_location,
+                use.location,
                 message,
                 Fix(f"declare {use.name}", (manifest.insert(tag, use.name),)),
                 severity=Severity.WARNING if is_near else Severity.ERROR,

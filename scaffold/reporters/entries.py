@@ -13,10 +13,12 @@ from scaffold.record import NamedTuple
 SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 """Worst first."""
 
-_LAST = ("PX", "CM020", "LY", "NM", "TS")
-"""What stops no build and no program by itself: declarations, files, names, tests."""
+_LAST = ("PX", "LY", "NM", "TS")
+"""What stops no build and no program by itself: the manifest, files, names, tests."""
 _LATER = ("CM", *_LAST)
 """What does not crash a program that runs."""
+DEPENDENCY = "dependency "
+"""Begins the cause of what only happens on a machine that lacks a package."""
 
 
 class Entry(NamedTuple):
@@ -67,5 +69,6 @@ def is_style(diagnostic: Diagnostic) -> bool:
 
 
 def _rank(entry: Entry) -> tuple[int, bool, bool]:
-    code = entry.first.code
-    return SEVERITIES.index(entry.severity), code.startswith(_LAST), code.startswith(_LATER)
+    first = entry.first
+    is_last = first.code.startswith(_LAST) or first.cause.startswith(DEPENDENCY)
+    return SEVERITIES.index(entry.severity), is_last, first.code.startswith(_LATER)
