@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from scaffold.ament import StyleCheck
 
 
+WORTH_PARTS = 10
+"""Python files from which on it pays to keep findings in parts; small packages are checked anew."""
+
+
 class Ruled(NamedTuple):
     """What the rules found in a package."""
 
@@ -159,9 +163,10 @@ class Session:
         check = runner.Check(package, earlier)
         said = suppression.apply(package, check.run(self._counted_rules()), self._ran)
         _ = package.identity  # while the manifest is at hand
-        return Ruled(
-            len(package.files), said, check.verdict(earlier.verdict.style if earlier else {})
-        )
+        verdict = None
+        if len(package.python_files) >= WORTH_PARTS:
+            verdict = check.verdict(earlier.verdict.style if earlier else {})
+        return Ruled(len(package.files), said, verdict)
 
     def _report(self, target: Target, found: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""

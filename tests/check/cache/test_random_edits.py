@@ -9,7 +9,7 @@ from random import Random
 
 import pytest
 
-from scaffold.check import runner
+from scaffold.check import runner, session
 from scaffold.check.cache import runs
 from scaffold.check.result import Earlier
 from scaffold.cli.main import main
@@ -57,6 +57,7 @@ def compare(top: Path, report: Report, count: int, seed: int) -> int:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(runner.Check, "_take_over", watched)
+        patch.setattr(session, "WORTH_PARTS", 0)
         report("warm")
         for _ in range(count):
             story.append(edit(top, random))

@@ -21,6 +21,7 @@ from scaffold.diagnostic import Diagnostic
 from scaffold.files import cache
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
+from scaffold.model.python.module import PythonModule
 
 MANIFEST = """<?xml version="1.0"?>
 <?xml-model href="http://download.ros.org/schema/package_format3.xsd" \
@@ -669,3 +670,25 @@ def test_files_of_a_package_are_read_through_it_alone(part: str) -> None:
         if path.name not in own and "tree.read(" in path.read_text()
     ]
     assert reads == []
+
+
+def test_an_edit_in_one_file_costs_that_file(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = "import rclpy\n\n\ndef main():\n    rclpy.init()\n    rclpy.spin(rclpy.Node('a'))\n"
+    write(package, {f"talker/node_{number}.py": node for number in range(12)})
+    parsed: list[str] = []
+    parse = PythonModule.parse_bytes
+
+    def watched(path: str, data: bytes) -> PythonModule:
+        parsed.append(path)
+        return parse(path, data)
+
+    monkeypatch.setattr(PythonModule, "parse_bytes", watched)
+    before = runs("--select", "ND008", ".")
+    assert len(parsed) > 12
+    parsed.clear()
+    (package / "talker" / "node_3.py").write_text(f"\n{node}")
+    after = runs("--select", "ND008", ".")
+    assert parsed == ["talker/node_3.py"]
+    assert after == before.replace("node_3.py:6", "node_3.py:7") != before
