@@ -15,7 +15,7 @@ from contextlib import suppress
 from scaffold.ament.flake8.pycodestyle import statements
 from scaffold.check.suppression import apply
 from scaffold.formats.ini import IniFile
-from scaffold.formats.xml import parse
+from scaffold.formats.xml_reader import parse
 from scaffold.generate.edit import readme
 from scaffold.model.cmake.lexer import tokenize
 from scaffold.model.package import Package

@@ -8,7 +8,7 @@ import pytest
 
 from scaffold.ament.flake8.pycodestyle import statements
 from scaffold.api import Package
-from scaffold.formats.xml import parse
+from scaffold.formats.xml_reader import parse
 from scaffold.generate.edit import readme
 from scaffold.source import Source
 from tests.regexes import ANCHORED, Pattern, dangers, patterns

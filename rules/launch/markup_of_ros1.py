@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.api.formats import Element, xml_tree
+from scaffold.api.formats import Element, xml_reader
 
 _TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "no equivalent"}
 _ATTRIBUTES: Mapping[tuple[str, str], str] = {
@@ -61,7 +61,7 @@ class MarkupOfRos1(Rule):
             if not path.endswith(".launch.xml") or {"test", "tests"} & set(path.split("/")):
                 continue
             try:
-                document = xml_tree.parse(xml_tree.decode(path, package.data(path)))
+                document = xml_reader.parse(xml_reader.decode(path, package.data(path)))
             except ViewError:
                 continue
             for element in document.root.descendants():

@@ -100,11 +100,11 @@ class _Reader:
 
 def _explain(path: str, data: bytes, error: expat.ExpatError) -> tuple[Location, str]:
     """Put the mistake in our own words where the text can be decoded, else in expat's."""
-    from scaffold.formats import xml as xml_tree
+    from scaffold.formats import xml_reader
 
     try:
         text = data.decode("utf-8")
-        xml_tree.parse(Source(path, text))
+        xml_reader.parse(Source(path, text))
     except ParseError as found:
         if "DOCTYPE" not in found.message:
             said = found.message.replace("package.xml", path).replace(" such as <package>", "")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.formats import xml as xml_tree
+from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.xml import Attribute, Element
 from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
@@ -14,6 +14,6 @@ __all__ = [
     "Scalar",
     "Sequence",
     "YamlNode",
-    "xml_tree",
+    "xml_reader",
     "yaml_tree",
 ]

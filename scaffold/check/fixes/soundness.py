@@ -42,9 +42,9 @@ def _read_python(path: str, text: str) -> None:
 
 
 def _read_xml(path: str, text: str) -> None:
-    from scaffold.formats import xml as xml_tree
+    from scaffold.formats import xml_reader
 
-    xml_tree.parse(Source(path, text))
+    xml_reader.parse(Source(path, text))
 
 
 def _read_cmake(path: str, text: str) -> None:

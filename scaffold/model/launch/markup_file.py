@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.formats import xml as xml_tree
+from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.xml import Attribute
 from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
@@ -141,7 +141,7 @@ def _scalars(node: Mapping) -> Iterator[tuple[str, Attribute]]:
 
 
 def _document(package: Package, path: str) -> Document:
-    return xml_tree.parse(xml_tree.decode(path, package.data(path)))
+    return xml_reader.parse(xml_reader.decode(path, package.data(path)))
 
 
 def _paths(attribute: Attribute) -> Iterator[MarkupPath]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.formats import xml as xml_tree
-from scaffold.formats.xml import Comment, Document, Element, Instruction, decode
+from scaffold.formats import xml_reader
+from scaffold.formats.xml import Comment, Document, Element, Instruction
+from scaffold.formats.xml_reader import decode
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source
 
@@ -94,7 +95,7 @@ class Manifest:
         Raises:
             ParseError: it is not well-formed XML, or has a document type declaration.
         """
-        return cls(xml_tree.parse(source))
+        return cls(xml_reader.parse(source))
 
     # -- elements
 
