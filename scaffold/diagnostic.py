@@ -39,7 +39,7 @@ class Diagnostic(NamedTuple):
         return at.path, at.line, at.column, self.code, self.message
 
 
-MOST_FINDINGS = 5000
+MAX_FINDINGS = 5000
 """Of one code in one package; a flood of them must not hold the check up."""
 
 

@@ -19,7 +19,7 @@ class _Budget:
         self.left = MOST_COMPARED
 
 
-def nearest(package: Package, word: str, known: Collection[str], cutoff: float) -> str:
+def closest_name(package: Package, word: str, known: Collection[str], cutoff: float) -> str:
     """Return the known name that looks most like a word.
 
     Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.api.catalog import ROS_PACKAGES, provided_by
+from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 from scaffold.api.manifest import requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
@@ -74,7 +74,9 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         declared = manifest.declared_names
-        along = provided_by(declared) | requirements.declared(package, for_tests=True).along
+        along = (
+            transitive_dependencies(declared) | requirements.declared(package, for_tests=True).along
+        )
         told: set[str] = set()
         for found in package.cmake.found_packages:
             name = found.name

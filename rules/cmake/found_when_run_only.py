@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, ViewError
-from scaffold.api.catalog import ROS_PACKAGES, provided_by
+from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(std_msgs REQUIRED)\n"
@@ -106,4 +106,4 @@ def _there(package: Package) -> set[str]:
             except ViewError:
                 continue
     # Whatever has messages brings along what is needed to use them.
-    return found | provided_by(found) | {"rosidl_default_runtime"}
+    return found | transitive_dependencies(found) | {"rosidl_default_runtime"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, closest_name
 from scaffold.api.cmake import Argument
 
 _OF_FILES = ("PROGRAMS", "FILES", "DIRECTORY")
@@ -96,7 +96,7 @@ class InstallMalformed(Rule):
         if kind.value in _KINDS or "$" in kind.value:
             return
         message, fix = f"unknown install() keyword {kind.value!r}: CMake stops", None
-        closest = nearest(package, kind.value.upper(), _KINDS, 0.7)
+        closest = closest_name(package, kind.value.upper(), _KINDS, 0.7)
         if closest:
             edit = Edit("CMakeLists.txt", kind.start, kind.end, closest)
             message, fix = f"{message}; closest: {closest}", Fix(f"write {closest}", (edit,))

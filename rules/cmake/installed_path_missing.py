@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.cmake import Install, InstallItem, is_made_by_build, runs_if_exists
-from scaffold.api.workspace import is_left_out
+from scaffold.api.workspace import is_untracked
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 
@@ -76,13 +76,13 @@ class InstalledPathMissing(Rule):
         path = item.path
         if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if runs_if_exists(install.command) or is_left_out(package, path):
+        if runs_if_exists(install.command) or is_untracked(package, path):
             return None
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
         if package.has(path):
             return None
-        near = nearest(package, path, package.files, 0.8)
+        near = closest_name(package, path, package.files, 0.8)
         hint = f"; closest: {near}" if near else ""
         return f"installs {path}, which does not exist: the build stops{hint}"
 

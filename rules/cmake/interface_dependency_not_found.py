@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.api.catalog import provided_by
+from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import CMakeLists, generations, has_unknown_commands
 from scaffold.api.interfaces import KINDS
 
@@ -95,7 +95,7 @@ def _there(package: Package, found: set[str] | None) -> set[str] | None:
         there.add(name)
         if name.startswith(_TOOLS):
             continue
-        pending += sorted(provided_by({name}))
+        pending += sorted(transitive_dependencies({name}))
         known = [(kind, definitions.names(name, kind)) for kind in KINDS]
         if name in found and not any(names for _, names in known):
             return None

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.cmake import generations
-from scaffold.api.interfaces import SECTIONS, nearest_word
+from scaffold.api.interfaces import SECTIONS, closest_word
 
 _LISTS = "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
 
@@ -77,6 +77,6 @@ class InterfaceFileMissing(Rule):
                     yield self.report(file.argument, message)
                 elif not package.has(path) and not any(path in values for values in made):
                     same = [one for one in there if one.lower().endswith(f"/{path.lower()}")]
-                    hint = f"; did you mean {same[0]!r}?" if same else nearest_word(path, there)
+                    hint = f"; did you mean {same[0]!r}?" if same else closest_word(path, there)
                     message = f"there is no file {path!r}, so CMake stops{hint}"
                     yield self.report(file.argument, message)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, Severity
 from scaffold.api.cmake import Generation, generations, may_generate_more, uses_ament
-from scaffold.api.interfaces import is_commented_out, standing, words_of_users
+from scaffold.api.interfaces import is_commented_out, names_used_in_code, ungenerated_candidates
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 
@@ -78,7 +78,7 @@ class InterfaceNotGenerated(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        files = standing(package)
+        files = ungenerated_candidates(package)
         if not files:
             return
         if package.build_type == "ament_python":
@@ -101,7 +101,7 @@ class InterfaceNotGenerated(Rule):
                 continue
             name = path.rpartition("/")[2].rpartition(".")[0]
             message = f"{path} is not among the files: no code is generated for {name}"
-            is_used = name in words_of_users(package)
+            is_used = name in names_used_in_code(package)
             yield self.report(
                 calls[0].command.name_location,
                 message,

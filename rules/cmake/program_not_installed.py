@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
 from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
 from scaffold.api.install import is_started, paths_imported_by
 
@@ -129,4 +129,4 @@ class ProgramNotInstalled(Rule):
     def _is_misspelled(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""
         missing = [one.path for one in programs(package) if not package.has(one.path)]
-        return bool(nearest(package, path, missing, 0.8))
+        return bool(closest_name(package, path, missing, 0.8))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.manifest import other_name
+from scaffold.api.manifest import name_used_elsewhere
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
 
@@ -50,7 +50,7 @@ class ProjectNameDiffers(Rule):
         at = package.cmake.project_name_location
         if not written or not name or at is None or written == name:
             return
-        if package.build_type == "cmake" or other_name(package):
+        if package.build_type == "cmake" or name_used_elsewhere(package):
             return
         projects = [call.arguments[0] for call in package.cmake.find("project") if call.arguments]
         if any(package.cmake.expand(one) == name for one in projects):

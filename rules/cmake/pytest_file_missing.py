@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 
 COMMANDS = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
 _LISTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"
@@ -49,6 +49,6 @@ class PytestFileMissing(Rule):
             path = cmake.path_of(value)
             if package.has(path) or package.has_directory(path):
                 continue
-            near = nearest(package, path, package.python_files, 0.7)
+            near = closest_name(package, path, package.python_files, 0.7)
             hint = f"; closest: {near}" if near else ""
             yield self.report(argument, f"there is no test file {path}{hint}")

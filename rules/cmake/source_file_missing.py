@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
-from scaffold.api.workspace import is_left_out
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api.workspace import is_untracked
 
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
 _MAKERS = (
@@ -61,9 +61,9 @@ class SourceFileMissing(Rule):
                 if value is None or set("$<*;") & set(value) or not value.endswith(_ENDINGS):
                     continue
                 path = cmake.path_of(value)
-                if package.has(path) or path.startswith(("/", "..")) or is_left_out(package, path):
+                if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
                     continue
-                near = nearest(package, path, package.files, 0.8)
+                near = closest_name(package, path, package.files, 0.8)
                 hint = f"; closest: {near}" if near else ""
                 message = f"there is no file {path}: CMake stops{hint}"
                 yield self.report(argument, message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.workspace import is_left_out
+from scaffold.api.workspace import is_untracked
 
 _LISTS = "project(talker)\nadd_subdirectory({})\n"
 
@@ -65,7 +65,7 @@ class SubdirectoryMissing(Rule):
             if value is None or set("$<*") & set(value) or value.startswith(("/", "..")):
                 continue
             path = cmake.path_of(value)
-            if package.has(f"{path}/CMakeLists.txt") or is_left_out(package, path):
+            if package.has(f"{path}/CMakeLists.txt") or is_untracked(package, path):
                 continue
             if not package.has_directory(path):
                 message = f"adds the directory {path}/, which does not exist: CMake stops"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.cmake import (
     TAKING_TARGETS,
     defined_targets,
@@ -70,7 +70,7 @@ class TargetUndefined(Rule):
         known = sorted(defined)
         never_named = targets_named_once(cmake)
         for target, argument in never_named:
-            near = nearest(package, target, known, 0.75)
+            near = closest_name(package, target, known, 0.75)
             hint = f"; closest: {near!r}" if near else ": CMake stops"
             yield self.report(argument, f"nothing defines the target {target!r}{hint}")
         told = {target for target, _ in never_named}
@@ -78,7 +78,7 @@ class TargetUndefined(Rule):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
             if name is None or name in defined | told or "::" in name or command.blocks:
                 continue
-            near = nearest(package, name, known, 0.75)
+            near = closest_name(package, name, known, 0.75)
             if near:
                 message = f"nothing defines the target {name!r}; closest: {near!r}"
                 yield self.report(command.arguments[0], message)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
 from scaffold.api.install import (
     absolute_name,
     file_of,
@@ -100,7 +100,7 @@ class OwnImportMissing(Rule):
         elif root in roots:
             if not may_be_made(package, name):
                 modules = [one for one in modules_of(package, root) if "__init__" not in one]
-                near = nearest(package, name, modules, 0.6)
+                near = closest_name(package, name, modules, 0.6)
                 hint = f"; closest: {near!r}" if near else ""
                 yield self.report(one, f"the package has no module {name!r}{hint}")
         elif not one.level:
@@ -122,6 +122,6 @@ class OwnImportMissing(Rule):
             below = f"{name}.{imported.name}"
             if file_of(package, below) or may_be_made(package, below):
                 continue
-            near = nearest(package, imported.name, [*module.functions, *module.classes], 0.6)
+            near = closest_name(package, imported.name, [*module.functions, *module.classes], 0.6)
             hint = f"; closest: {near!r}" if near else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

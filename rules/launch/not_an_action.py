@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import NODES, LaunchFile, entities, what_it_is
+from scaffold.api.launch import NODES, LaunchFile, describe, entities
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
@@ -93,7 +93,7 @@ class NotAnAction(LaunchRule):
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for item in entities(launch):
-            what = what_it_is(launch, item.node)
+            what = describe(launch, item.node)
             if what and not (item.is_alone and what in _ALONE):
                 message = f"{what}, but {item.holder} takes actions{_hint(what)}"
                 yield self.report(launch.location(item.node), message)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.api.launch import Use, meant_package, package_uses
-from scaffold.api.manifest import other_name
+from scaffold.api.launch import Reference, meant_package, package_uses
+from scaffold.api.manifest import name_used_elsewhere
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -77,7 +77,7 @@ class PackageMisspelled(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for use in package_uses(package):
-            if use.name == other_name(package):
+            if use.name == name_used_elsewhere(package):
                 continue
             meant = meant_package(package, use)
             if meant is None:
@@ -86,7 +86,7 @@ class PackageMisspelled(Rule):
             message = f"unknown package {use.name!r}; did you mean {meant.name!r} ({meant.reason})?"
             yield self.report(use.location, message, fix)
 
-    def _fix(self, package: Package, use: Use, name: str) -> Fix | None:
+    def _fix(self, package: Package, use: Reference, name: str) -> Fix | None:
         source = package.editable(use.location.path)
         at = use.location
         start = source.offset(at.line, at.column)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 
 _NODE = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
@@ -66,7 +66,7 @@ class AnswerNotUnwrapped(MessageRule):
             return
         for node in types.module.walk(ast.Attribute):
             message = _message(types, node)
-            if message and not is_harmless(types.module, node, "AttributeError"):
+            if message and not is_handled(types.module, node, "AttributeError"):
                 yield self.report(types.module.location(node), message)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.interfaces import Definitions, FieldType, interface_files, nearest_word
+from scaffold.api.interfaces import Definitions, FieldType, closest_word, interface_files
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
 
@@ -72,5 +72,5 @@ def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) ->
         package, _, name = others[0].split("/")
         hint = f"; did you mean '{package}/{name}'?"
     else:
-        hint = nearest_word(type_.name, names)
+        hint = closest_word(type_.name, names)
     return f"type {written!r}: {type_.package} has no message {type_.name!r}{hint}"

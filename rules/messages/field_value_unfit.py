@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
-from scaffold.api.messages import MessageTypes, Misfits
+from scaffold.api.messages import MessageTypes, TypeMismatches
 
 _CODE = (
     "from rclpy.node import Node\n"
@@ -181,7 +181,7 @@ class FieldValueUnfit(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        misfits = Misfits(types)
+        misfits = TypeMismatches(types)
         for item in types.assigned:
             problem = misfits.misfit(item)
             if problem:

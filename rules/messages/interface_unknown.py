@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
-from scaffold.api.interfaces import KINDS, Definitions, nearest_word
+from scaffold.api.interfaces import KINDS, Definitions, closest_word
 from scaffold.api.messages import MessageTypes, interfaces_named
 
 _MISSPELLED = {"msgs": "msg", "message": "msg", "messages": "msg", "mgs": "msg", "srvs": "srv"}
@@ -106,7 +106,7 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
         return f"{owner} has no module {kind!r}; did you mean '{owner}.{module}'?"
     if kind not in KINDS or name in known or any(name.startswith(f"{x}_") for x in known):
         return None
-    hint = nearest_word(name, known)
+    hint = closest_word(name, known)
     elsewhere = [match for match in definitions.matches(name) if match.endswith(f"/{name}")]
     if elsewhere and (not hint or not known):
         hint = f"; did you mean {' or '.join(map(repr, elsewhere[:3]))}?"

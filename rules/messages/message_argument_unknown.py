@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
-from scaffold.api.interfaces import nearest_word
+from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import MessageClass, MessageTypes
 
 _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
@@ -67,7 +67,7 @@ def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
         yield call.args[0], f"{owner.name} takes only keyword arguments: TypeError{example}"
     for word in call.keywords:
         if word.arg is not None and word.arg not in {*has, "check_fields"}:
-            hint = nearest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
+            hint = closest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
             message = (
                 f"{owner.name} has no field {word.arg!r}: the value is silently dropped{hint} "
                 f"(definition: {owner.origin})"

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
-from scaffold.api.interfaces import nearest_word
+from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
 from scaffold.api.python import is_for_ros1
 
@@ -135,7 +135,7 @@ def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
 
 def _message(owner: MessageClass, name: str) -> str:
     fields = [field.name for field in owner.section.fields]
-    hint = nearest_word(name, [*fields, *(constant.name for constant in owner.section.constants)])
+    hint = closest_word(name, [*fields, *(constant.name for constant in owner.section.constants)])
     if not hint and fields:
         more = " ..." if len(fields) > 5 else ""  # noqa: PLR2004  as many as fit a line
         hint = f"; it has {', '.join(fields[:5])}{more}"
@@ -152,5 +152,5 @@ def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
         return None
     if hasattr(type, node.attr) or node.attr.startswith("_"):
         return None
-    hint = nearest_word(node.attr, [*PARTS[dotted[1]]])
+    hint = closest_word(node.attr, [*PARTS[dotted[1]]])
     return f"{full_name} has no {node.attr!r}: AttributeError{hint}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_asked_about
+from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import RclpyFile, topic_problem
 
 _NODE = (
@@ -70,7 +70,7 @@ class TopicNameInvalid(RclpyRule):
             # An empty default is there to be replaced.
             if entity.from_parameter and _has_gap(entity.name):
                 continue
-            if not entity.name and is_asked_about(facts.module, entity.call, argument.node):
+            if not entity.name and is_guarded_by(facts.module, entity.call, argument.node):
                 continue
             problem = topic_problem(entity.name)
             if problem:

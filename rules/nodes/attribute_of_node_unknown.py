@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
-from scaffold.api.python import is_harmless
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import (
     NODE,
     NodeClass,
@@ -109,12 +109,12 @@ def _names_of_rclpy() -> Iterator[str]:
 def _near(package: Package, name: str, names: set[str]) -> str:
     # Private attributes of rclpy, with an underscore, are never the intended ones.
     hidden = "__" if name.startswith("_") else "_"
-    return nearest(package, name, [x for x in names if not x.startswith(hidden)], 0.7)
+    return closest_name(package, name, [x for x in names if not x.startswith(hidden)], 0.7)
 
 
 def _may_fail(facts: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether the code handles a missing attribute."""
-    if is_harmless(facts.module, node, "AttributeError"):
+    if is_handled(facts.module, node, "AttributeError"):
         return True
     return f"'{node.attr}'" in facts.module.source.text or (
         f'"{node.attr}"' in facts.module.source.text

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import RclpyFile, class_of, has, known_names
 
 _NODE = (
@@ -60,7 +60,7 @@ class AttributeOfObjectUnknown(RclpyRule):
         owner = class_of(facts, node.value)
         if owner is None or has(owner, node.attr) or facts.evaluator.stores(node.attr):
             return
-        if is_harmless(facts.module, node, "AttributeError"):
+        if is_handled(facts.module, node, "AttributeError"):
             return
         known = [name.removesuffix("()") for name in known_names()[owner] if name[0] != "_"]
         near = _ELSEWHERE.get(node.attr) or next(iter(get_close_matches(node.attr, known, 1)), "")

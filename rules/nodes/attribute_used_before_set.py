@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
 _NODE = (
@@ -74,7 +74,7 @@ def _used_early(facts: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribu
         in_loop = any(
             isinstance(parent, ast.For | ast.While) for parent in facts.module.parents(used)
         )
-        if not in_loop and not is_harmless(facts.module, used, "AttributeError"):
+        if not in_loop and not is_handled(facts.module, used, "AttributeError"):
             reported.add(used.attr)
             yield used, line
 

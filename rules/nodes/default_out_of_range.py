@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import Parameter, RclpyFile, is_of_node
 
 _RIGHT = {"integer": "integer_range", "double": "floating_point_range"}
@@ -68,7 +68,7 @@ class DefaultOutOfRange(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
             message = _problem(parameter) if parameter.default_node is not None else ""
-            if message and not is_harmless(
+            if message and not is_handled(
                 facts.module, parameter.call, "InvalidParameterValueException"
             ):
                 at = parameter.default_node or parameter.call

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _PROPERTIES = (
@@ -69,7 +69,7 @@ class EntitiesTakenForList(RclpyRule):
         for name in _PROPERTIES:
             for attribute in facts.module.index.attributes(name):
                 error = _error(facts, attribute)
-                is_flaw = error and not is_harmless(facts.module, attribute, error)
+                is_flaw = error and not is_handled(facts.module, attribute, error)
                 if is_flaw and _is_of_node(facts, attribute):
                     message = f"{name!r} is a property of Node that returns a generator: {error}"
                     yield self.report(facts.module.location(attribute), message)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
 _NODE = (
@@ -46,6 +46,6 @@ class FieldOfPlainValue(RclpyRule):
                         is_parameter = class_of(facts, parameter) == PARAMETER
                     case _:
                         continue
-                if is_parameter and not is_harmless(facts.module, attribute, "AttributeError"):
+                if is_parameter and not is_handled(facts.module, attribute, "AttributeError"):
                     message = f"'.value' is the value itself, without {field!r}: AttributeError"
                     yield self.report(facts.module.location(attribute), message)

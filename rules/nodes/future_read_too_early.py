@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import FunctionNode, PythonModule, is_asked_about
+from scaffold.api.python import FunctionNode, PythonModule, is_guarded_by
 from scaffold.api.rclpy import RclpyFile
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
@@ -90,7 +90,7 @@ class FutureReadTooEarly(RclpyRule):
 
 def _is_asked(facts: RclpyFile, call: ast.Call, name: str) -> bool:
     """Return whether a condition makes sure that the future is done."""
-    return is_asked_about(facts.module, call, ast.Name(id=name))
+    return is_guarded_by(facts.module, call, ast.Name(id=name))
 
 
 def _futures(module: PythonModule, function: FunctionNode) -> list[str]:

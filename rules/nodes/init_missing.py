@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.api.programs import (
-    Run,
+    Execution,
     calls_others,
     files_of,
     late_init,
@@ -92,7 +92,7 @@ class InitMissing(Rule):
                 yield self.report(run.facts.module.location(call), problem)
 
 
-def _problem(package: Package, run: Run, made: ast.Call) -> str | None:
+def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
     facts = run.facts
     late = late_init(facts, made)
     for file in files_of(package, facts.module.path):

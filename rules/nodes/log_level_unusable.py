@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless, is_known
+from scaffold.api.python import is_handled, is_known
 from scaffold.api.rclpy import RclpyFile, is_of_rclpy
 
 _SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
@@ -66,7 +66,7 @@ class LogLevelUnusable(RclpyRule):
             if (
                 is_known(value)
                 and not is_severity
-                and not is_harmless(facts.module, call, "ValueError")
+                and not is_handled(facts.module, call, "ValueError")
             ):
                 message = f"{value!r} is not a LoggingSeverity: ValueError"
                 yield self.report(facts.module.location(level), message)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import Import, PythonModule, is_harmless
+from scaffold.api.python import Import, PythonModule, is_handled
 from scaffold.api.rclpy import PLACES, first_unknown, known_names
 
 _CODE = "import rclpy\nfrom rclpy.{} import {}\n\nrclpy.{}()\nQOS = ReliabilityPolicy.{}\n"
@@ -81,7 +81,7 @@ class NameOfRclpyUnknown(Rule):
                 continue
             name = module.qualified_name(node) or ""
             unknown = first_unknown(name) if name.startswith("rclpy.") else None
-            if unknown is not None and not is_harmless(module, node, "AttributeError"):
+            if unknown is not None and not is_handled(module, node, "AttributeError"):
                 yield self.report(module.location(node), _message(*unknown, "AttributeError"))
 
 

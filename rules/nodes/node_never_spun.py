@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import NodeOwner, RclpyCall, RclpyFile
+from scaffold.api.rclpy import NodeDefinition, RclpyCall, RclpyFile
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
@@ -107,5 +107,5 @@ def _is_once(facts: RclpyFile, spin: RclpyCall) -> bool:
     return not in_loop and spin.function in {init.function for init in facts.init_calls}
 
 
-def _waits(node: NodeOwner) -> bool:
+def _waits(node: NodeDefinition) -> bool:
     return bool(node.timers or node.subscriptions or node.services or node.action_servers)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.python import is_harmless, misfit
+from scaffold.api.python import argument_error, is_handled
 from scaffold.api.rclpy import RclpyFile, called_function
 
 _NODE = (
@@ -80,7 +80,7 @@ class OwnCallUnfit(RclpyRule):
     def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
         for call in facts.module.walk(ast.Call):
             called = called_function(package, facts, call)
-            problem = misfit(call, called.takes, bound=called.bound) if called else ""
-            if called and problem and not is_harmless(facts.module, call, "TypeError"):
+            problem = argument_error(call, called.takes, bound=called.bound) if called else ""
+            if called and problem and not is_handled(facts.module, call, "TypeError"):
                 message = f"{called.name}() {problem}: TypeError"
                 yield self.report(facts.module.location(call), message)

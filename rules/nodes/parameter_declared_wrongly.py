@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import UNKNOWN, is_harmless
+from scaffold.api.python import UNKNOWN, is_handled
 from scaffold.api.rclpy import DESCRIPTOR, Parameter, RclpyFile, is_of_node, message_made
 
 _RANGES = ("floating_point_range", "integer_range")
@@ -76,7 +76,7 @@ class ParameterDeclaredWrongly(RclpyRule):
     def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
         for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
             for node, problem in _problems(facts, parameter):
-                if not is_harmless(facts.module, parameter.call, problem.rpartition(": ")[2]):
+                if not is_handled(facts.module, parameter.call, problem.rpartition(": ")[2]):
                     yield self.report(facts.module.location(node), problem)
 
 

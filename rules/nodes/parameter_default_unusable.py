@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
@@ -99,7 +99,7 @@ class ParameterDefaultUnusable(RclpyRule):
                 _default_problem(facts, parameter, node) if node else ""
             )
             error = problem.rpartition(": ")[2]
-            if problem and not is_harmless(facts.module, parameter.call, error):
+            if problem and not is_handled(facts.module, parameter.call, error):
                 yield self.report(facts.module.location(node or parameter.call), problem)
         for parameter in facts.parameters:
             problem = _missing_problem(parameter)

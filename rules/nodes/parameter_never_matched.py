@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.parameters import declared_alone, declared_by, has_always
 from scaffold.api.rclpy import (
     NodeClass,
@@ -81,7 +81,7 @@ class ParameterNeverMatched(Rule):
         for item in names_compared(facts, attribute):
             name = item.value if isinstance(item, ast.Constant) else None
             if isinstance(name, str) and name not in known and not has_always(name):
-                near = nearest(package, name, known, 0.7)
+                near = closest_name(package, name, known, 0.7)
                 hint = f"; did you mean {near!r}?" if near else ""
                 message = f"never true: the node declares no parameter {name!r}{hint}"
                 yield self.report(facts.module.location(item), message)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.parameters import declared_alone, has_always
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import Parameter, ParameterRead, names_used_by
 
 _NODE = (
@@ -91,7 +91,7 @@ class ParameterReadUndeclared(Rule):
                 by_name.setdefault(str(parameter.name), []).append(parameter)
             for read in node.parameter_reads:
                 message = _message(package, read, by_name)
-                if message and not is_harmless(
+                if message and not is_handled(
                     node.facts.module, read.call, "ParameterNotDeclaredException"
                 ):
                     yield self.report(read, message)
@@ -99,7 +99,7 @@ class ParameterReadUndeclared(Rule):
                 if used.name in by_name or has_always(used.name):
                     continue
                 module = node.facts.module
-                if not is_harmless(module, used.call, "ParameterNotDeclaredException"):
+                if not is_handled(module, used.call, "ParameterNotDeclaredException"):
                     yield self.report(
                         module.location(used.node), _undeclared(package, used.name, by_name)
                     )
@@ -127,6 +127,6 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
 
 
 def _undeclared(package: Package, name: str, declared: dict[str, list[Parameter]]) -> str:
-    near = nearest(package, name, declared, 0.7)
+    near = closest_name(package, name, declared, 0.7)
     hint = f"; did you mean {near!r}?" if near else ""
     return f"parameter {name!r} is not declared: ParameterNotDeclaredException{hint}"

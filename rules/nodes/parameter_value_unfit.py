@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.parameters import declared_by
-from scaffold.api.python import is_harmless
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import RclpyFile, parameter_read
 
 _NUMBERS = ("double", "integer")
@@ -66,7 +66,7 @@ class ParameterValueUnfit(RclpyRule):
         if not facts.parameter_reads and not facts.parameters:
             return
         for node, problem in _problems(package, facts):
-            if not is_harmless(facts.module, node, "TypeError"):
+            if not is_handled(facts.module, node, "TypeError"):
                 yield self.report(facts.module.location(node), problem)
 
 

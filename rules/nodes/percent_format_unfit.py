@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
-from scaffold.api.messages import Kinds, MessageTypes
-from scaffold.api.python import is_harmless
+from scaffold.api.messages import MessageTypes, ValueTypes
+from scaffold.api.python import is_handled
 
 _PLACE = r"%(?:%|[-+ #0]*(?:\*|[1-9]\d*)?(?:\.(?:\*|\d+))?[diouxXeEfFgGcrsa])"
 _SINGLE = frozenset({"bool", "float", "int", "str"})
@@ -52,12 +52,12 @@ class PercentFormatUnfit(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        kinds = Kinds(types)
+        kinds = ValueTypes(types)
         for node in types.module.walk(ast.BinOp):
             match node:
                 case ast.BinOp(left=ast.Constant(value=str(text)), op=ast.Mod(), right=value):
                     problem = _problem(text, kinds.of(value))
-                    if problem and not is_harmless(types.module, node, "TypeError"):
+                    if problem and not is_handled(types.module, node, "TypeError"):
                         yield self.report(types.module.location(node), problem)
 
 

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.launch import Use, meant_package
-from scaffold.api.manifest import other_name
-from scaffold.api.python import is_harmless
+from scaffold.api.launch import Reference, meant_package
+from scaffold.api.manifest import name_used_elsewhere
+from scaffold.api.python import is_handled
 from scaffold.api.rclpy import RclpyFile
 
 _FUNCTIONS = frozenset(
@@ -62,11 +62,11 @@ class ShareOfMisspelledPackage(RclpyRule):
             if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
                 continue
             name = facts.evaluator.evaluate(call.args[0])
-            if not isinstance(name, str) or name == other_name(package):
+            if not isinstance(name, str) or name == name_used_elsewhere(package):
                 continue
             at = facts.module.location(call.args[0])
-            closest = meant_package(package, Use(name, at, None, at))
-            if closest is not None and not is_harmless(facts.module, call, "PackageNotFoundError"):
+            closest = meant_package(package, Reference(name, at, None, at))
+            if closest is not None and not is_handled(facts.module, call, "PackageNotFoundError"):
                 message = (
                     f"no package {name!r}: PackageNotFoundError; did you mean "
                     f"{closest.name!r} ({closest.reason})?"

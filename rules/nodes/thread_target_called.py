@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_asked_about
+from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import RclpyFile
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
@@ -87,7 +87,7 @@ class ThreadTargetCalled(RclpyRule):
             # Zero as the default of a parameter is usually overridden.
             if argument is None or value not in (0, 0.0) or notes:
                 continue
-            if not is_asked_about(facts.module, timer.call, argument.node):
+            if not is_guarded_by(facts.module, timer.call, argument.node):
                 yield self.report(argument, "timer with period 0 uses all CPU time")
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.catalog import provided_by, similar_package
-from scaffold.api.manifest import declared, needs
+from scaffold.api.catalog import similar_package, transitive_dependencies
+from scaffold.api.manifest import declared, required_packages
 
 _INTERFACES = ("_msgs", "_srvs")
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
@@ -46,7 +46,7 @@ class ImportDeclaredByOthers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        for need in needs(package):
+        for need in required_packages(package):
             there = declared(package, for_tests=need.for_tests)
             if need.for_tests or any(key in there.direct for key in need.keys):
                 continue
@@ -58,7 +58,10 @@ class ImportDeclaredByOthers(Rule):
             if any(similar_package(one) == along[0] for one in there.direct):
                 continue  # misspelled, as another rule says
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
-            by = next((one for one in sorted(there.direct) if along[0] in provided_by({one})), "")
+            by = next(
+                (one for one in sorted(there.direct) if along[0] in transitive_dependencies({one})),
+                "",
+            )
             message = (
                 f"{need.location.path}:{need.location.line} imports {need.module!r}, which only "
                 f"{by or 'another package'} depends on; add <{tag}>{along[0]}</{tag}>"

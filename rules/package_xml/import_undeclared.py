@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.manifest import declared, needs
+from scaffold.api.manifest import declared, required_packages
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
@@ -153,7 +153,7 @@ class ImportUndeclared(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        for need in needs(package):
+        for need in required_packages(package):
             there = declared(package, for_tests=need.for_tests)
             if any(key in there.direct or key in there.along for key in need.keys):
                 continue

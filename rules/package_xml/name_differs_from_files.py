@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.api.manifest import other_name
+from scaffold.api.manifest import name_used_elsewhere
 
 _MANIFEST = '<package format="3">\n  <name>{}</name>\n</package>\n'
 _FILES = {"CMakeLists.txt": "project(talker)\n", "talker/__init__.py": ""}
@@ -41,7 +41,7 @@ class NameDiffersFromFiles(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        other = other_name(package)
+        other = name_used_elsewhere(package)
         element = package.manifest.one("name")
         if other is None or element is None:
             return

@@ -8,8 +8,8 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.formats import Sequence
 from scaffold.api.launch import nodes_for
 from scaffold.api.parameters import declared_by, parameter_file, parameter_paths, place_of
-from scaffold.api.python import is_harmless
-from scaffold.api.rclpy import NodeClass, NodeOwner, ParameterRead
+from scaffold.api.python import is_handled
+from scaffold.api.rclpy import NodeClass, NodeDefinition, ParameterRead
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -72,14 +72,14 @@ class ListEmpty(Rule):
                         break
 
 
-def _read(owner: NodeOwner, name: str) -> ParameterRead | None:
+def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
     """Return a place where the node fails when a parameter has no value."""
-    current: NodeOwner | None = owner
+    current: NodeDefinition | None = owner
     while current is not None:
         for read in current.parameter_reads:
             if read.name == name and read.method == "get_parameter":
                 module = current.facts.module
-                if not is_harmless(module, read.call, "ParameterUninitializedException"):
+                if not is_handled(module, read.call, "ParameterUninitializedException"):
                     return read
         current = current.base if isinstance(current, NodeClass) else None
     return None

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.launch import MarkupNode, is_known, markup_files
 from scaffold.api.parameters import declared_by, place_of
 from scaffold.api.programs import nodes_of
-from scaffold.api.rclpy import NodeClass, NodeOwner
+from scaffold.api.rclpy import NodeClass, NodeDefinition
 
 _WORDS = {
     r"[+-]?(?:0|[1-9]\d*)": "integer",
@@ -102,7 +102,7 @@ class MarkupParameterDiffers(Rule):
                     if not is_known(name):
                         continue
                     if is_all and not declared.has(name.value):
-                        near = nearest(package, name.value, sorted(declared.types), 0.6)
+                        near = closest_name(package, name.value, sorted(declared.types), 0.6)
                         hint = f"; did you mean {near!r}?" if near else ""
                         message = (
                             f"node declares no parameter {name.value!r}: the value is ignored{hint}"
@@ -117,7 +117,7 @@ class MarkupParameterDiffers(Rule):
                         yield self.report(value, message)
 
 
-def _owner(package: Package, node: MarkupNode) -> NodeOwner | None:
+def _owner(package: Package, node: MarkupNode) -> NodeDefinition | None:
     """Return the code of a node if it is Python in this package or the workspace."""
     if node.package is None or node.executable is None:
         return None

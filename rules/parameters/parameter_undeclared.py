@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, nearest
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.launch import StartedNode, is_loaded, nodes_for, started_nodes, use_of
 from scaffold.api.parameters import Declared, declared_by, parameter_file, parameter_paths
 
@@ -119,7 +119,7 @@ def _cause(node: object) -> str:
 
 def _message(package: Package, name: str, known: list[Declared], node: object) -> str:
     names = sorted({key for declared in known for key in declared.types})
-    near = nearest(package, name, names, 0.6)
+    near = closest_name(package, name, names, 0.6)
     more = ", ..." if len(names) > _MOST_NAMED else ""
     hint = f"it has {', '.join(names[:_MOST_NAMED]) or 'none'}{more}"
     if near:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.api.manifest import other_name
+from scaffold.api.manifest import name_used_elsewhere
 
 INDEX = "share/ament_index/resource_index/packages"
 _MANIFEST = (
@@ -96,7 +96,7 @@ class MarkerMissing(Rule):
             known = [source for source in data.sources if isinstance(source, str)]
             names = [source.rpartition("/")[2] for source in known]
             complete = data.complete and len(known) == len(data.sources)
-            if complete and package.name not in names and not other_name(package):
+            if complete and package.name not in names and not name_used_elsewhere(package):
                 message = (
                     f"installs {', '.join(names)} as marker, but the package is {package.name!r}"
                 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.api.manifest import other_name
+from scaffold.api.manifest import name_used_elsewhere
 from scaffold.api.setup_py import setup_edit
 
 _MANIFEST = '<package format="3"><name>talker</name></package>\n'
@@ -70,7 +70,9 @@ class NameDiffers(Rule):
             return
         if keyword is None or not isinstance(keyword.value, str) or not name:
             return
-        if keyword.value.replace("-", "_") == name.replace("-", "_") or other_name(package):
+        if keyword.value.replace("-", "_") == name.replace("-", "_") or name_used_elsewhere(
+            package
+        ):
             return
         setup = package.setup_py
         line = package.manifest.all("name")[0].location.line

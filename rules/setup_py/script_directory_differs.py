@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.manifest import other_name
+from scaffold.api.manifest import name_used_elsewhere
 from scaffold.api.setup_py import node_scripts
 
 KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
@@ -83,7 +83,7 @@ class ScriptDirectoryDiffers(Rule):
         wanted = f"$base/lib/{package.name}"
         if not package.setup_py.console_scripts or not package.manifest.name:
             return
-        if other_name(package) or package.setup_py.keyword("cmdclass"):
+        if name_used_elsewhere(package) or package.setup_py.keyword("cmdclass"):
             return  # commands of its own may set the directory
         for section, key in KEYS:
             entry = cfg.option(section, key, key.replace("_", "-"))

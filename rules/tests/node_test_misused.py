@@ -7,7 +7,13 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import TestFunction, arguments, made_name, node_tests, test_functions
+from scaffold.api.tests import (
+    TestFunction,
+    arguments,
+    constructed_class,
+    node_tests,
+    test_functions,
+)
 
 _TEST = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -101,4 +107,4 @@ def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
 
 def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
     """Tell whether a name stands for a plain node that is made in the file."""
-    return made_name(module, node) in {"rclpy.node.Node", "rclpy.create_node"}
+    return constructed_class(module, node) in {"rclpy.node.Node", "rclpy.create_node"}

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.python import FunctionNode, PythonModule
-from scaffold.api.tests import has_other_ways, is_named_elsewhere, test_functions, test_modules
+from scaffold.api.tests import is_named_elsewhere, test_functions, test_modules, uses_pytest_plugins
 
 _TEST = "{}def test_text():\n    {}\n"
 
@@ -42,7 +42,7 @@ class TestBodyNeverRun(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        if has_other_ways(package):
+        if uses_pytest_plugins(package):
             return
         for module in test_modules(package):
             for test in test_functions(module) if not module.has_main_guard else ():

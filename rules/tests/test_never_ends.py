@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import made_name, node_tests, test_functions
+from scaffold.api.tests import constructed_class, node_tests, test_functions
 
 _WAYS_OUT = (
     *("Thread(", "threading", "Timer", "timer", "multiprocessing", "concurrent", "signal"),
@@ -86,7 +86,7 @@ def _spins(module: PythonModule, call: ast.Call) -> bool:
     """Tell whether a call is ``rclpy.spin``, or ``spin`` of an executor made in the file."""
     match call.func:
         case ast.Attribute(value=holder, attr="spin"):
-            if made_name(module, holder).endswith("ThreadedExecutor"):
+            if constructed_class(module, holder).endswith("ThreadedExecutor"):
                 return True
     return module.qualified_name(call.func) == "rclpy.spin"
 

@@ -10,12 +10,12 @@ from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import (
     fixture_decorator,
     fixtures,
-    has_other_ways,
     is_named_elsewhere,
     is_test_case,
     methods,
     test_functions,
     test_modules,
+    uses_pytest_plugins,
 )
 
 _TEST = "def test_text():\n    assert True\n\n\n{}"
@@ -81,7 +81,7 @@ class TestNeverRun(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for module in test_modules(package):
             yield from self._check_inner_tests(module)
-        modules = [] if has_other_ways(package) else test_modules(package)
+        modules = [] if uses_pytest_plugins(package) else test_modules(package)
         for module in modules:
             if not module.has_main_guard:
                 yield from self._check_functions(package, module)

@@ -13,7 +13,7 @@ from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
 from scaffold.ament.finding import CRASHED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
-from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, Severity, crash_message
+from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.errors import EXHAUSTED, OutOfTimeError, ScaffoldError, exhausted
 from scaffold.files.disk import LargeFileError
@@ -22,7 +22,7 @@ from scaffold.model.package import Package
 from scaffold.source import Location, Source, ViewError
 
 if TYPE_CHECKING:
-    from scaffold.ament.ruff import Said
+    from scaffold.ament.ruff import RuffDiagnostic
 
 
 _OWN_CODES = {UNPARSABLE: "unparsable-file", CRASHED: "rule-crashed"}
@@ -79,7 +79,7 @@ class StyleCheck:
         wanted = [one for files in self._files.values() for one in files if one.findings is None]
         if wanted:
             self._run = ruff.Run([one.on_disk for one in wanted])
-        self._said: Mapping[str, list[Said]] | None = None
+        self._said: Mapping[str, list[RuffDiagnostic]] | None = None
 
     def diagnostics(self, package: Package) -> list[Diagnostic]:
         """Return what the two linters would report about a package, each thing once.
@@ -99,7 +99,7 @@ class StyleCheck:
             counts: dict[str, int] = {}
             for one in findings:
                 counts[one.code] = count = counts.get(one.code, 0) + 1
-                if count <= MOST_FINDINGS + 1:
+                if count <= MAX_FINDINGS + 1:
                     found.append(_diagnostic(package, file.path, one))
         return by_file
 
@@ -108,7 +108,7 @@ class StyleCheck:
             return file.findings
         from scaffold.ament.verdict import check
 
-        def said() -> Sequence[Said]:
+        def said() -> Sequence[RuffDiagnostic]:
             return self._results().get(file.on_disk, [])
 
         name = file.path.rpartition("/")[2]
@@ -125,7 +125,7 @@ class StyleCheck:
             self._cache.put(file.key, findings)
         return findings
 
-    def _results(self) -> Mapping[str, list[Said]]:
+    def _results(self) -> Mapping[str, list[RuffDiagnostic]]:
         if self._said is None:
             try:
                 self._said = self._run.results() if self._run else {}

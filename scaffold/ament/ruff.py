@@ -58,7 +58,7 @@ MOST_OF_A_LINE = 200
 """Findings of one code on one line; only one of them is shown."""
 
 
-class Said(NamedTuple):
+class RuffDiagnostic(NamedTuple):
     """One finding of ruff; the code is empty for a syntax error."""
 
     code: str
@@ -79,13 +79,13 @@ class Run:
         self._chunks = _chunked(files)
         self._running = self._start(self._chunks[0]) if self._chunks else []
 
-    def results(self) -> Mapping[str, list[Said]]:
+    def results(self) -> Mapping[str, list[RuffDiagnostic]]:
         """Wait, and return what was said by file.
 
         Raises:
             EnvironmentMissingError: ruff does not run.
         """
-        found: dict[str, list[Said]] = {}
+        found: dict[str, list[RuffDiagnostic]] = {}
         try:
             for at, chunk in enumerate(self._chunks):
                 if at:
@@ -111,10 +111,10 @@ class Run:
         return [_spawn([*arguments, "--", *chunk]) for arguments in PASSES]
 
 
-def _apart(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, Said]]:
+def _apart(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:
     """Ask about files among which one ends ruff, by halves, so that the others are judged."""
     if len(files) == 1:
-        yield files[0], Said("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
+        yield files[0], RuffDiagnostic("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
         return
     middle = len(files) // 2
     for half in (files[:middle], files[middle:]):
@@ -178,7 +178,7 @@ def _collect(process: int, pipe: int) -> bytes | None:
     return output
 
 
-def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
+def _parse(output: bytes) -> Iterator[tuple[str, RuffDiagnostic]]:
     if output.strip() == b"[]":
         # Most files are clean, and json takes as long to import as ruff to run.
         return
@@ -197,7 +197,7 @@ def _parse(output: bytes) -> Iterator[tuple[str, Said]]:
             edits = tuple(_replacement(edit) for edit in fix["edits"])
         yield (
             entry["filename"],
-            Said(
+            RuffDiagnostic(
                 _code(entry["code"]),
                 start["row"],
                 start["column"],

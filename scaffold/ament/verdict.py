@@ -26,7 +26,7 @@ from scaffold.ament.flake8.pyflakes import flakes, literals, redefinitions
 from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import BOM, PythonText, decode
-from scaffold.ament.ruff import MOST_OF_A_LINE, Said
+from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic
 from scaffold.errors import exhausted
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ _OWN = (
 def check(
     name: str,
     data: bytes,
-    ask_ruff: Callable[[], Sequence[Said]],
+    ask_ruff: Callable[[], Sequence[RuffDiagnostic]],
     linters: int,
     parsed: PythonModule | None = None,
 ) -> list[Finding]:
@@ -104,7 +104,7 @@ def _own(text: PythonText) -> Iterator[Finding]:
                 yield finding
 
 
-def _broken(text: PythonText, said: Sequence[Said], *, is_clean: bool) -> Finding | None:
+def _broken(text: PythonText, said: Sequence[RuffDiagnostic], *, is_clean: bool) -> Finding | None:
     """Return the one finding of a file that no Python of the target can read."""
     both = FLAKE8 | PEP257
     if not is_clean:
@@ -140,7 +140,7 @@ def _syntax_error(text: PythonText) -> SyntaxError | None:
     return None
 
 
-def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+def _from_ruff(text: PythonText, said: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
     if text.tree is None:
         yield from (flakes.plain(one) for one in said if one.code in CODES)
         return
@@ -162,7 +162,7 @@ def _from_ruff(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
             yield flakes.plain(one)
 
 
-def _with_fixes(findings: Iterable[Finding], said: Sequence[Said]) -> list[Finding]:
+def _with_fixes(findings: Iterable[Finding], said: Sequence[RuffDiagnostic]) -> list[Finding]:
     """Give our findings the fixes that ruff has for the same code at the same line."""
     plain: dict[tuple[str, int], list[Finding]] = {}
     for one in said:

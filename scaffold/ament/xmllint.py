@@ -123,7 +123,7 @@ def _is_xml(path: str) -> bool:
 XML_SCHEMA = "http://www.w3.org/2001/XMLSchema"
 RELAX_NG = xml_validate.RELAX_NG
 HINT = "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation"
-MOST_BYTES = 200_000
+MAX_BYTES = 200_000
 """Of a schema; that of package.xml has 30 kB."""
 MOST_SECONDS = 4
 """Of waiting for all schemas of a package."""
@@ -234,7 +234,7 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
     try:
         schema = _read(package, target)
     except LargeFileError as error:
-        return _left(use, f"its {error.size // 1000} kB are more than {MOST_BYTES // 1000} kB")
+        return _left(use, f"its {error.size // 1000} kB are more than {MAX_BYTES // 1000} kB")
     except (OSError, ValueError):
         return _wrong(use, 1, f"names the schema {use.href}, but there is no file {target}")
     root = _parse(schema)
@@ -252,11 +252,11 @@ def _reads_others(root: etree._Element) -> bool:
 
 def _read(package: Package, path: str) -> bytes:
     if not path.startswith(".."):
-        return package.bytes_of(path, MOST_BYTES)
+        return package.bytes_of(path, MAX_BYTES)
     if package.root is None:
         raise FileNotFoundError(path)
     # beside the package, in the same repository
-    return package.outside.read(os.path.join(package.root, path), MOST_BYTES)
+    return package.outside.read(os.path.join(package.root, path), MAX_BYTES)
 
 
 def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Verdict | None]]:

@@ -11,7 +11,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.package import Package
 from scaffold.source import Location, ParseError, Source, ViewError
-from scaffold.suggestions import nearest
+from scaffold.suggestions import closest_name
 
 __all__ = [
     "VERSION",
@@ -36,7 +36,7 @@ __all__ = [
     "Source",
     "TestRule",
     "ViewError",
-    "nearest",
+    "closest_name",
 ]
 
 VERSION = 1

@@ -8,8 +8,8 @@ from scaffold.model.catalog import (
     ROS_PACKAGES,
     keys_of_module,
     module_of_key,
-    provided_by,
     similar_package,
+    transitive_dependencies,
 )
 
 __all__ = [
@@ -18,6 +18,6 @@ __all__ = [
     "ROS_PACKAGES",
     "keys_of_module",
     "module_of_key",
-    "provided_by",
     "similar_package",
+    "transitive_dependencies",
 ]

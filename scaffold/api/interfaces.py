@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from scaffold.model.interfaces.definitions import KINDS, Definitions, nearest_word
+from scaffold.model.interfaces.definitions import KINDS, Definitions, closest_word
 from scaffold.model.interfaces.files import (
     interface_files,
     is_commented_out,
+    names_used_in_code,
     problems,
-    standing,
-    words_of_users,
+    ungenerated_candidates,
 )
 from scaffold.model.interfaces.reserved_names import (
     escape_problem,
@@ -28,14 +28,14 @@ __all__ = [
     "Definitions",
     "FieldType",
     "ProblemKind",
+    "closest_word",
     "escape_problem",
     "interface_files",
     "is_commented_out",
-    "nearest_word",
+    "names_used_in_code",
     "problems",
     "reserved",
     "reserved_constant",
     "reserved_type",
-    "standing",
-    "words_of_users",
+    "ungenerated_candidates",
 ]

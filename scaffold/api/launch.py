@@ -6,9 +6,9 @@ from scaffold.model.launch.actions import (
     CALLBACKS,
     HANDLERS,
     Entity,
+    describe,
     entities,
     function_of,
-    what_it_is,
 )
 from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
 from scaffold.model.launch.execution_order import later_declarations, steps
@@ -32,7 +32,7 @@ from scaffold.model.launch.python_file import (
     LaunchFile,
     returns,
 )
-from scaffold.model.launch.references import Use, exists, meant_package, package_uses
+from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
 from scaffold.model.launch.share_paths import paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
@@ -51,10 +51,11 @@ __all__ = [
     "LaunchCall",
     "LaunchFile",
     "MarkupNode",
+    "Reference",
     "StartedNode",
-    "Use",
     "consumers",
     "data_files",
+    "describe",
     "entities",
     "exists",
     "failure",
@@ -83,6 +84,5 @@ __all__ = [
     "truth_tests",
     "use_of",
     "value_given",
-    "what_it_is",
     "why_missing",
 ]

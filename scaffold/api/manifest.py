@@ -5,9 +5,9 @@ from __future__ import annotations
 from scaffold.model.manifest import requirements
 from scaffold.model.manifest.conditions import ConditionError, holds
 from scaffold.model.manifest.manifest import Manifest
-from scaffold.model.manifest.package_name import other_name
+from scaffold.model.manifest.package_name import name_used_elsewhere
 from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
-from scaffold.model.manifest.requirements import declared, needs
+from scaffold.model.manifest.requirements import declared, required_packages
 from scaffold.model.manifest.spdx import spdx_of
 
 __all__ = [
@@ -17,8 +17,8 @@ __all__ = [
     "holds",
     "is_placeholder",
     "is_placeholder_address",
-    "needs",
-    "other_name",
+    "name_used_elsewhere",
+    "required_packages",
     "requirements",
     "spdx_of",
 ]

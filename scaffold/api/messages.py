@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from scaffold.model.messages.fields import Kinds, Misfits, rclpy_time
+from scaffold.model.messages.fields import TypeMismatches, ValueTypes, rclpy_time
 from scaffold.model.messages.inference import PARTS, MessageClass, MessageTypes, interfaces_named
 from scaffold.model.messages.stamps import unstamped
 
 __all__ = [
     "PARTS",
-    "Kinds",
     "MessageClass",
     "MessageTypes",
-    "Misfits",
+    "TypeMismatches",
+    "ValueTypes",
     "interfaces_named",
     "rclpy_time",
     "unstamped",

@@ -9,7 +9,7 @@ from scaffold.model.programs.blocking import (
     in_constructors,
     waits_alone,
 )
-from scaffold.model.programs.entry_points import Run, files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
 from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
@@ -24,7 +24,7 @@ from scaffold.model.programs.topics import (
 
 __all__ = [
     "Executed",
-    "Run",
+    "Execution",
     "Shutdowns",
     "calls_others",
     "files_of",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.python.guards import is_asked_about, is_for_ros1, is_harmless
+from scaffold.model.python.guards import is_for_ros1, is_guarded_by, is_handled
 from scaffold.model.python.module import Import, PythonModule
 from scaffold.model.python.returns import (
     is_generator,
@@ -12,7 +12,7 @@ from scaffold.model.python.returns import (
     value_set_before,
 )
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.signatures import misfit, misfit_of_context
+from scaffold.model.python.signatures import argument_error, misfit_of_context
 from scaffold.model.python.values import UNKNOWN, Glob, PathValue, Unknown, is_known, kind_of
 
 __all__ = [
@@ -23,15 +23,15 @@ __all__ = [
     "PathValue",
     "PythonModule",
     "Unknown",
-    "is_asked_about",
+    "argument_error",
     "is_for_ros1",
     "is_generator",
-    "is_harmless",
+    "is_guarded_by",
+    "is_handled",
     "is_known",
     "kind_of",
     "may_end",
     "may_end_with_items",
-    "misfit",
     "misfit_of_context",
     "returned",
     "value_set_before",

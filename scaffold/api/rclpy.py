@@ -41,7 +41,7 @@ from scaffold.model.rclpy.entities import (
 from scaffold.model.rclpy.file import RclpyFile, node_facts, rclpy_files
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
-from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.model.rclpy.parameters.callbacks import RESULT, wrong_value
 from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
 from scaffold.model.rclpy.parameters.objects import (
@@ -79,7 +79,7 @@ __all__ = [
     "Entity",
     "Excess",
     "NodeClass",
-    "NodeOwner",
+    "NodeDefinition",
     "Parameter",
     "ParameterMade",
     "ParameterRead",

@@ -7,13 +7,12 @@ from scaffold.model.tests import (
     Fixture,
     TestFunction,
     arguments,
+    constructed_class,
     fixture_decorator,
     fixtures,
-    has_other_ways,
     is_named_elsewhere,
     is_test_case,
     keywords,
-    made_name,
     marks,
     may_start,
     methods,
@@ -21,6 +20,7 @@ from scaffold.model.tests import (
     own_fixtures,
     test_functions,
     test_modules,
+    uses_pytest_plugins,
 )
 
 __all__ = [
@@ -28,13 +28,12 @@ __all__ = [
     "Fixture",
     "TestFunction",
     "arguments",
+    "constructed_class",
     "fixture_decorator",
     "fixtures",
-    "has_other_ways",
     "is_named_elsewhere",
     "is_test_case",
     "keywords",
-    "made_name",
     "marks",
     "may_start",
     "methods",
@@ -42,4 +41,5 @@ __all__ = [
     "own_fixtures",
     "test_functions",
     "test_modules",
+    "uses_pytest_plugins",
 ]

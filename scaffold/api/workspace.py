@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.model.workspace.gitignore import is_untracked
 
 __all__ = [
-    "is_left_out",
+    "is_untracked",
 ]

@@ -44,7 +44,7 @@ class _Done(NamedTuple):
 
     rules: dict[int, Ruled]
     style: dict[int, Style]
-    learnt: list[worker_reads.Note]
+    learnt: list[worker_reads.WorkerReads]
 
 
 class _Work(NamedTuple):

@@ -10,7 +10,7 @@ from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFil
 from scaffold.check.file_rules import FileRule
 from scaffold.check.result import Earlier, Part, Verdict
 from scaffold.check.rule import Rule
-from scaffold.diagnostic import MOST_FINDINGS, Diagnostic, crash_message
+from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
 from scaffold.model.package import Package
@@ -125,7 +125,7 @@ class Check:
     def _collect(self, rule: Rule, found: dict[str, list[Diagnostic]]) -> None:
         """Add to ``found`` what a rule says, by part."""
         # One more than is shown, so that the session knows of it.
-        most = MOST_FINDINGS + 1
+        most = MAX_FINDINGS + 1
         for key, say in self._steps(rule):
             said = found.setdefault(key, [])
             reads = self._reads.setdefault(key, Reads())

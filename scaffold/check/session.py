@@ -17,7 +17,7 @@ from scaffold.check.engine_rules import (
 from scaffold.check.result import Earlier, Result, Verdict
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
-from scaffold.diagnostic import MOST_FINDINGS, Diagnostic
+from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
@@ -188,16 +188,16 @@ class Session:
 
 def _bounded(found: list[Diagnostic]) -> list[Diagnostic]:
     """Leave out what one code says too often, and say so."""
-    if len(found) <= MOST_FINDINGS:
+    if len(found) <= MAX_FINDINGS:
         return found
     counts: dict[str, int] = {}
     kept: list[Diagnostic] = []
     for one in found:
         counts[one.code] = count = counts.get(one.code, 0) + 1
-        if count <= MOST_FINDINGS:
+        if count <= MAX_FINDINGS:
             kept.append(one)
-        elif count == MOST_FINDINGS + 1:
-            said = f"{one.code} is found more than {MOST_FINDINGS} times"
+        elif count == MAX_FINDINGS + 1:
+            said = f"{one.code} is found more than {MAX_FINDINGS} times"
             kept.append(TooManyFindings().report(one.location, f"{said}; the rest is not shown"))
     return kept
 

@@ -70,7 +70,7 @@ def _run(given: list[str]) -> int:
         terminal.show(f"ros2-scaffold {__version__}")
         sys.exit(CLEAN)
     verb = next((word for word in given if not word.startswith("-")), "")
-    slot = runs.Slot.of(given) if verb == "check" else None
+    slot = runs.CacheEntry.of(given) if verb == "check" else None
     last = slot.last if slot is not None else None
     if last is not None and last.is_current():
         # Before argparse: laying out the flags takes longer than looking at a small package.
@@ -85,7 +85,7 @@ def _run(given: list[str]) -> int:
     options = build_parser(verb, comes_first=given[:1] == [verb]).parse_args(given)
     options.slot = slot
     os.getcwd()  # where it is gone, each verb would find something else to complain about
-    return int(import_module(f"scaffold.cli.{options.verb}").run(options))
+    return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
 
 
 def _failed(error: Exception | KeyboardInterrupt) -> int:
@@ -141,8 +141,8 @@ def _show_traceback(error: Exception) -> None:
 
 
 def _complete() -> None:
-    from scaffold.cli.completion import complete
     from scaffold.cli.parser import build_parser
+    from scaffold.cli.verbs.completion import complete
 
     complete(build_parser())
 

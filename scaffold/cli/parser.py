@@ -83,5 +83,5 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Pars
         if verb == name:
             parser.chosen = one
         if verb is None or verb == name:
-            import_module(f"scaffold.cli.{name}").add_arguments(one)
+            import_module(f"scaffold.cli.verbs.{name}").add_arguments(one)
     return parser

@@ -52,14 +52,14 @@ def read(path: str, disk: Disk) -> Target:
         InputError: the path is in no package and not one of a Python file, or there is too much.
     """
     from scaffold.check.fixes.overlay import Overlay
-    from scaffold.files.disk import MOST_BYTES
+    from scaffold.files.disk import MAX_BYTES
     from scaffold.model.discovery import targets as discovery
 
     if disk.is_directory(path):
         raise InputError(f"--stdin-filename {path}: is a directory; name a file")
-    data = sys.stdin.buffer.read(MOST_BYTES + 1)
-    if len(data) > MOST_BYTES:
-        raise InputError(f"standard input: {MOST_BYTES // 1_000_000} MB are read at most")
+    data = sys.stdin.buffer.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB are read at most")
     (target,) = discovery.find([path], disk, are_saved=False)
     overlay = Overlay(target.package.tree)
     overlay.changed[_name(target)] = data

@@ -22,7 +22,7 @@ from scaffold.files.disk import Disk
 from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"
-MOST_BYTES = 100_000
+MAX_BYTES = 100_000
 """Of a configuration file, which has some lines."""
 USER_FILE = "config.toml"
 
@@ -221,7 +221,7 @@ def _read(disk: Disk, path: str) -> dict[str, Any]:
     else:
         import tomli as tomllib
     try:
-        data = disk.read(path, MOST_BYTES).decode()
+        data = disk.read(path, MAX_BYTES).decode()
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:

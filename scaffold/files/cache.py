@@ -14,7 +14,7 @@ from scaffold.files.disk import digest
 
 SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
-MOST_BYTES = 100_000_000
+MAX_BYTES = 100_000_000
 """Of all files of a kind."""
 KINDS = ("runs", "style", "rules", "words", "manifests", "templates_")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
@@ -47,8 +47,8 @@ def read_sealed(path: str, head: bytes) -> bytes | None:
     try:
         with open(path, "rb", buffering=0) as file:
             status = os.fstat(file.fileno())
-            is_read = status.st_uid == os.geteuid() and status.st_size <= MOST_BYTES
-            stored = file.read(MOST_BYTES) if is_read else b""
+            is_read = status.st_uid == os.geteuid() and status.st_size <= MAX_BYTES
+            stored = file.read(MAX_BYTES) if is_read else b""
     except OSError:
         return None
     start = len(head) + _SEAL
@@ -115,12 +115,12 @@ def trim(kept: str, most: int) -> None:
                         os.unlink(entry.path)  # its writer was killed
                     continue
                 files.append((status.st_mtime, status.st_size, entry.path))
-        if len(files) <= most and sum(size for _, size, _ in files) <= MOST_BYTES:
+        if len(files) <= most and sum(size for _, size, _ in files) <= MAX_BYTES:
             return
         count = total = 0
         for _, size, path in sorted(files, reverse=True):
             count, total = count + 1, total + size
-            if count > 1 and (count > most // 4 * 3 or total > MOST_BYTES // 4 * 3):
+            if count > 1 and (count > most // 4 * 3 or total > MAX_BYTES // 4 * 3):
                 os.unlink(path)
     except OSError:
         return  # another process tidies up

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     """Files, directories and broken links, each sorted."""
 
 
-MOST_BYTES = 10_000_000
+MAX_BYTES = 10_000_000
 """Of a file of any kind; what reads text that it takes apart has a bound of its own below this."""
 
 
@@ -52,12 +52,12 @@ class Disk:
             if self.seen.setdefault(question, answer) != answer:
                 self.is_settled = False
 
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a regular file.
 
         Args:
             path: The file.
-            most: The bytes that it may have, at most ``MOST_BYTES``.
+            most: The bytes that it may have, at most ``MAX_BYTES``.
 
         Raises:
             LargeFileError: it has more; it counts by its stamp.
@@ -75,7 +75,7 @@ class Disk:
         self.note({("content", path): digest(data)})
         return data
 
-    def read_renewed(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read_renewed(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file that its program never edits, but replaces.
 
         It counts by its stamp: hashing it in each run would take longer than all the rest.
@@ -175,7 +175,7 @@ def digest(data: bytes) -> str:
     return blake2b(data, digest_size=20).hexdigest()
 
 
-def read_file(path: str, most: int = MOST_BYTES) -> bytes:
+def read_file(path: str, most: int = MAX_BYTES) -> bytes:
     """Return what is in a regular file; its size is asked for before anything is read.
 
     Raises:

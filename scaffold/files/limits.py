@@ -9,7 +9,7 @@ from scaffold.files.tree import (
     SETUP_PY,
 )
 
-MOST_BYTES = 500_000
+MAX_BYTES = 500_000
 """Of a file with code; among 800 public packages the largest has 270 kB."""
 MOST_BYTES_OF_DATA = 1_000_000
 """Of YAML and documents; the largest YAML file of those packages has 270 kB."""
@@ -19,7 +19,7 @@ MOST_BYTES_OF_DECLARATIONS = 100_000
 """Of package.xml, setup.py and setup.cfg, which have a few kB."""
 MOST_BYTES_OF_LINE = 20_000
 """Of a line of code; in the Python files of those packages the longest has 2 kB."""
-MOST_WORDS = 100_000
+MAX_TOKENS = 100_000
 """Of a file with code, signs and lines counted as well: the largest of them has 70 000."""
 MOST_WORDS_OF_CMAKE = 30_000
 """Of CMakeLists.txt; the largest has 10 000."""
@@ -68,11 +68,11 @@ def most_bytes(path: str) -> int:
         return MOST_BYTES_OF_DECLARATIONS
     if path.endswith(CMAKE_LISTS):
         return MOST_BYTES_OF_CMAKE
-    return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MOST_BYTES
+    return MOST_BYTES_OF_DATA if path.endswith(_DATA) else MAX_BYTES
 
 
 def _most_words(path: str) -> int:
     """Return the same in words and signs."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_WORDS_OF_DECLARATIONS
-    return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MOST_WORDS
+    return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MAX_TOKENS

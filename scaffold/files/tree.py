@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
 
-from scaffold.files.disk import MOST_BYTES, Disk, LargeFileError
+from scaffold.files.disk import MAX_BYTES, Disk, LargeFileError
 
 CMAKE_LISTS = "CMakeLists.txt"
 SETUP_PY = "setup.py"
@@ -44,7 +44,7 @@ class Tree(Protocol):
     def nested(self) -> Sequence[str]:
         """The directories that hold a package of their own; their files are left out."""
 
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
 
     def is_executable(self, path: str) -> bool:
@@ -107,7 +107,7 @@ class DiskTree:
         self._nested.clear()
         self._broken.clear()
 
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
         return self.disk.read(os.path.join(self.root, path), most)
 
@@ -183,7 +183,7 @@ class MemoryTree:
             found.update("/".join(parts[:depth]) for depth in range(1, len(parts)))
         return frozenset(found)
 
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
         try:
             return within(most, path, self._files[path])

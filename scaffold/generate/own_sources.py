@@ -11,7 +11,7 @@ from scaffold.ament import copyright as notices
 from scaffold.ament.copyright import Header
 from scaffold.model.launch.files import ENDINGS
 from scaffold.model.package import Package
-from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.model.workspace.gitignore import is_untracked
 
 _T = TypeVar("_T", bound=Hashable)
 
@@ -33,7 +33,7 @@ def own_headers(package: Package) -> list[Header]:
         for header in notices.headers(package)
         if _is_own(header.path)
         and not header.path.startswith(foreign)
-        and not is_left_out(package, header.path)
+        and not is_untracked(package, header.path)
     ]
 
 

@@ -330,7 +330,7 @@ def is_one_slip(one: str, other: str, *, digits: bool = True) -> bool:
     return a[:2] == b[1::-1] and a[2:] == b[2:]
 
 
-PROVIDES = {
+TRANSITIVE_DEPENDENCIES = {
     "launch_ros": "launch ament_index_python rclpy composition_interfaces lifecycle_msgs "
     "osrf_pycommon python3-yaml",
     "launch_testing": "launch ament_index_python osrf_pycommon python3-pytest",
@@ -463,12 +463,12 @@ PROVIDES = {
 a dependency that comes along this way is missing in the manifest, yet present on every robot."""
 
 
-def provided_by(keys: set[str]) -> set[str]:
+def transitive_dependencies(keys: set[str]) -> set[str]:
     """Return what declared packages bring along, over any number of steps."""
     found: set[str] = set()
     pending = list(keys)
     while pending:
-        for key in PROVIDES.get(pending.pop(), "").split():
+        for key in TRANSITIVE_DEPENDENCIES.get(pending.pop(), "").split():
             if key not in found:
                 found.add(key)
                 pending.append(key)

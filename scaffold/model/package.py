@@ -7,7 +7,7 @@ from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
-from scaffold.files.disk import MOST_BYTES, LargeFileError
+from scaffold.files.disk import MAX_BYTES, LargeFileError
 from scaffold.files.limits import most_bytes, too_large, why_unread
 from scaffold.files.tree import (
     CMAKE_LISTS,
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from scaffold.model.manifest.manifest import Manifest
     from scaffold.model.python.module import PythonModule
     from scaffold.model.setup_py.setup_py import SetupPy
-    from scaffold.model.workspace.workspace import Neighbourhood, Workspace
+    from scaffold.model.workspace.workspace import Workspace, WorkspaceView
 
 View = TypeVar("View")
 
@@ -69,7 +69,7 @@ class Package:
         self._workspace = workspace
         self.is_repeatable = True
         """False when the verdict may change although nothing does that was noted."""
-        self._neighbourhood: Neighbourhood | None = None
+        self._neighbourhood: WorkspaceView | None = None
         self._identity: Identity | None = None
         self._views: dict[object, object] = {}
         self._reads: dict[object, Reads] = {}
@@ -152,7 +152,7 @@ class Package:
         self._note(path)
         return self._view(("data", path), lambda: self._read(path))
 
-    def bytes_of(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def bytes_of(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file that no view is wanted of; raises OSError."""
         self._note(path)
         return self.tree.read(path, most)
@@ -331,13 +331,13 @@ class Package:
         return "ament_cmake" if self.has(CMAKE_LISTS) else "ament_python"
 
     @property
-    def workspace(self) -> Neighbourhood:
+    def workspace(self) -> WorkspaceView:
         """The packages around this one, itself included."""
         if self._neighbourhood is None:
-            from scaffold.model.workspace.workspace import Neighbourhood, Workspace
+            from scaffold.model.workspace.workspace import Workspace, WorkspaceView
 
             around = self._workspace or Workspace([self], self.outside)
-            self._neighbourhood = Neighbourhood(around)
+            self._neighbourhood = WorkspaceView(around)
         return self._neighbourhood
 
     @property

@@ -141,7 +141,7 @@ def marks(
             yield name.removeprefix("pytest.mark."), decorator
 
 
-def has_other_ways(package: Package) -> bool:
+def uses_pytest_plugins(package: Package) -> bool:
     """Tell whether plugins or settings of pytest may run what it does not run by itself."""
     names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
     texts = [package.source(name).text for name in names if package.has(name)]
@@ -169,7 +169,7 @@ def is_named_elsewhere(package: Package, name: str) -> bool:
     return count > 1
 
 
-def made_name(module: PythonModule, node: ast.expr) -> str:
+def constructed_class(module: PythonModule, node: ast.expr) -> str:
     """Return the full name of what is called for the only value of a name."""
     if not isinstance(node, ast.Name):
         return ""

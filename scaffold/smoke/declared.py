@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
 from scaffold.model.package import Package
-from scaffold.model.programs.entry_points import Start, run_of, starts_of
+from scaffold.model.programs.entry_points import EntryPoint, run_of, starts_of
 from scaffold.model.programs.publishing import PublishReach, Reach, publish_rates
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import Unknown
 from scaffold.model.rclpy.entities import Endpoint
-from scaffold.model.rclpy.file import NodeClass, NodeOwner, RclpyFile
+from scaffold.model.rclpy.file import NodeClass, NodeDefinition, RclpyFile
 from scaffold.smoke.expectation import Expectation, Offer, Publication
 from scaffold.source import ViewError
 
@@ -32,7 +32,7 @@ def expectations(package: Package) -> dict[str, Expectation]:
 # -- what one of them does
 
 
-def _expectation(package: Package, start: Start) -> Expectation | None:
+def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
     try:
         run = run_of(package, start)
     except ViewError:
@@ -60,7 +60,7 @@ def _is_node(package: Package, facts: RclpyFile) -> bool | None:
 
 
 def _publications(
-    facts: RclpyFile, owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]
+    facts: RclpyFile, owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
         if owner.is_lifecycle:
@@ -85,7 +85,7 @@ def _publications(
                 )
 
 
-def _offers(owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]) -> Iterator[Offer]:
+def _offers(owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]) -> Iterator[Offer]:
     """Yield the services and actions that are there once the nodes are made."""
     for owner in owners:
         for service in _made(owner, starts, lambda one: one.services):
@@ -99,9 +99,9 @@ def _offers(owners: Iterable[NodeOwner], starts: Sequence[FunctionNode]) -> Iter
 
 
 def _made(
-    owner: NodeOwner,
+    owner: NodeDefinition,
     starts: Sequence[FunctionNode],
-    own: Callable[[NodeOwner], Sequence[_Entity]],
+    own: Callable[[NodeDefinition], Sequence[_Entity]],
 ) -> Iterator[_Entity]:
     """Yield what exists of a kind once the node is made."""
     if not isinstance(owner, NodeClass):
@@ -123,7 +123,7 @@ def _made(
         one = one.base
 
 
-def _resolved(topic: str | Unknown, owner: NodeOwner) -> str | None:
+def _resolved(topic: str | Unknown, owner: NodeDefinition) -> str | None:
     """Return the full name of a topic; ``None`` if that cannot be told."""
     if not isinstance(topic, str) or not topic or "{" in topic:
         return None

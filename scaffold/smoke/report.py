@@ -9,7 +9,7 @@ from json import dumps
 from typing import Any, TextIO, TypeVar, cast
 
 from scaffold.printable import printable
-from scaffold.smoke.result import Executable, Package, Problem, Smoke, Stop, Topic
+from scaffold.smoke.result import Executable, PackageResult, Problem, Smoke, Stop, Topic
 from scaffold.smoke.run import ending
 
 FORMATS = ("text", "json")
@@ -45,7 +45,7 @@ def as_data(result: Smoke) -> dict[str, Any]:
     }
 
 
-def _package_data(package: Package) -> dict[str, Any]:
+def _package_data(package: PackageResult) -> dict[str, Any]:
     build = package.build
     return {
         "name": package.name,
@@ -135,7 +135,7 @@ def _lines(result: Smoke, paint: Paint) -> Iterator[str]:
     yield _summary(result, paint)
 
 
-def _package(package: Package, paint: Paint) -> Iterator[str]:
+def _package(package: PackageResult, paint: Paint) -> Iterator[str]:
     name = paint(package.name, _BOLD)
     build = package.build
     if build.ok:

@@ -104,7 +104,7 @@ class Build:
 
 
 @dataclass(frozen=True)
-class Package:
+class PackageResult:
     """One package."""
 
     name: str
@@ -123,7 +123,7 @@ class Smoke:
 
     environment: Mapping[str, str]
     """``kind``, ``prefix`` and ``rmw``."""
-    packages: tuple[Package, ...]
+    packages: tuple[PackageResult, ...]
     notes: tuple[str, ...] = ()
     scratch: str | None = None
     """The directory of the run, when it was kept."""

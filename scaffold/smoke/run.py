@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from scaffold.smoke.expectation import Expectation
-from scaffold.smoke.isolation.station import Station, Stations
+from scaffold.smoke.isolation.station import Isolation, Stations
 from scaffold.smoke.observe import ObserverError
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
@@ -27,7 +27,7 @@ _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 
 
 @dataclass(frozen=True)
-class Plan:
+class RunSettings:
     """What is the same for all runs."""
 
     variables: Mapping[str, str]
@@ -41,7 +41,7 @@ class Plan:
 
 
 @dataclass
-class Trial:
+class NodeRun:
     """What came of a run."""
 
     observation: Observation = field(default_factory=Observation)
@@ -62,14 +62,14 @@ class Trial:
 
 
 async def run(
-    plan: Plan,
+    plan: RunSettings,
     executable: Path,
     expectation: Expectation,
     label: str,
     number: signal.Signals,
     *,
     brief: bool = False,
-) -> Trial:
+) -> NodeRun:
     """Run an executable until it has been observed, and stop it with a signal.
 
     rclpy itself loses a signal now and then, or lets the call fail during which it comes. What
@@ -99,15 +99,15 @@ async def run(
 
 
 async def _run_once(
-    plan: Plan,
+    plan: RunSettings,
     executable: Path,
     expectation: Expectation,
     label: str,
     number: signal.Signals,
     *,
     brief: bool,
-) -> Trial:
-    trial = Trial()
+) -> NodeRun:
+    trial = NodeRun()
     try:
         async with plan.stations.one(plan.variables) as station:
             one = _Run(plan, expectation, number, trial, station, brief=brief)
@@ -120,11 +120,11 @@ async def _run_once(
 class _Run:
     def __init__(
         self,
-        plan: Plan,
+        plan: RunSettings,
         expectation: Expectation,
         number: signal.Signals,
-        trial: Trial,
-        station: Station,
+        trial: NodeRun,
+        station: Isolation,
         *,
         brief: bool,
     ) -> None:

@@ -27,8 +27,8 @@ from scaffold.smoke.environment import Environment
 from scaffold.smoke.expectation import Expectation, compare, wrong_rates
 from scaffold.smoke.isolation.station import Stations
 from scaffold.smoke.processes import process, supervisor
-from scaffold.smoke.result import Build, Executable, Package, Problem, Smoke
-from scaffold.smoke.run import Plan, Trial
+from scaffold.smoke.result import Build, Executable, PackageResult, Problem, Smoke
+from scaffold.smoke.run import NodeRun, RunSettings
 
 Result = TypeVar("Result")
 
@@ -152,7 +152,7 @@ class _Session:
         self._running: set[str] = set()
         self._expected: dict[str, dict[str, Expectation]] = {}
 
-    async def run(self, sources: Sequence[Source]) -> tuple[Package, ...]:
+    async def run(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
         try:
             builds = await self._build(sources)
             built = [source for source in sources if builds[source.name].ok]
@@ -160,7 +160,7 @@ class _Session:
         finally:
             await self._stations.close()
         return tuple(
-            Package(source.name, builds[source.name], executables.get(source.name, ()))
+            PackageResult(source.name, builds[source.name], executables.get(source.name, ()))
             for source in sources
         )
 
@@ -189,7 +189,7 @@ class _Session:
         return await building
 
     async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
-        plan = Plan(
+        plan = RunSettings(
             variables=await self._sourced(),
             stations=self._stations,
             install=self._layout.install,
@@ -223,7 +223,7 @@ class _Session:
         sourced.pop("COLCON_CURRENT_PREFIX", None)
         return sourced
 
-    def _of_package(self, plan: Plan, package: str) -> list[Coroutine[Any, Any, Executable]]:
+    def _of_package(self, plan: RunSettings, package: str) -> list[Coroutine[Any, Any, Executable]]:
         expected = self._expected[package]
         paths = installed(package, plan.variables)
         found = {path.name: path for path in paths or ()}
@@ -236,11 +236,11 @@ class _Session:
         ]
 
     async def _one(
-        self, plan: Plan, label: str, path: Path, expectation: Expectation
+        self, plan: RunSettings, label: str, path: Path, expectation: Expectation
     ) -> Executable:
         async with self._slots:
             self._tell_running(label, started=True)
-            trials: list[Trial] = []
+            trials: list[NodeRun] = []
             for number in self._options.signals:
                 run = f"{label}/{number.name}"
                 brief = bool(trials)
@@ -265,8 +265,8 @@ class _Session:
 
 
 async def _observed(
-    plan: Plan, path: Path, expectation: Expectation, label: str, number: signal.Signals
-) -> Trial:
+    plan: RunSettings, path: Path, expectation: Expectation, label: str, number: signal.Signals
+) -> NodeRun:
     """Observe an executable, and once more when its rate is wrong: that may be the machine's."""
     first = await trial.run(plan, path, expectation, label, number)
     wrong = wrong_rates(expectation, first.observation) if first.stopped_cleanly else []
@@ -316,7 +316,7 @@ async def _missing(name: str, where: str) -> Executable:
     )
 
 
-def _judge(name: str, trials: Sequence[Trial], expectation: Expectation) -> Executable:
+def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Executable:
     """Put the runs of an executable together; the first one is the one that was observed."""
     first = trials[0]
     problems = list(first.problems)

@@ -282,7 +282,7 @@ IMPORTED = (
     "scaffold.check.cache.runs",
     "scaffold.cli.terminal",
     "scaffold.cli.parser",
-    "scaffold.cli.check",
+    "scaffold.cli.verbs.check",
     "scaffold.check.registry",
 )
 """Modules of a run of `check`, from the first one on."""

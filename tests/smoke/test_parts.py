@@ -28,7 +28,7 @@ from scaffold.smoke.result import (
     Build,
     Executable,
     Observation,
-    Package,
+    PackageResult,
     Problem,
     Smoke,
     Stop,
@@ -474,8 +474,8 @@ def test_report_neutralizes_escapes() -> None:
         notes=(f"note {ESCAPES}",),
     )
     packages = (
-        Package("demo", Build(ok=True, warnings=(f"warning: {ESCAPES}",)), (executable,)),
-        Package("other", Build(ok=False, errors=(f"error: {ESCAPES}",))),
+        PackageResult("demo", Build(ok=True, warnings=(f"warning: {ESCAPES}",)), (executable,)),
+        PackageResult("other", Build(ok=False, errors=(f"error: {ESCAPES}",))),
     )
     environment = {"kind": "wheels", "prefix": f"/opt{ESCAPES}", "rmw": "rmw"}
     out = StringIO()

@@ -14,7 +14,7 @@ from functools import cached_property
 from scaffold.ament.python_text.logical import LogicalLine, split
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 from scaffold.errors import EXHAUSTED
-from scaffold.model.python.scopes import FunctionNode, Node, SyntaxIndex
+from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
@@ -62,7 +62,7 @@ class PythonText:
         index: The nodes of its syntax tree, where it has been parsed before.
     """
 
-    def __init__(self, name: str, text: str, index: SyntaxIndex | None = None) -> None:
+    def __init__(self, name: str, text: str, index: ScopeIndex | None = None) -> None:
         self.name = name
         """The name of the file without its directory."""
         self.text = text
@@ -87,7 +87,7 @@ class PythonText:
         return self._parsed[1]
 
     @property
-    def index(self) -> SyntaxIndex | None:
+    def index(self) -> ScopeIndex | None:
         """The nodes of the syntax tree, if there is one."""
         return self._parsed[0]
 
@@ -110,7 +110,7 @@ class PythonText:
         return self.index.parents(node) if self.index is not None else iter(())
 
     @cached_property
-    def _parsed(self) -> tuple[SyntaxIndex | None, bool]:
+    def _parsed(self) -> tuple[ScopeIndex | None, bool]:
         if self._given_index is not None:
             return self._given_index, False
         with warnings.catch_warnings():
@@ -121,7 +121,7 @@ class PythonText:
                 return None, False
             except EXHAUSTED:
                 return None, True
-        index = SyntaxIndex(tree)
+        index = ScopeIndex(tree)
         return (index, False) if index.build(MAX_DEPTH) else (None, True)
 
     @cached_property

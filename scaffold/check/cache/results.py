@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from scaffold import edits as kinds
-from scaffold.check.cache.runs import Run, Slot
+from scaffold.check.cache.runs import CachedRun, CacheEntry
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Earlier, Part, Result, Verdict
@@ -42,10 +42,10 @@ class _Known(NamedTuple):
     """The same in parts; see ``_encode_verdict``."""
 
 
-class Memory:
+class ResultCache:
     """What is known of some packages from the last run of the same command line."""
 
-    def __init__(self, run: Run | None, targets: Sequence[Target]) -> None:
+    def __init__(self, run: CachedRun | None, targets: Sequence[Target]) -> None:
         self._targets = targets
         self._known: dict[int, _Known] = {}
         """By place, the packages whose findings are the same."""
@@ -58,7 +58,7 @@ class Memory:
         if run is not None and run.is_same_outside():
             self._recall(run, [_Known(*one) for one in run.results])
 
-    def _recall(self, run: Run, known: Sequence[_Known]) -> None:
+    def _recall(self, run: CachedRun, known: Sequence[_Known]) -> None:
         if [(one.directory, one.only) for one in known] != [_asked(one) for one in self._targets]:
             return
         edits = [self._edits(run, at) for at in range(len(known))]
@@ -75,7 +75,7 @@ class Memory:
             else:
                 self._remember(run, at, one, edited)
 
-    def _edits(self, run: Run, at: int) -> frozenset[str] | None:
+    def _edits(self, run: CachedRun, at: int) -> frozenset[str] | None:
         """Return the Python files of a package that were edited, ``None`` after other changes."""
         package = self._targets[at].package
         changed = run.changed(at)
@@ -91,7 +91,7 @@ class Memory:
             edited.add(full)
         return frozenset(edited)
 
-    def _remember(self, run: Run, at: int, known: _Known, edited: frozenset[str]) -> None:
+    def _remember(self, run: CachedRun, at: int, known: _Known, edited: frozenset[str]) -> None:
         package = self._targets[at].package
         if not edited or _is_beside(package, known, edited):
             self._known[at] = known
@@ -123,7 +123,7 @@ class Memory:
 
     def save(
         self,
-        slot: Slot,
+        slot: CacheEntry,
         disk: Disk,
         results: Sequence[Result],
         code: int,
@@ -156,7 +156,7 @@ class Memory:
             known = self._known.get(at) or _new(target, result, needed)
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             found.append(tuple(known))
-        slot.save(Run(disk.seen, trees, found, code, output, (*warnings,)))
+        slot.save(CachedRun(disk.seen, trees, found, code, output, (*warnings,)))
 
 
 def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Known:

@@ -46,7 +46,7 @@ ENVIRONMENT = (
 _MAGIC = b"scaffold-run-3\n"
 
 
-class Run:
+class CachedRun:
     """A run as it is remembered; everything in it is made of what marshal can write.
 
     Args:
@@ -99,7 +99,7 @@ class Run:
         return self._changed[at]
 
 
-class Slot:
+class CacheEntry:
     """Where a run is remembered: one place for each command line, directory and environment.
 
     Made before the run, because a rule that is edited meanwhile must not count as the one used.
@@ -115,10 +115,10 @@ class Slot:
         self._path = os.path.join(kept, digest(key))
         self._head = _MAGIC + tool().encode()
         data = cache.read_sealed(self._path, self._head)
-        self.last = None if data is None else Run(*marshal.loads(data))  # noqa: S302  own files
+        self.last = None if data is None else CachedRun(*marshal.loads(data))  # noqa: S302  own files
 
     @classmethod
-    def of(cls, words: Sequence[str]) -> Slot | None:
+    def of(cls, words: Sequence[str]) -> CacheEntry | None:
         """Return the place for a command line, ``None`` if nothing is to be remembered."""
         kept = cache.directory("runs")
         try:
@@ -126,7 +126,7 @@ class Slot:
         except (OSError, ValueError):
             return None
 
-    def save(self, run: Run) -> None:
+    def save(self, run: CachedRun) -> None:
         """Store a run."""
         everything: Any = (
             *(run.outside, run.trees, run.results),

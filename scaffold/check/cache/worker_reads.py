@@ -27,7 +27,7 @@ class _Seen(NamedTuple):
         return found
 
 
-class Note(NamedTuple):
+class WorkerReads(NamedTuple):
     """What was learnt about a package and around it; packages are places in a list."""
 
     at: int
@@ -59,12 +59,12 @@ class Note(NamedTuple):
         around.uses_interfaces |= self.uses_interfaces
 
 
-def take(packages: Sequence[Package]) -> Iterator[Note]:
+def take(packages: Sequence[Package]) -> Iterator[WorkerReads]:
     """Yield what is new since the last call; what is taken is forgotten here."""
     places = {id(package): at for at, package in enumerate(packages)}
     for at, package in enumerate(packages):
         used, uses_all, uses_interfaces = uses(package, places)
-        note = Note(
+        note = WorkerReads(
             at,
             _Seen.taken_from(disk_of(package)),
             _Seen.taken_from(package.outside),

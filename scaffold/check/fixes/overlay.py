@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
-from scaffold.files.disk import MOST_BYTES
+from scaffold.files.disk import MAX_BYTES
 from scaffold.files.tree import Tree, within
 
 MOST_KEPT = 2_000_000
@@ -51,7 +51,7 @@ class Overlay:
         """The links to files that are not there."""
         return tuple(getattr(self._base, "broken_links", ()))
 
-    def read(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
         if path in self.removed:
             raise FileNotFoundError(path)
@@ -61,7 +61,7 @@ class Overlay:
             return within(most, path, self.changed[path])
         return self.before(path, most)
 
-    def before(self, path: str, most: int = MOST_BYTES) -> bytes:
+    def before(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file below the changes; see `read`."""
         if path in self._read:
             return within(most, path, self._read[path])

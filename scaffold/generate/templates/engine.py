@@ -17,7 +17,7 @@ from scaffold.files.disk import digest, read_file
 from scaffold.generate.templates import filters
 from scaffold.generate.templates.bytecode import Compiled
 from scaffold.generate.templates.sandbox import Sandbox, refuse_outside
-from scaffold.generate.templates.template import ENDING, MOST_BYTES
+from scaffold.generate.templates.template import ENDING, MAX_BYTES
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
 """A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
@@ -153,7 +153,7 @@ class _Loader(BaseLoader):
             if os.path.exists(path) and not os.path.isfile(path):
                 raise ContentError(f"{path}: is not a file")
             try:
-                data = read_file(path, MOST_BYTES)
+                data = read_file(path, MAX_BYTES)
                 refuse_outside(path, [*self._roots, directory])
                 return self._with_comments(_decode(data)), path, None
             except (FileNotFoundError, NotADirectoryError):

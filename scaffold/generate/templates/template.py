@@ -23,7 +23,7 @@ from scaffold.record import NamedTuple
 
 MANIFEST = "template.yaml"
 ENDING = ".jinja"
-MOST_BYTES = 1_000_000
+MAX_BYTES = 1_000_000
 """Of a file of a template, and of one with answers; ours have a few kB."""
 BASE = "package"
 """The template that every package is made of."""

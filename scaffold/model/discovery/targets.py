@@ -9,7 +9,7 @@ from scaffold.errors import InputError
 from scaffold.files.disk import Disk
 from scaffold.files.tree import MANIFEST, DiskTree
 from scaffold.model.discovery import colcon
-from scaffold.model.discovery.unchecked import Surroundings
+from scaffold.model.discovery.unchecked import UncheckedPackages
 from scaffold.model.package import Package
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.record import NamedTuple
@@ -101,7 +101,7 @@ def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
 
 def _surroundings(
     disk: Disk, workspace: Workspace, given: Sequence[str], tops: Sequence[str]
-) -> Surroundings | None:
+) -> UncheckedPackages | None:
     """Return the packages beside those given, unless the whole workspace was given.
 
     Args:
@@ -115,7 +115,7 @@ def _surroundings(
     around = filter(None, (colcon.sources_around(disk, one) for one in own))
     sources = dict.fromkeys([*around, *tops])
     open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
-    return Surroundings(open_, frozenset(own), workspace) if open_ else None
+    return UncheckedPackages(open_, frozenset(own), workspace) if open_ else None
 
 
 def _sort_files(

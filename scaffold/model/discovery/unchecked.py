@@ -25,7 +25,7 @@ MOST_DIRECTORIES = 2000
 _NAME = rb"<name>\s*([A-Za-z][\w-]*)\s*</name>"
 
 
-class Surroundings:
+class UncheckedPackages:
     """The packages below some directories, except for those that are checked.
 
     Args:

@@ -287,7 +287,7 @@ def _likeness(one: str, other: str) -> float:
     return SequenceMatcher(None, one.lower(), other.lower()).ratio()
 
 
-def nearest_word(word: str, known: Sequence[str]) -> str:
+def closest_word(word: str, known: Sequence[str]) -> str:
     """Return the end of a message, ``; did you mean ...``; empty if nothing comes near."""
     from difflib import get_close_matches
 

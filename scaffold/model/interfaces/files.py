@@ -28,7 +28,7 @@ class InterfaceFile(NamedTuple):
     definition: Definition
 
 
-def standing(package: Package) -> list[str]:
+def ungenerated_candidates(package: Package) -> list[str]:
     """Return the files in ``msg/``, ``srv/`` and ``action/`` whose ending is that name."""
     return [
         path
@@ -46,13 +46,13 @@ def is_commented_out(package: Package, path: str) -> bool:
     return any(name in cmake.text(token) for token in cmake.comments)
 
 
-def words_of_users(package: Package) -> set[str]:
+def names_used_in_code(package: Package) -> set[str]:
     """Return the words in the workspace's code and interfaces that may name a type of a package.
 
     ``Beat`` of ``from my_msgs.msg import Beat``, ``my_msgs::msg::Beat``, ``my_msgs/Beat``, or alone
     in an interface of the package that is generated.
     """
-    return package.remember("words_of_users", lambda: _words_of_users(package))
+    return package.remember("names_used_in_code", lambda: _words_of_users(package))
 
 
 def _words_of_users(package: Package) -> set[str]:
@@ -87,7 +87,7 @@ def _read(package: Package) -> Iterator[InterfaceFile]:
         return
     listed = {file.path for call in calls for file in call.files}
     knows_all = all(call.is_complete for call in calls)
-    others = () if knows_all else standing(package)
+    others = () if knows_all else ungenerated_candidates(package)
     for path in sorted({*listed, *(path for path in others if not is_test_data(path))}):
         if path not in listed and is_commented_out(package, path):
             continue

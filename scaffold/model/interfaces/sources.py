@@ -24,7 +24,7 @@ BUNDLE = os.path.join(
 )
 
 
-MOST_BYTES = 500_000
+MAX_BYTES = 500_000
 """Of one definition; the largest of those that are released has 20 kB."""
 
 
@@ -186,7 +186,7 @@ class _InstalledPackage:
             return None
         path = os.path.join(self._share, kind, f"{name}.{kind}")
         try:
-            text = self._disk.read(path, MOST_BYTES).decode()
+            text = self._disk.read(path, MAX_BYTES).decode()
         except (OSError, UnicodeDecodeError):
             return None
         return Text(Source(path, text.replace("\r\n", "\n").replace("\r", "\n")), path)

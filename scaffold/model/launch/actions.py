@@ -101,7 +101,7 @@ def function_of(launch: LaunchFile, node: ast.expr | None) -> FunctionNode | Non
     return found.node
 
 
-def what_it_is(launch: LaunchFile, node: ast.expr) -> str:
+def describe(launch: LaunchFile, node: ast.expr) -> str:
     """Return what an expression surely is, if it is no action: ``this is a list``."""
     node = _literal_of(launch, node)
     if isinstance(node, ast.Name) and function_of(launch, node) is not None:

@@ -13,7 +13,7 @@ from scaffold.model.python.values import UNKNOWN, Unknown
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
     from scaffold.source import Location
 
 _SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace", "OpaqueFunction")
@@ -33,7 +33,7 @@ class StartedNode:
         self._own = package
 
     @property
-    def owner(self) -> NodeOwner | None:
+    def owner(self) -> NodeDefinition | None:
         """The code of the node, when it is Python of this package or one of the workspace."""
         if not isinstance(self.executable, str) or not isinstance(self.package, str):
             return None
@@ -43,7 +43,7 @@ class StartedNode:
         return found[0] if len(found) == 1 else None
 
     @property
-    def _own_code(self) -> NodeOwner | None:
+    def _own_code(self) -> NodeDefinition | None:
         return self.owner if self.package == self._own.name else None
 
     @property

@@ -17,7 +17,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.parameters.files import ParameterFile, Section
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
 
 _ALIKE = 0.75
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
@@ -51,7 +51,7 @@ def _use_of(package: Package, path: str) -> FileUse:
     return FileUse(found, not passed and not _is_mentioned(package, path, known))
 
 
-def nodes_for(package: Package, path: str, section: Section) -> list[NodeOwner]:
+def nodes_for(package: Package, path: str, section: Section) -> list[NodeDefinition]:
     """Return the code of the node that a section is for; none when that is not sure."""
     use = use_of(package, path)
     name = section.name

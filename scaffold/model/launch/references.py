@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
-class Use(NamedTuple):
+class Reference(NamedTuple):
     """A place where a launch file names a package."""
 
     name: str
@@ -30,19 +30,19 @@ class Use(NamedTuple):
     """Looked for under a condition that Python decides: it may well not be there."""
 
 
-class Meant(NamedTuple):
+class Suggestion(NamedTuple):
     """The package that a wrong name stands for."""
 
     name: str
     reason: str
 
 
-def package_uses(package: Package) -> list[Use]:
+def package_uses(package: Package) -> list[Reference]:
     """Return the packages that the launch files name, in the order of the text."""
     return package.remember("launch_uses", lambda: [*_in_python(package), *_in_xml(package)])
 
 
-def _in_python(package: Package) -> Iterator[Use]:
+def _in_python(package: Package) -> Iterator[Reference]:
     for launch in LaunchFile.of_package(package):
         for found in launch.package_uses:
             call = found.action
@@ -53,10 +53,10 @@ def _in_python(package: Package) -> Iterator[Use]:
                 node = call.given.get("executable")
                 at = launch.location(node) if node is not None else at
             optional = launch.is_optional(found.node)
-            yield Use(found.name, found.location, executable, at, optional)
+            yield Reference(found.name, found.location, executable, at, optional)
 
 
-def _in_xml(package: Package) -> Iterator[Use]:
+def _in_xml(package: Package) -> Iterator[Reference]:
     for file in markup_files(package):
         for node in file.nodes:
             if node.package is not None and is_known(node.package):
@@ -65,9 +65,9 @@ def _in_xml(package: Package) -> Iterator[Use]:
                 if program is not None and is_known(program):
                     executable = program.value
                 at = (program or node.package).location
-                yield Use(node.package.value, node.package.location, executable, at)
+                yield Reference(node.package.value, node.package.location, executable, at)
         for path in file.paths:
-            yield Use(path.package, path.location, None, path.location)
+            yield Reference(path.package, path.location, None, path.location)
 
 
 def exists(package: Package, name: str) -> bool:
@@ -80,20 +80,20 @@ def exists(package: Package, name: str) -> bool:
         return True
 
 
-def meant_package(package: Package, use: Use) -> Meant | None:
+def meant_package(package: Package, use: Reference) -> Suggestion | None:
     """Return the package that a name surely stands for, when no package is called so."""
     if exists(package, use.name):
         return None
     own = programs_of(package).sources
     if isinstance(use.executable, str) and use.executable in own:
-        return Meant(package.name, f"it has the program {use.executable!r}")
+        return Suggestion(package.name, f"it has the program {use.executable!r}")
     if is_near(use.name, package.name):
-        return Meant(package.name, "this package")
+        return Suggestion(package.name, "this package")
     for other in package.workspace.names:
         if is_near(use.name, other):
-            return Meant(other, "a package of the workspace")
+            return Suggestion(other, "a package of the workspace")
     for other in sorted(package.manifest.declared_names):
         if is_near(use.name, other):
-            return Meant(other, "which package.xml declares")
+            return Suggestion(other, "which package.xml declares")
     known = similar_package(use.name)
-    return Meant(known, "a package of ROS") if known else None
+    return Suggestion(known, "a package of ROS") if known else None

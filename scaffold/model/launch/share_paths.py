@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile
-from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         return f"{build} of {owner.name} does not install {first}"
     if any(_name(one).startswith(f"{_name(path)}.") for one in owner.files):
         return None  # made from a template
-    if is_left_out(owner, path):
+    if is_untracked(owner, path):
         return None  # made on each machine
     near = get_close_matches(path, files, 1, 0.6)
     hint = f"; closest: {near[0]}" if near else ""

@@ -10,13 +10,13 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 
-def other_name(package: Package) -> str | None:
+def name_used_elsewhere(package: Package) -> str | None:
     """Return the name that everything but package.xml uses, if that is so.
 
     The build file names the package otherwise, and more of the directory, the Python package,
     the marker and setup.cfg agree with it than with package.xml: then package.xml is to blame.
     """
-    return package.remember("other_name", lambda: _other_name(package))
+    return package.remember("name_used_elsewhere", lambda: _other_name(package))
 
 
 def _other_name(package: Package) -> str | None:

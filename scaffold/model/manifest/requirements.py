@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, provided_by
+from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, transitive_dependencies
 from scaffold.model.cmake.rosidl import generations
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -22,7 +22,7 @@ _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
-class Need(NamedTuple):
+class Requirement(NamedTuple):
     """An import that another package has to provide."""
 
     keys: tuple[str, ...]
@@ -42,9 +42,9 @@ class Declared(NamedTuple):
     along: set[str]
 
 
-def needs(package: Package) -> list[Need]:
+def required_packages(package: Package) -> list[Requirement]:
     """Return what the package imports from others, once each; what is not known is left out."""
-    found: dict[str, Need] = {}
+    found: dict[str, Requirement] = {}
     local = _local_names(package)
     for module in package.modules():
         if not is_shipped(package, module):
@@ -56,7 +56,7 @@ def needs(package: Package) -> list[Need]:
             known = found.get(one.root)
             for_tests = module.in_tests or _is_named_for_tests(package, module.path)
             if known is None or (known.for_tests and not for_tests):
-                found[one.root] = Need(keys, one.root, one.location, for_tests)
+                found[one.root] = Requirement(keys, one.root, one.location, for_tests)
     return sorted(found.values(), key=lambda need: need.location)
 
 
@@ -73,7 +73,7 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
     direct |= {one.name for one in manifest.dependencies if one.is_optional}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
-    along = provided_by(direct)
+    along = transitive_dependencies(direct)
     seen = {package.name}
     pending = sorted(direct)
     while pending:
@@ -86,7 +86,7 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
             brought = _run_names(neighbour)
             along |= brought
             pending += sorted(brought)
-    return Declared(direct, along | provided_by(along))
+    return Declared(direct, along | transitive_dependencies(along))
 
 
 def is_shipped(package: Package, module: PythonModule) -> bool:

@@ -96,7 +96,7 @@ def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
     return asked or types.module.qualified_name(made.func) in _CLOCKS
 
 
-class Kinds:
+class ValueTypes:
     """Finds out which kind of Python value an expression surely has."""
 
     def __init__(self, types: MessageTypes) -> None:
@@ -243,12 +243,12 @@ def _kind_of_value(value: object) -> str | None:
     return None
 
 
-class Misfits:
+class TypeMismatches:
     """Finds values that do not fit their fields."""
 
     def __init__(self, types: MessageTypes) -> None:
         self._types = types
-        self._kinds = Kinds(types)
+        self._kinds = ValueTypes(types)
 
     def misfit(self, item: Assigned) -> str | None:
         """Say what a value is that its field cannot hold; ``None`` if it may well fit."""

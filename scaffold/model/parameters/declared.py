@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.rclpy.file import rclpy_files
-from scaffold.model.rclpy.nodes import NodeClass, NodeOwner
+from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -43,17 +43,17 @@ def has_always(name: str) -> bool:
     return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
-def declared_by(owner: NodeOwner, package: Package) -> Declared:
+def declared_by(owner: NodeDefinition, package: Package) -> Declared:
     """Return what a node declares: in its class, in base classes, and where it is made."""
     home = home_of(owner, package)
     return home.remember(("declared_parameters", owner), lambda: _declared_by(owner, home))
 
 
-def _declared_by(owner: NodeOwner, package: Package) -> Declared:
+def _declared_by(owner: NodeDefinition, package: Package) -> Declared:
     types: dict[str, str | None] = {}
     places: dict[str, Parameter] = {}
     complete = True
-    current: NodeOwner | None = owner
+    current: NodeDefinition | None = owner
     while current is not None:
         is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
         for parameter in (*current.parameters, *_from_outside(current, package)):
@@ -71,7 +71,7 @@ def _declared_by(owner: NodeOwner, package: Package) -> Declared:
     return Declared(types, places, complete)
 
 
-def home_of(owner: NodeOwner, package: Package) -> Package:
+def home_of(owner: NodeDefinition, package: Package) -> Package:
     """Return the package that the code of a node is in; it may be another one."""
     from scaffold.model.package import Package as _Package  # which imports what this imports
 
@@ -156,7 +156,7 @@ def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
     return frozenset(found)
 
 
-def _from_outside(owner: NodeOwner, package: Package) -> Iterator[Parameter]:
+def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter]:
     """Yield what other files declare on a node: ``node = Talker(); node.declare_parameter()``."""
     if isinstance(owner, NodeClass):
         for facts in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
@@ -164,10 +164,10 @@ def _from_outside(owner: NodeOwner, package: Package) -> Iterator[Parameter]:
                 yield from (one for one in facts.parameters if one.owner is owner)
 
 
-def own_nodes(package: Package) -> tuple[list[NodeOwner], bool]:
+def own_nodes(package: Package) -> tuple[list[NodeDefinition], bool]:
     """Return the nodes in the Python code of a package, and whether there are no others."""
 
-    def find() -> tuple[list[NodeOwner], bool]:
+    def find() -> tuple[list[NodeDefinition], bool]:
         found = [node for facts in rclpy_files(package) for node in facts.nodes]
         compiled = any(
             path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
@@ -192,7 +192,7 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
     return parameter.type
 
 
-def _escapes(owner: NodeOwner) -> bool:
+def _escapes(owner: NodeDefinition) -> bool:
     """Tell whether the node is handed to code that may declare more."""
     if not isinstance(owner, NodeClass):
         return _is_handed_on(owner, owner.facts.module.tree, owner.name)
@@ -200,7 +200,7 @@ def _escapes(owner: NodeOwner) -> bool:
     return bool(others) or _is_handed_on(owner, owner.node, "self")
 
 
-def _is_handed_on(owner: NodeOwner, scope: ast.AST, name: str) -> bool:
+def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
     module = owner.facts.module
     for use in module.index.names(name):
         parent = module.parent(use)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.programs.entry_points import Run, files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
 from scaffold.model.rclpy.entities import Service, Subscription, Timer
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
@@ -93,7 +93,7 @@ def waits_alone(
                 yield wait
 
 
-def _waits(run: Run, method: str) -> Iterator[Wait]:
+def _waits(run: Execution, method: str) -> Iterator[Wait]:
     """Yield the calls of a method that the main thread makes, itself or in a callback."""
     facts = run.facts
     calls = [facts.module.parent(node) for node in facts.module.index.attributes(method)]
@@ -105,7 +105,7 @@ def _waits(run: Run, method: str) -> Iterator[Wait]:
                 yield Wait(facts, call, where or "is blocked in this call")
 
 
-def _places(run: Run) -> dict[object, str]:
+def _places(run: Execution) -> dict[object, str]:
     """Return the functions that the main thread runs, with what it does in them."""
     facts = run.facts
     functions: list[object] = [*run.functions]

@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.file import RclpyFile
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
 
 _MAX_FILES = 200
 
 
-class Start(NamedTuple):
+class EntryPoint(NamedTuple):
     """Where a program of a package begins."""
 
     program: str
@@ -28,7 +28,7 @@ class Start(NamedTuple):
     """The entry function; without one, the file is run as a script."""
 
 
-class Run(NamedTuple):
+class Execution(NamedTuple):
     """What a program runs in its own file."""
 
     facts: RclpyFile
@@ -37,7 +37,7 @@ class Run(NamedTuple):
     calls: Sequence[ast.Call]
     """The calls in them; of a script, its own calls first."""
 
-    def nodes(self) -> Iterator[tuple[ast.Call, NodeOwner]]:
+    def nodes(self) -> Iterator[tuple[ast.Call, NodeDefinition]]:
         """Yield the nodes that are certainly made, and the calls that make them."""
         for call in self.calls:
             owner = None if self.facts.is_conditional(call) else self.facts.owner_of(call)
@@ -45,12 +45,12 @@ class Run(NamedTuple):
                 yield call, owner
 
 
-def starts_of(package: Package) -> Sequence[Start]:
+def starts_of(package: Package) -> Sequence[EntryPoint]:
     """Return where the programs that are Python begin."""
     return package.remember("program_starts", lambda: list(_starts(package)))
 
 
-def run_of(package: Package, start: Start) -> Run:
+def run_of(package: Package, start: EntryPoint) -> Execution:
     """Return what a program runs; raises ViewError if its file cannot be parsed."""
     return package.remember(("program_run", start), lambda: _run(package, start))
 
@@ -66,7 +66,7 @@ def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
 # -- where programs begin
 
 
-def _starts(package: Package) -> Iterator[Start]:
+def _starts(package: Package) -> Iterator[EntryPoint]:
     try:
         if package.build_type == "ament_python":
             yield from _console_scripts(package)
@@ -76,11 +76,11 @@ def _starts(package: Package) -> Iterator[Start]:
         return
 
 
-def _console_scripts(package: Package) -> Iterator[Start]:
+def _console_scripts(package: Package) -> Iterator[EntryPoint]:
     for entry in package.setup_py.console_scripts:
         path = _file_of(package, entry.module)
         if path is not None and not entry.malformed:
-            yield Start(entry.name, path, entry.function)
+            yield EntryPoint(entry.name, path, entry.function)
 
 
 def _file_of(package: Package, module: str) -> str | None:
@@ -89,7 +89,7 @@ def _file_of(package: Package, module: str) -> str | None:
     return next((path for path in paths if package.has(path)), None)
 
 
-def _programs(package: Package) -> Iterator[Start]:
+def _programs(package: Package) -> Iterator[EntryPoint]:
     for install in package.cmake.installs:
         if install.kind != "PROGRAMS" or package.cmake.guarded_by_testing(install.command):
             continue
@@ -99,18 +99,18 @@ def _programs(package: Package) -> Iterator[Start]:
                 continue
             # A node is meant for `ros2 run` wherever it is installed.
             if install.destination == f"lib/{package.name}" or node_facts(package, path).nodes:
-                yield Start(install.rename or path.rpartition("/")[2], path, None)
+                yield EntryPoint(install.rename or path.rpartition("/")[2], path, None)
 
 
 # -- what they run
 
 
-def _run(package: Package, start: Start) -> Run:
+def _run(package: Package, start: EntryPoint) -> Execution:
     facts = node_facts(package, start.path)
     outside = _calls_outside(facts) if start.function is None else []
     functions = _functions(facts, start.function, outside)
     calls = [call for function in functions for call in facts.calls_in(function)]
-    return Run(facts, functions, [*outside, *calls])
+    return Execution(facts, functions, [*outside, *calls])
 
 
 def _functions(

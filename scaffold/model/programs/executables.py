@@ -15,7 +15,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
 
 _PLAIN_COMMANDS = frozenset(
     """
@@ -51,7 +51,7 @@ def programs_of(package: Package) -> Programs:
     return package.remember("package_programs", lambda: _programs(package))
 
 
-def nodes_of(package: Package, program: str) -> list[NodeOwner]:
+def nodes_of(package: Package, program: str) -> list[NodeDefinition]:
     """Return the nodes that a Python program may be; one when that is sure."""
     path = programs_of(package).sources.get(program)
     if not path:
@@ -67,7 +67,7 @@ def nodes_of(package: Package, program: str) -> list[NodeOwner]:
     return found
 
 
-def _made_by_others(package: Package, path: str) -> Iterator[NodeOwner]:
+def _made_by_others(package: Package, path: str) -> Iterator[NodeDefinition]:
     """Yield the nodes that functions of other packages make, as far as a file imports those."""
     for one in package.module(path).imports:
         if one.level or one.root == package.name or keys_of_module(one.root):

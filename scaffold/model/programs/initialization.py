@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.programs.entry_points import Run
+    from scaffold.model.programs.entry_points import Execution
     from scaffold.model.rclpy.file import RclpyFile
 
 _HARMLESS = frozenset({"rclpy", *dir(builtins)})
@@ -39,7 +39,7 @@ def may_init(facts: RclpyFile) -> bool:
     )
 
 
-def calls_others(package: Package, run: Run, made: ast.Call) -> bool:
+def calls_others(package: Package, run: Execution, made: ast.Call) -> bool:
     """Tell whether code of others runs before the node is made, which may initialize rclpy."""
     module = run.facts.module
     function = run.facts.function_of(made)

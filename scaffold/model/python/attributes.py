@@ -23,7 +23,7 @@ class Store(NamedTuple):
     value: ast.expr | None
 
 
-class SelfEvaluator(Evaluator):
+class AttributeEvaluator(Evaluator):
     """An evaluator that knows where attributes of objects are assigned.
 
     Args:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.python.attributes import SelfEvaluator
+    from scaffold.model.python.attributes import AttributeEvaluator
     from scaffold.model.python.scopes import FunctionNode
 
 _MAX_CLASSES = 40
@@ -16,7 +16,7 @@ _MAX_CLASSES = 40
 class CallSites:
     """Finds the calls of a function in its file."""
 
-    def __init__(self, evaluator: SelfEvaluator) -> None:
+    def __init__(self, evaluator: AttributeEvaluator) -> None:
         self._evaluator = evaluator
         self._known: dict[FunctionNode, Sequence[ast.Call] | None] = {}
 

@@ -9,7 +9,7 @@ from scaffold.model.python.module import PythonModule, last_names
 _ALL = frozenset({"Exception", "BaseException"})
 
 
-def is_harmless(module: PythonModule, node: ast.AST, exception: str) -> bool:
+def is_handled(module: PythonModule, node: ast.AST, exception: str) -> bool:
     """Tell whether an exception raised at a node is caught in its function, or never raised.
 
     Args:
@@ -46,7 +46,7 @@ def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) ->
     )
 
 
-def is_asked_about(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
+def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
     """Tell whether a node runs only if a condition on a value holds: ``if self.topic:``.
 
     Args:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
 from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_jazzy
-from scaffold.model.python.scopes import FunctionNode, Node, SyntaxIndex
+from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source
 
@@ -95,7 +95,7 @@ def is_in_tests(path: str) -> bool:
 class PythonModule:
     """A parsed Python file; it is never imported or run."""
 
-    def __init__(self, source: Source, tree: ast.Module, index: SyntaxIndex) -> None:
+    def __init__(self, source: Source, tree: ast.Module, index: ScopeIndex) -> None:
         self.source = source
         self.path = source.path
         self.tree = tree
@@ -120,7 +120,7 @@ class PythonModule:
         """
         positions = Positions(source)
         tree = parse_tree(source, positions)
-        index = SyntaxIndex(tree)
+        index = ScopeIndex(tree)
         if not index.build(MAX_DEPTH):
             raise ParseError(Location.start_of(source.path), "nested too deeply")
         module = cls(source, tree, index)

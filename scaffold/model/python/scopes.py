@@ -46,7 +46,7 @@ class Binding(NamedTuple):
     """For an import: the full dotted name of what is imported, dots of the level in front."""
 
 
-class SyntaxIndex:
+class ScopeIndex:
     """The nodes of a module: who holds whom, and all of a kind."""
 
     def __init__(self, tree: ast.Module) -> None:

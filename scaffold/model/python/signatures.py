@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 
-def misfit(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
+def argument_error(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
     """Return how a call does not fit the signature of the called function.
 
     Args:

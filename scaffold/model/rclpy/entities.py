@@ -12,7 +12,7 @@ from scaffold.record import NamedTuple
 if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
     from scaffold.model.rclpy.parameters.declarations import Declaration
     from scaffold.model.rclpy.parameters.descriptors import Descriptor
     from scaffold.source import Location
@@ -70,7 +70,7 @@ class Created(NamedTuple):
     call: ast.Call
     location: Location
     """The whole call."""
-    owner: NodeOwner | None
+    owner: NodeDefinition | None
     """The node it is created on, if that is known."""
     attribute: str | None
     """Stored in this attribute of ``self``."""

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.attributes import SelfEvaluator
+from scaffold.model.python.attributes import AttributeEvaluator
 from scaffold.model.python.call_sites import CallSites, given_argument
 from scaffold.model.python.values import UNKNOWN, is_known, same
 
@@ -29,7 +29,7 @@ _ACCESSORS: Mapping[str, type] = {
 }
 
 
-class NodeEvaluator(SelfEvaluator):
+class NodeEvaluator(AttributeEvaluator):
     """Knows what is assigned once, defaults of parameters and arguments of private functions."""
 
     def __init__(

@@ -31,7 +31,7 @@ from scaffold.model.rclpy.entities import (
 )
 from scaffold.model.rclpy.evaluator import NodeEvaluator
 from scaffold.model.rclpy.init_and_spin import rclpy_calls
-from scaffold.model.rclpy.nodes import NodeClass, NodeObject, NodeOwner
+from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
 from scaffold.model.rclpy.parameters.declarations import Declarations
 from scaffold.source import ViewError
 
@@ -42,8 +42,8 @@ __all__ = [
     "NODE_CLASSES",
     "Modules",
     "NodeClass",
+    "NodeDefinition",
     "NodeObject",
-    "NodeOwner",
     "RclpyFile",
     "node_facts",
     "rclpy_files",
@@ -115,7 +115,7 @@ class RclpyFile:
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
         self._creation = Creation(self)
-        self._owners: dict[ast.expr, NodeOwner | None] = {}
+        self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
         self._base_depth = 0
 
@@ -155,7 +155,7 @@ class RclpyFile:
         return found
 
     @property
-    def nodes(self) -> Sequence[NodeOwner]:
+    def nodes(self) -> Sequence[NodeDefinition]:
         """Node classes, then objects."""
         return [*self.classes, *self.objects]
 
@@ -249,13 +249,13 @@ class RclpyFile:
                             found.setdefault(node, []).append(binding.node)
         return found
 
-    def owner_of(self, node: ast.expr) -> NodeOwner | None:
+    def owner_of(self, node: ast.expr) -> NodeDefinition | None:
         """Return the node that an expression such as ``self`` stands for."""
         if node not in self._owners:
             self._owners[node] = self._find_owner(node)
         return self._owners[node]
 
-    def _find_owner(self, node: ast.expr) -> NodeOwner | None:
+    def _find_owner(self, node: ast.expr) -> NodeDefinition | None:
         class_ = self.evaluator.self_class(node)
         if class_ is not None:
             return self.node_class(class_)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
-class NodeOwner:
+class NodeDefinition:
     """A node as the code makes it: of a class of its own, or an object."""
 
     def __init__(self, facts: RclpyFile, name: str, location: Location) -> None:
@@ -142,7 +142,7 @@ class NodeOwner:
         return None
 
 
-class NodeObject(NodeOwner):
+class NodeObject(NodeDefinition):
     """A node without a class of its own: ``node = rclpy.create_node('talker')``."""
 
     def __init__(self, facts: RclpyFile, name: str, location: Location, call: ast.Call) -> None:
@@ -155,7 +155,7 @@ class NodeObject(NodeOwner):
         return self._call
 
 
-class NodeClass(NodeOwner):
+class NodeClass(NodeDefinition):
     """A class that inherits from rclpy's Node; its location is its name."""
 
     def __init__(self, facts: RclpyFile, node: ast.ClassDef, base: NodeClass | None) -> None:

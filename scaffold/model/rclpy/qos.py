@@ -10,7 +10,7 @@ from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import Qos
 
 if TYPE_CHECKING:
-    from scaffold.model.python.attributes import SelfEvaluator
+    from scaffold.model.python.attributes import AttributeEvaluator
     from scaffold.model.rclpy.entities import Endpoint, Publisher, Subscription
     from scaffold.source import Location
 
@@ -32,14 +32,14 @@ Conflict = tuple[str, str]
 _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 
 
-def qos_of(evaluator: SelfEvaluator, node: ast.expr) -> Qos:
+def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
     """Return the quality of service that an expression stands for."""
     at = evaluator.module.location(node)
     found = _plain(evaluator, evaluator.single_value(node), at)
     return _with_later_changes(evaluator, found, node)
 
 
-def _plain(evaluator: SelfEvaluator, node: ast.expr, at: Location) -> Qos:
+def _plain(evaluator: AttributeEvaluator, node: ast.expr, at: Location) -> Qos:
     value = evaluator.evaluate(node)
     if type(value) is int:
         return Qos(at, None, value, *PROFILES["default"][1:])
@@ -58,7 +58,7 @@ def _plain(evaluator: SelfEvaluator, node: ast.expr, at: Location) -> Qos:
     return Qos(at, profile, *PROFILES[profile]) if profile in PROFILES else Qos(at)
 
 
-def _constructed(evaluator: SelfEvaluator, node: ast.Call, at: Location) -> Qos:
+def _constructed(evaluator: AttributeEvaluator, node: ast.Call, at: Location) -> Qos:
     given: dict[str, ast.expr] = dict(zip(_QOS_PARAMETERS, node.args, strict=False))
     for word in node.keywords:
         if word.arg is None:
@@ -83,7 +83,7 @@ def _constructed(evaluator: SelfEvaluator, node: ast.Call, at: Location) -> Qos:
     )
 
 
-def _policy(evaluator: SelfEvaluator, node: ast.expr | None, default: str) -> str | Unknown:
+def _policy(evaluator: AttributeEvaluator, node: ast.expr | None, default: str) -> str | Unknown:
     """Return the policy's name: ``TRANSIENT_LOCAL``, in whichever spelling."""
     if node is None:
         return default
@@ -96,7 +96,7 @@ def _policy(evaluator: SelfEvaluator, node: ast.expr | None, default: str) -> st
     return policy.upper()
 
 
-def _with_later_changes(evaluator: SelfEvaluator, found: Qos, node: ast.expr) -> Qos:
+def _with_later_changes(evaluator: AttributeEvaluator, found: Qos, node: ast.expr) -> Qos:
     """Apply ``qos.depth = 5`` before the use; what may or may not happen is not known."""
     if not isinstance(node, ast.Name | ast.Attribute):
         return found
@@ -109,7 +109,7 @@ def _with_later_changes(evaluator: SelfEvaluator, found: Qos, node: ast.expr) ->
     return found
 
 
-def _changed(evaluator: SelfEvaluator, found: Qos, name: str, value: ast.expr | None) -> Qos:
+def _changed(evaluator: AttributeEvaluator, found: Qos, name: str, value: ast.expr | None) -> Qos:
     """Return a quality of service with one field set; ``None`` for nobody knows what."""
     if name == "depth":
         depth = evaluator.evaluate(value)
@@ -122,7 +122,7 @@ def _changed(evaluator: SelfEvaluator, found: Qos, name: str, value: ast.expr | 
     return found._replace(profile=None, durability=policy)
 
 
-def _is_same_object(evaluator: SelfEvaluator, first: ast.expr, second: ast.expr) -> bool:
+def _is_same_object(evaluator: AttributeEvaluator, first: ast.expr, second: ast.expr) -> bool:
     if isinstance(first, ast.Name) and isinstance(second, ast.Name):
         lookup = evaluator.module.index.lookup
         scopes = [found[0] for n in (first, second) if (found := lookup(n.id, n))]
@@ -130,7 +130,7 @@ def _is_same_object(evaluator: SelfEvaluator, first: ast.expr, second: ast.expr)
     return evaluator.module.text(first) == evaluator.module.text(second)
 
 
-def _order(evaluator: SelfEvaluator, change: ast.AST, use: ast.AST) -> str:
+def _order(evaluator: AttributeEvaluator, change: ast.AST, use: ast.AST) -> str:
     """Return whether a statement is surely run ``before`` or ``after`` a use, else ``""``."""
     function = evaluator.module.enclosing_function(change)
     if function is not evaluator.module.enclosing_function(use):
@@ -145,7 +145,7 @@ def _order(evaluator: SelfEvaluator, change: ast.AST, use: ast.AST) -> str:
     return "" if any(isinstance(parent, loops) for parent in around) else "after"
 
 
-def _statement_of(evaluator: SelfEvaluator, node: ast.AST) -> ast.AST:
+def _statement_of(evaluator: AttributeEvaluator, node: ast.AST) -> ast.AST:
     for parent in (node, *evaluator.module.parents(node)):
         if isinstance(parent, ast.stmt):
             return parent

@@ -16,7 +16,7 @@ _MOST_BYTES = 200_000
 _SUBMODULES = ".gitmodules"
 
 
-def is_left_out(package: Package, path: str) -> bool:
+def is_untracked(package: Package, path: str) -> bool:
     """Tell whether a ``.gitignore`` names a file of a package.
 
     Patterns for directories and for places are not looked at.

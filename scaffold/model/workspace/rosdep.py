@@ -23,7 +23,7 @@ _OTHER_DISTROS = frozenset(
     | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
     | {"kilted", "lyrical", "rolling"}
 )
-MOST_BYTES = 50_000_000
+MAX_BYTES = 50_000_000
 """Of one source; that of a distribution has less than one million."""
 
 
@@ -84,7 +84,7 @@ def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> Rosdep
         if kind != "yaml" or not url or not _OTHER_DISTROS.isdisjoint(tags):
             continue
         try:
-            sources.append(disk.read_renewed(os.path.join(cache, _file_of(url)), MOST_BYTES))
+            sources.append(disk.read_renewed(os.path.join(cache, _file_of(url)), MAX_BYTES))
         except OSError:
             return None
         kinds.add(ROS_DISTRO if ROS_DISTRO in tags else "" if not tags else "other")
@@ -123,7 +123,7 @@ class _PlainUnpickler(pickle.Unpickler):
 
 def _keys(source: bytes) -> frozenset[str] | None:
     """Return the keys of a source; ``None`` if it is not what rosdep writes."""
-    if len(source) > MOST_BYTES:
+    if len(source) > MAX_BYTES:
         return None
     try:
         data = _PlainUnpickler(BytesIO(source)).load()

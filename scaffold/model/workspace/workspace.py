@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.files.disk import Disk
 
 if TYPE_CHECKING:
-    from scaffold.model.discovery.unchecked import Surroundings
+    from scaffold.model.discovery.unchecked import UncheckedPackages
     from scaffold.model.interfaces.definitions import Definitions
     from scaffold.model.package import Package
     from scaffold.model.workspace.rosdep import RosdepKeys
@@ -22,7 +22,7 @@ class Workspace:
         self._packages = list(packages)
         self.disk = disk or Disk()
         """What is looked at outside of the packages."""
-        self.around: Surroundings | None = None
+        self.around: UncheckedPackages | None = None
         """The packages that were not given, but lie in the same workspace on disk."""
 
     def add(self, package: Package) -> None:
@@ -68,7 +68,7 @@ class Workspace:
         return cached_keys(self.disk)
 
 
-class Neighbourhood:
+class WorkspaceView:
     """The workspace as one of its packages sees it; notes whom the verdict on that one needs."""
 
     def __init__(self, workspace: Workspace) -> None:

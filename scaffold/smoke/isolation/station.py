@@ -35,7 +35,7 @@ FAST_DISCOVERY = """\
 
 
 @dataclass(frozen=True)
-class Station:
+class Isolation:
     """A domain and the observer in it."""
 
     number: int
@@ -77,7 +77,7 @@ class Stations:
         self._scratch = scratch
         self._origin = origin
         self._opened = 0
-        self._waiting: list[asyncio.Task[tuple[AsyncExitStack, Station]]] = []
+        self._waiting: list[asyncio.Task[tuple[AsyncExitStack, Isolation]]] = []
 
     def open_early(self, variables: Mapping[str, str], count: int) -> None:
         """Begin to open some stations; ``close`` has to follow."""
@@ -85,7 +85,7 @@ class Stations:
             self._waiting.append(asyncio.create_task(self._open(variables)))
 
     @asynccontextmanager
-    async def one(self, variables: Mapping[str, str]) -> AsyncIterator[Station]:
+    async def one(self, variables: Mapping[str, str]) -> AsyncIterator[Isolation]:
         """Give out a station, for the length of the block.
 
         Raises:
@@ -104,7 +104,7 @@ class Stations:
                 if not isinstance(outcome, BaseException):
                     await outcome[0].aclose()
 
-    async def _next(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Station]:
+    async def _next(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:
         if not self._waiting:
             return await self._open(variables)
         task = self._waiting.pop(0)
@@ -114,7 +114,7 @@ class Stations:
             self._waiting.append(task)  # nobody has the station: ``close`` sees to it
             raise
 
-    async def _open(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Station]:
+    async def _open(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:
         self._opened += 1
         label = f"probe-{self._opened}"
         async with AsyncExitStack() as stack:
@@ -126,4 +126,4 @@ class Stations:
                 self._origin.below(label),
             )
             observer = await stack.enter_async_context(observing)
-            return stack.pop_all(), Station(number, observer, self._scratch)
+            return stack.pop_all(), Isolation(number, observer, self._scratch)

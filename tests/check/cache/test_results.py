@@ -515,7 +515,7 @@ def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
         damaged = bytearray(whole)
         damaged[at] ^= 0x41
         kept.write_bytes(damaged)
-        slot = memory.Slot.of(["check", str(package)])
+        slot = memory.CacheEntry.of(["check", str(package)])
         assert slot is not None
         assert slot.last is None
 

@@ -8,7 +8,7 @@ import pytest
 
 from scaffold.files.tree import DiskTree
 from scaffold.model.package import Package
-from scaffold.model.workspace.gitignore import is_left_out
+from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.model.workspace.workspace import Workspace
 
 
@@ -23,7 +23,7 @@ def test_the_files_of_the_checkout_count(
         (tmp_path / checkout / ".git").mkdir()
     package = Package(DiskTree(str(directory)), workspace=Workspace())
     (tmp_path / "src" / ".gitmodules").write_text('[submodule "a"]\n\tpath = talker/external/a\n')
-    assert is_left_out(package, "config/calibrated_head.yaml") is expected
-    assert is_left_out(package, "external/a/include/a.hpp") is expected
-    assert not is_left_out(package, "external/b/include/b.hpp")
-    assert not is_left_out(package, "config/head.yaml")
+    assert is_untracked(package, "config/calibrated_head.yaml") is expected
+    assert is_untracked(package, "external/a/include/a.hpp") is expected
+    assert not is_untracked(package, "external/b/include/b.hpp")
+    assert not is_untracked(package, "config/head.yaml")

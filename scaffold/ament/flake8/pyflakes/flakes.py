@@ -9,10 +9,10 @@ from functools import cached_property
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.pyflakes import local_names
 from scaffold.ament.python_text.text import PythonText
-from scaffold.ament.ruff import Said
+from scaffold.ament.ruff import RuffDiagnostic
 
 
-def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
+def translate(text: PythonText, said: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
     """Yield what pyflakes would say, given what ruff says."""
     stricter = _Stricter(text, said)
     imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
@@ -43,7 +43,7 @@ def translate(text: PythonText, said: Sequence[Said]) -> Iterator[Finding]:
     yield from local_names.deleted_unused(text)
 
 
-def plain(said: Said) -> Finding:
+def plain(said: RuffDiagnostic) -> Finding:
     """Return a finding of ruff as it stands."""
     return Finding(
         said.code,
@@ -71,11 +71,11 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 class _Stricter:
     """Knows where ruff goes further than pyflakes does."""
 
-    def __init__(self, text: PythonText, said: Sequence[Said]) -> None:
+    def __init__(self, text: PythonText, said: Sequence[RuffDiagnostic]) -> None:
         self._text = text
         self._codes = {(one.line, one.code) for one in said}
 
-    def is_alone(self, said: Said) -> bool:
+    def is_alone(self, said: RuffDiagnostic) -> bool:
         """Tell whether only ruff says this."""
         if said.code == "F507":
             return said.line not in self._tuple_formats

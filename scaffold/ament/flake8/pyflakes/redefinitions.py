@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
-from scaffold.model.python.scopes import SyntaxIndex, children
+from scaffold.model.python.scopes import ScopeIndex, children
 
 ASSIGNED, DEFINED, IMPORTED, SUBMODULE, ANNOTATED, BOUND = range(6)
 """BOUND: an argument, a loop variable, an element of a tuple that is unpacked."""
@@ -88,7 +88,7 @@ Said = tuple[Place, str, int]
 class _Walk:
     """One walk over a module."""
 
-    def __init__(self, index: SyntaxIndex) -> None:
+    def __init__(self, index: ScopeIndex) -> None:
         self.index = index
         self.tree = index.tree
         self.scopes = [_Scope()]

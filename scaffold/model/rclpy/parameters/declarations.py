@@ -13,9 +13,9 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
 
-    _Declaration = tuple[NodeOwner | None, ast.expr | None]
+    _Declaration = tuple[NodeDefinition | None, ast.expr | None]
 
 SIGNATURES = {
     "declare_parameter": ("name", "value", "descriptor", "ignore_override"),

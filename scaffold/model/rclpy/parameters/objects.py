@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.entities import Entity
     from scaffold.model.rclpy.file import RclpyFile
-    from scaffold.model.rclpy.nodes import NodeOwner
+    from scaffold.model.rclpy.nodes import NodeDefinition
 
 _PARAMETER = "rclpy.parameter.Parameter"
 FIELDS = frozenset(
@@ -34,7 +34,7 @@ _LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
-def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeOwner | None, str | Unknown]:
+def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
     """Return the node and the name of the parameter that an expression is the object of.
 
     Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
@@ -54,7 +54,7 @@ def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeOwner | None, 
     return facts.owner_of(func.value), facts.evaluator.text(named[0]) if named else UNKNOWN
 
 
-def _listed(facts: RclpyFile, node: ast.Subscript) -> tuple[NodeOwner | None, str | Unknown]:
+def _listed(facts: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None, str | Unknown]:
     """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
     call = facts.evaluator.single_value(node.value)
     index = facts.evaluator.evaluate(node.slice)
@@ -164,7 +164,7 @@ class ParameterMade(NamedTuple):
     value: object
 
 
-def parameters_set(facts: RclpyFile) -> Iterator[tuple[NodeOwner, ParameterMade]]:
+def parameters_set(facts: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterMade]]:
     """Yield the parameters that a file sets on nodes that are known, one by one."""
     for method in ("set_parameters", "set_parameters_atomically"):
         for attribute in facts.module.index.attributes(method):
@@ -201,7 +201,7 @@ def _parameter_made(facts: RclpyFile, setting: ast.Call, node: ast.expr) -> Para
 class NameUsed(NamedTuple):
     """The name of a parameter that a node must have."""
 
-    owner: NodeOwner
+    owner: NodeDefinition
     call: ast.Call
     node: ast.expr
     name: str
@@ -225,11 +225,11 @@ def names_used(facts: RclpyFile) -> Iterator[NameUsed]:
             yield from _texts(facts, read.owner, read.call, _looped(facts, name.node))
 
 
-def names_used_by(package: Package, owner: NodeOwner) -> Sequence[NameUsed]:
+def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]:
     """Return what `names_used` says of one node; a file is looked at once for all of its nodes."""
 
-    def by_owner() -> dict[NodeOwner, list[NameUsed]]:
-        found: dict[NodeOwner, list[NameUsed]] = {}
+    def by_owner() -> dict[NodeDefinition, list[NameUsed]]:
+        found: dict[NodeDefinition, list[NameUsed]] = {}
         for used in names_used(owner.facts):
             found.setdefault(used.owner, []).append(used)
         return found
@@ -238,7 +238,7 @@ def names_used_by(package: Package, owner: NodeOwner) -> Sequence[NameUsed]:
 
 
 def _texts(
-    facts: RclpyFile, owner: NodeOwner, call: ast.Call, nodes: list[ast.expr]
+    facts: RclpyFile, owner: NodeDefinition, call: ast.Call, nodes: list[ast.expr]
 ) -> Iterator[NameUsed]:
     for node in nodes:
         name = facts.evaluator.text(node)

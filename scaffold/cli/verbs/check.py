@@ -11,7 +11,7 @@ from scaffold.cli import flags, terminal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scaffold.check.cache.runs import Slot
+    from scaffold.check.cache.runs import CacheEntry
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
     from scaffold.check.rule import Rule
@@ -127,7 +127,7 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
-    from scaffold.check.cache.results import Memory
+    from scaffold.check.cache.results import ResultCache
     from scaffold.check.session import Session
     from scaffold.cli import reports, standard_input
     from scaffold.cli.interactive import progress
@@ -155,7 +155,7 @@ def run(options: argparse.Namespace) -> int:
     is_unfinished = _note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     slot = None if settings.content or is_unfinished else _slot(options, targets)
-    memory = Memory(slot.last if slot else None, targets)
+    memory = ResultCache(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     output = reports.write(options, results, _report_options(options))
     code = exit_code(results, is_zero=options.exit_zero)
@@ -178,15 +178,15 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     return exit_code([result], is_zero=options.exit_zero)
 
 
-def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> Slot | None:
+def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry | None:
     """Return where the run is remembered: under its packages if files stand for them."""
-    from scaffold.check.cache.runs import Slot
+    from scaffold.check.cache.runs import CacheEntry
 
-    slot: Slot | None = getattr(options, "slot", None)
+    slot: CacheEntry | None = getattr(options, "slot", None)
     if slot is None or not options.whole_packages:
         return slot
     flags = {name: value for name, value in vars(options).items() if name not in {"paths", "slot"}}
-    return Slot.of([repr(sorted(flags.items())), *(one.package.directory for one in targets)])
+    return CacheEntry.of([repr(sorted(flags.items())), *(one.package.directory for one in targets)])
 
 
 def _report_options(options: argparse.Namespace) -> ReportOptions:
