@@ -17,14 +17,16 @@ def printable(text: str) -> str:
     """Return one line that a terminal only shows; what it might obey is spelled out."""
     if text.isprintable():
         return text
-    return "".join(one if one.isprintable() else _spelled(one) for one in text)
+    return "".join(item if item.isprintable() else _spelled(item) for item in text)
 
 
 def printable_lines(text: str) -> str:
     """Return lines that a terminal only shows; their ends and tabs stay."""
     if text.isprintable():
         return text
-    return "".join(one if one in "\n\t" or one.isprintable() else _spelled(one) for one in text)
+    return "".join(
+        item if item in "\n\t" or item.isprintable() else _spelled(item) for item in text
+    )
 
 
 def json_text(data: object) -> str:

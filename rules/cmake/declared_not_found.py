@@ -68,7 +68,7 @@ class DeclaredNotFound(Rule):
         cmake = package.cmake
         if package.build_type != "ament_cmake" or cmake.finds_automatically:
             return
-        if has_unknown_commands(package) or any("${" in one for one in self._finds(package)):
+        if has_unknown_commands(package) or any("${" in find for find in self._finds(package)):
             return
         for dependency in package.manifest.dependencies:
             name = dependency.name

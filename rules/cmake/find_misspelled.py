@@ -51,9 +51,9 @@ class FindMisspelled(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in package.cmake.found_packages:
-            yield from self._judge(package, found.name, found.command.arguments[0], found.location)
-        found_names = {found.name for found in package.cmake.found_packages}
+        for item in package.cmake.found_packages:
+            yield from self._judge(package, item.name, item.command.arguments[0], item.location)
+        found_names = {found_package.name for found_package in package.cmake.found_packages}
         for command in package.cmake.find("ament_export_dependencies"):
             for argument in command.arguments:
                 name = argument.value

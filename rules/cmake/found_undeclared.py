@@ -77,24 +77,24 @@ class FoundUndeclared(Rule):
         along = (
             transitive_dependencies(declared) | requirements.declared(package, for_tests=True).along
         )
-        told: set[str] = set()
-        for found in package.cmake.found_packages:
-            name = found.name
+        reported: set[str] = set()
+        for found_package in package.cmake.found_packages:
+            name = found_package.name
             if name == "rosidl_default_generators" and package.cmake.find(
                 "rosidl_generate_interfaces"
             ):
                 continue  # interface-declarations-missing says it, with what else is missing
-            if name in told or name in declared or name in along or name == package.name:
+            if name in reported or name in declared or name in along or name == package.name:
                 continue
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:
                 continue
-            if not found.required:
+            if not found_package.required:
                 continue
-            told.add(name)
-            tag = "test_depend" if found.in_testing else "build_depend"
+            reported.add(name)
+            tag = "test_depend" if found_package.in_testing else "build_depend"
             if (
                 name.startswith(("ament_cmake", "rosidl_default_generators"))
-                and not found.in_testing
+                and not found_package.in_testing
             ):
                 tag = "buildtool_depend"
             message = (
@@ -102,4 +102,4 @@ class FoundUndeclared(Rule):
                 f"add <{tag}>{name}</{tag}>"
             )
             fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
-            yield self.report(found, message, fix, cause=f"dependency {name}")
+            yield self.report(found_package, message, fix, cause=f"dependency {name}")

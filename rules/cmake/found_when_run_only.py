@@ -69,19 +69,26 @@ class FoundWhenRunOnly(Rule):
         kinds: dict[str, set[str]] = {}
         for one in manifest.dependencies:
             kinds.setdefault(one.name, set()).add(one.kind)
-        only = {name for name, found in kinds.items() if found == {"exec_depend"}}
+        only = {name for name, item in kinds.items() if item == {"exec_depend"}}
         along = _there(package) if only else set()
-        for found in package.cmake.found_packages:
-            name = found.name
-            if name not in only or name in along or not found.required or found.command.blocks:
+        for found_package in package.cmake.found_packages:
+            name = found_package.name
+            if (
+                name not in only
+                or name in along
+                or not found_package.required
+                or found_package.command.blocks
+            ):
                 continue
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:
                 continue
             only.remove(name)
-            element = next(one for one in manifest.dependencies if one.name == name).element
+            element = next(
+                dependency for dependency in manifest.dependencies if dependency.name == name
+            ).element
             message = (
                 f"<exec_depend> {name!r} is not installed when the package is built, but "
-                f"CMakeLists.txt, line {found.location.line} finds it; add <build_depend>"
+                f"CMakeLists.txt, line {found_package.location.line} finds it; add <build_depend>"
             )
             fix = Fix(f"add a <build_depend> of {name}", (manifest.insert("build_depend", name),))
             yield self.report(element, message, fix)
@@ -90,20 +97,24 @@ class FoundWhenRunOnly(Rule):
 def _there(package: Package) -> set[str]:
     """Return what the dependencies for the build and the tests bring along."""
     manifest = package.manifest
-    found: set[str] = set()
+    result: set[str] = set()
     pending = [
         *manifest.build_names,
         *manifest.test_names,
-        *(one.name for one in manifest.dependencies if one.kind.startswith("buildtool")),
+        *(
+            dependency.name
+            for dependency in manifest.dependencies
+            if dependency.kind.startswith("buildtool")
+        ),
     ]
     while pending:
         name = pending.pop()
-        if name not in found:
-            found.add(name)
+        if name not in result:
+            result.add(name)
             neighbour = package.workspace.get(name)
             try:
                 pending += neighbour.manifest.run_names if neighbour is not None else ()
             except ViewError:
                 continue
     # Whatever has messages brings along what is needed to use them.
-    return found | transitive_dependencies(found) | {"rosidl_default_runtime"}
+    return result | transitive_dependencies(result) | {"rosidl_default_runtime"}

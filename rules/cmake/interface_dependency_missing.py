@@ -81,11 +81,11 @@ def _used(package: Package, call: Generation) -> Iterator[tuple[str, str, int]]:
 
 def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
     """Return the packages that some packages use, themselves included; ``None``: not known."""
-    found = {"service_msgs", "action_msgs", "builtin_interfaces", "unique_identifier_msgs"}
+    result = {"service_msgs", "action_msgs", "builtin_interfaces", "unique_identifier_msgs"}
     pending = [*names]
     while pending:
         package = pending.pop()
-        found.add(package)
+        result.add(package)
         for kind in KINDS:
             known = definitions.names(package, kind)
             if known is None and package in names:
@@ -94,5 +94,5 @@ def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
                 interface = definitions.find(f"{package}/{kind}/{name}")
                 for section in interface.sections if interface else ():
                     uses = {field.type.package for field in section.fields if field.type.package}
-                    pending += [one for one in uses if one not in found and one not in pending]
-    return found
+                    pending += [use for use in uses if use not in result and use not in pending]
+    return result

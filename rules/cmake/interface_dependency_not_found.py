@@ -75,9 +75,9 @@ def _found(cmake: CMakeLists) -> set[str] | None:
     names: set[str] = set()
     for command in cmake.find("find_package"):
         found = cmake.expand_list(command.arguments[:1], command)
-        if not found and not any(one.command is command for one in cmake.found_packages):
+        if not found and not any(package.command is command for package in cmake.found_packages):
             return None
-    names.update(found.name for found in cmake.found_packages)
+    names.update(package.name for package in cmake.found_packages)
     return names
 
 
@@ -101,8 +101,8 @@ def _there(package: Package, found: set[str] | None) -> set[str] | None:
             return None
         pending += _declared(package, name)
         for kind, names in known:
-            for one in names or ():
-                interface = definitions.find(f"{name}/{kind}/{one}")
+            for item in names or ():
+                interface = definitions.find(f"{name}/{kind}/{item}")
                 for section in interface.sections if interface else ():
                     pending += [field.type.package or "" for field in section.fields]
     return there
@@ -115,4 +115,4 @@ def _declared(package: Package, name: str) -> list[str]:
         calls = generations(other) if other is not None else []
     except ViewError:
         return []
-    return [one for call in calls for one in call.dependencies or ()]
+    return [dependency for call in calls for dependency in call.dependencies or ()]

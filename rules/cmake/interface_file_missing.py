@@ -76,7 +76,7 @@ class InterfaceFileMissing(Rule):
                     message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"
                     yield self.report(file.argument, message)
                 elif not package.has(path) and not any(path in values for values in made):
-                    same = [one for one in there if one.lower().endswith(f"/{path.lower()}")]
+                    same = [item for item in there if item.lower().endswith(f"/{path.lower()}")]
                     hint = f"; did you mean {same[0]!r}?" if same else closest_word(path, there)
                     message = f"there is no file {path!r}, so CMake stops{hint}"
                     yield self.report(file.argument, message)

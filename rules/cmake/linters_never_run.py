@@ -44,7 +44,7 @@ class LintersNeverRun(Rule):
             "autoware_package", "ament_auto_package"
         ):
             return
-        for found in cmake.found_packages:
-            if found.name == "ament_lint_auto":
+        for found_package in cmake.found_packages:
+            if found_package.name == "ament_lint_auto":
                 message = "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
-                yield self.report(found, message)
+                yield self.report(found_package, message)

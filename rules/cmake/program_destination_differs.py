@@ -84,7 +84,12 @@ class ProgramDestinationDiffers(Rule):
         if not self._is_node(package, path):
             return False
         module = package.module(path)
-        places = [one for one in package.cmake.installs for item in one.items if item.path == path]
+        places = [
+            install
+            for install in package.cmake.installs
+            for item in install.items
+            if item.path == path
+        ]
         is_node = "rclpy" in module.imports_by_root and module.is_script and module.has_main_guard
         return is_node and not module.in_tests and len(places) == 1
 

@@ -93,12 +93,12 @@ class ProgramInstalledAsFile(Rule):
         """Return the node that a path is, or the first in a directory."""
         paths = [path]
         if kind == "DIRECTORY":
-            paths = [one for one in package.files if one.startswith(f"{path}/")]
-        for one in paths:
-            if one in package.python_files and not one.endswith("__init__.py"):
-                module = package.module(one)
+            paths = [file for file in package.files if file.startswith(f"{path}/")]
+        for item in paths:
+            if item in package.python_files and not item.endswith("__init__.py"):
+                module = package.module(item)
                 if module.is_script and module.has_main_guard:
-                    return one
+                    return item
         return ""
 
     def _fix(self, install: Install) -> Fix | None:

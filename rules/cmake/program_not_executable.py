@@ -61,14 +61,14 @@ class ProgramNotExecutable(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         wanted = f"lib/{cmake.project_name}"
-        told: set[str] = set()
+        reported: set[str] = set()
         for program in programs(package):
             path = program.path
-            if path in told or program.destination != wanted or not package.has(path):
+            if path in reported or program.destination != wanted or not package.has(path):
                 continue
             if any(program.command.has(keyword) for keyword in _COPIED):
                 continue
-            told.add(path)
+            reported.add(path)
             if (
                 package.is_executable(path)
                 or not path.endswith(".py")

@@ -103,11 +103,15 @@ class ProgramNotInstalled(Rule):
         cmake = package.cmake
         if not cmake.find("ament_package") or has_unknown_commands(package):
             return
-        installs = [one for one in cmake.installs if one.kind in {"PROGRAMS", "FILES", "DIRECTORY"}]
-        if any(item.path is None for one in installs for item in one.items):
+        installs = [
+            install
+            for install in cmake.installs
+            if install.kind in {"PROGRAMS", "FILES", "DIRECTORY"}
+        ]
+        if any(item.path is None for install in installs for item in install.items):
             return
         known = {program.path for program in programs(package)}
-        at = next((one.command for one in installs if one.kind == "PROGRAMS"), None)
+        at = next((install.command for install in installs if install.kind == "PROGRAMS"), None)
         used = tuple(f"/{path}" for path in paths_imported_by(package, known))
         for module in package.modules():
             if module.path in known or not is_started(package, module):
@@ -128,5 +132,5 @@ class ProgramNotInstalled(Rule):
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""
-        missing = [one.path for one in programs(package) if not package.has(one.path)]
+        missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))

@@ -53,7 +53,7 @@ class ProjectNameDiffers(Rule):
         if package.build_type == "cmake" or name_used_elsewhere(package):
             return
         projects = [call.arguments[0] for call in package.cmake.find("project") if call.arguments]
-        if any(package.cmake.expand(one) == name for one in projects):
+        if any(package.cmake.expand(project) == name for project in projects):
             return  # the others are for other ways to build it
         line = package.manifest.all("name")[0].location.line
         message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"

@@ -39,14 +39,16 @@ class PythonPackageFound(Rule):
             "pure Python",
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
             Report(
-                "2:14", "'launch_ros' is a pure Python package without CMake files: CMake stops"
+                "2:14",
+                "'launch_ros' is a pure Python package without CMake files: CMake stops",
             ),
         ),
         Example(
             "a key of rosdep",
             {"CMakeLists.txt": _LISTS.format("python3-numpy")},
             Report(
-                "2:14", "'python3-numpy' is a pure Python package without CMake files: CMake stops"
+                "2:14",
+                "'python3-numpy' is a pure Python package without CMake files: CMake stops",
             ),
         ),
         Example(
@@ -57,13 +59,11 @@ class PythonPackageFound(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for found in package.cmake.found_packages:
-            if not found.required or package.workspace.get(found.name) is not None:
+        for call in package.cmake.found_packages:
+            if not call.required or package.workspace.get(call.name) is not None:
                 continue
-            if found.name.startswith(("python3-", "python-")) or found.name in _PURE:
-                message = (
-                    f"{found.name!r} is a pure Python package without CMake files: CMake stops"
-                )
-                yield self.report(found, message)
-            elif found.name == "catkin" and found.command.depth == 0 and uses_ament(package):
-                yield self.report(found, "'catkin' belongs to ROS 1: CMake stops; use ament_cmake")
+            if call.name.startswith(("python3-", "python-")) or call.name in _PURE:
+                message = f"{call.name!r} is a pure Python package without CMake files: CMake stops"
+                yield self.report(call, message)
+            elif call.name == "catkin" and call.command.depth == 0 and uses_ament(package):
+                yield self.report(call, "'catkin' belongs to ROS 1: CMake stops; use ament_cmake")

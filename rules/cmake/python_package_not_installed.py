@@ -62,10 +62,10 @@ class PythonPackageNotInstalled(Rule):
             return
         user = next(
             (
-                one.location
+                item.location
                 for module in package.modules()
-                for one in module.imports
-                if one.root == name and not module.in_tests
+                for item in module.imports
+                if item.root == name and not module.in_tests
             ),
             None,
         )

@@ -66,8 +66,8 @@ class SharePatternEmpty(Rule):
                 continue
             for item in install.items:
                 path = item.path or ""
-                files = [one for one in package.files if path and one.startswith(f"{path}/")]
-                if files and not any(_is_taken(install, one) for one in files):
+                files = [file for file in package.files if path and file.startswith(f"{path}/")]
+                if files and not any(_is_taken(install, file) for file in files):
                     message = f"the patterns match no file of {path}/, for instance {files[0]}"
                     yield self.report(item, message)
 

@@ -40,8 +40,8 @@ class TargetNotInstalled(Rule):
         cmake = package.cmake
         if not cmake.find("ament_package") or has_unknown_commands(package):
             return
-        targets = [one for one in cmake.installs if one.kind == "TARGETS"]
-        installed = {item.value for one in targets for item in one.items}
+        targets = [install for install in cmake.installs if install.kind == "TARGETS"]
+        installed = {item.value for target in targets for item in target.items}
         # Nothing of an application is left out by mistake if nothing at all is installed.
         if not installed or None in installed:
             return

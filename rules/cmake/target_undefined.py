@@ -73,10 +73,10 @@ class TargetUndefined(Rule):
             near = closest_name(package, target, known, 0.75)
             hint = f"; closest: {near!r}" if near else ": CMake stops"
             yield self.report(argument, f"nothing defines the target {target!r}{hint}")
-        told = {target for target, _ in never_named}
+        reported = {target for target, _ in never_named}
         for command in cmake.find(*TAKING_TARGETS):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
-            if name is None or name in defined | told or "::" in name or command.blocks:
+            if name is None or name in defined | reported or "::" in name or command.blocks:
                 continue
             near = closest_name(package, name, known, 0.75)
             if near:

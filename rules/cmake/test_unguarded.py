@@ -80,14 +80,19 @@ class TestUnguarded(Rule):
         yield from self._check_tests(package)
         manifest = package.manifest
         others = manifest.build_names | manifest.run_names | manifest.build_export_names
-        for found in package.cmake.found_packages:
-            name = found.name
+        for found_package in package.cmake.found_packages:
+            name = found_package.name
             only_tests = name in manifest.test_names or name in TEST_PACKAGES
-            if found.in_testing or not found.required or not only_tests or name in others:
+            if (
+                found_package.in_testing
+                or not found_package.required
+                or not only_tests
+                or name in others
+            ):
                 continue
-            if not package.cmake.commands[found.command.index].blocks:
+            if not package.cmake.commands[found_package.command.index].blocks:
                 message = f"{name!r} is a test dependency, but found outside of if(BUILD_TESTING)"
-                yield self.report(found, message)
+                yield self.report(found_package, message)
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         for command in package.cmake.find(*COMMANDS):

@@ -56,7 +56,7 @@ class TestingConditionUnset(Rule):
             name = argument.value
             if "TEST" not in name.upper() or name == "BUILD_TESTING" or not name.isidentifier():
                 continue
-            if any(name in one.values for one in cmake.commands if one is not condition):
+            if any(name in item.values for item in cmake.commands if item is not condition):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
             message = f"nothing sets {name}, so the tests below never run; closest: BUILD_TESTING"

@@ -65,22 +65,22 @@ class CircularImport(Rule):
                 )
                 yield self.report(one, message)
 
-    def _takes_names(self, package: Package, one: Import, path: str) -> bool:
+    def _takes_names(self, package: Package, node: Import, path: str) -> bool:
         """Tell whether an import takes what the module makes after its own imports."""
         module = package.module(path)
         last = max((other.location.line for other in module.imports if other.top_level), default=0)
         lines = [
             getattr(binding.node, "lineno", 0)
-            for name in one.names
+            for name in node.names
             for binding in module.index.bindings(module.tree).get(name.name, ())
             if binding.kind != "import"
         ]
         return any(line > last for line in lines)
 
 
-def _file_of(package: Package, module: PythonModule, one: Import) -> str:
-    parts = one.module.split(".") if one.module else []
-    if one.level:
-        parts = [*module.path.split("/")[: -one.level], *parts]
+def _file_of(package: Package, module: PythonModule, node: Import) -> str:
+    parts = node.module.split(".") if node.module else []
+    if node.level:
+        parts = [*module.path.split("/")[: -node.level], *parts]
     base = "/".join(parts)
     return next((path for path in (f"{base}.py", f"{base}/__init__.py") if package.has(path)), "")

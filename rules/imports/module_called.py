@@ -40,7 +40,7 @@ class ModuleCalled(PythonRule):
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
-        if not any(one in module.imports_by_root for one in _MODULES):
+        if not any(item in module.imports_by_root for item in _MODULES):
             return
         for call in module.walk(ast.Call):
             name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None

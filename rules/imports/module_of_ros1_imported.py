@@ -49,6 +49,10 @@ class ModuleOfRos1Imported(Rule):
             if "rclpy" not in module.imports_by_root or module.in_tests:
                 continue
             for root, new in _NEW.items():
-                for one in module.imports_by_root.get(root, ()):
-                    if not one.guarded and not one.conditional and not package.has_directory(root):
-                        yield self.report(one, f"{root!r} belongs to ROS 1; use {new}")
+                for item in module.imports_by_root.get(root, ()):
+                    if (
+                        not item.guarded
+                        and not item.conditional
+                        and not package.has_directory(root)
+                    ):
+                        yield self.report(item, f"{root!r} belongs to ROS 1; use {new}")

@@ -85,38 +85,38 @@ class OwnImportMissing(Rule):
             return  # modules of the package are generated
         roots = own_roots(package)
         for module in package.modules():
-            for one in module.imports if module.path != "setup.py" else ():
-                if not (one.guarded or one.conditional or one.type_checking):
-                    yield from self._check(package, module, one, roots)
+            for item in module.imports if module.path != "setup.py" else ():
+                if not (item.guarded or item.conditional or item.type_checking):
+                    yield from self._check(package, module, item, roots)
 
     def _check(
-        self, package: Package, module: PythonModule, one: Import, roots: set[str]
+        self, package: Package, module: PythonModule, node: Import, roots: set[str]
     ) -> Iterator[Diagnostic]:
-        name = absolute_name(module, one)
+        name = absolute_name(module, node)
         root = name.partition(".")[0]
         path = file_of(package, name)
         if root in roots and path:
-            yield from self._check_names(package, one, name, path)
+            yield from self._check_names(package, node, name, path)
         elif root in roots:
             if not may_be_made(package, name):
-                modules = [one for one in modules_of(package, root) if "__init__" not in one]
+                modules = [item for item in modules_of(package, root) if "__init__" not in item]
                 near = closest_name(package, name, modules, 0.6)
                 hint = f"; closest: {near!r}" if near else ""
-                yield self.report(one, f"the package has no module {name!r}{hint}")
-        elif not one.level:
+                yield self.report(node, f"the package has no module {name!r}{hint}")
+        elif not node.level:
             meant = meant_module(package, module, name)
             if meant:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
-                yield self.report(one, f"{message}; closest: {meant!r}")
+                yield self.report(node, f"{message}; closest: {meant!r}")
 
     def _check_names(
-        self, package: Package, one: Import, name: str, path: str
+        self, package: Package, node: Import, name: str, path: str
     ) -> Iterator[Diagnostic]:
         try:
             module = package.module(path)
         except ViewError:
             return
-        for imported in one.names:
+        for imported in node.names:
             if imported.name == "*" or module.defines(imported.name) is not False:
                 continue
             below = f"{name}.{imported.name}"

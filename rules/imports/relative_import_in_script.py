@@ -41,16 +41,16 @@ class RelativeImportInScript(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in sorted({one.path for one in programs(package)}):
+        for path in sorted({program.path for program in programs(package)}):
             if path not in package.python_files:
                 continue
             try:
                 module = package.module(path)
             except ViewError:
                 continue
-            for one in module.imports:
-                if one.level and not one.guarded and not one.conditional:
+            for item in module.imports:
+                if item.level and not item.guarded and not item.conditional:
                     message = (
                         "installed as a program, it has no package to import from: ImportError"
                     )
-                    yield self.report(one, message)
+                    yield self.report(item, message)

@@ -58,8 +58,8 @@ class ActionNotLaunchedOnce(LaunchRule):
         items: dict[ast.expr, Entity] = {item.node: item for item in entities(launch)}
         for name, made, loads in _nodes(launch):
             places = [items[load] for load in loads if load in items]
-            listed = [one for one in places if one.holder == "LaunchDescription"]
-            again = [*(one for one in places if one.holder in HANDLERS), *listed[1:]]
+            listed = [place for place in places if place.holder == "LaunchDescription"]
+            again = [*(place for place in places if place.holder in HANDLERS), *listed[1:]]
             for one in again if listed else ():
                 if not _repeats(launch, one.node):
                     message = f"{name} is launched twice: here, and in the LaunchDescription"

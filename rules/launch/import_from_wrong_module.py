@@ -85,25 +85,25 @@ class ImportFromWrongModule(Rule):
             return
         for module in package.modules():
             for root in roots:
-                for one in module.imports_by_root.get(root, ()):
-                    if not one.guarded and not one.conditional:
-                        yield from self._check(one, known, places)
+                for item in module.imports_by_root.get(root, ()):
+                    if not item.guarded and not item.conditional:
+                        yield from self._check(item, known, places)
 
     def _check(
-        self, one: Import, known: Mapping[str, frozenset[str]], places: Mapping[str, str]
+        self, node: Import, known: Mapping[str, frozenset[str]], places: Mapping[str, str]
     ) -> Iterator[Diagnostic]:
-        near = f"{one.module}s"
-        if one.module not in known and near in known and one.root != "launch":
-            yield self.report(one, f"no module {one.module!r}; closest: {near!r}")
-        for name in one.names if one.module in known else ():
-            if name.name in known[one.module] or name.name == "*":
+        near = f"{node.module}s"
+        if node.module not in known and near in known and node.root != "launch":
+            yield self.report(node, f"no module {node.module!r}; closest: {near!r}")
+        for name in node.names if node.module in known else ():
+            if name.name in known[node.module] or name.name == "*":
                 continue
             place = places.get(name.name)
-            alike = get_close_matches(name.name, known[one.module], 1, 0.85)
+            alike = get_close_matches(name.name, known[node.module], 1, 0.85)
             if place is None and alike and alike[0].lower() != name.name.lower():
                 hint = f"closest: {alike[0]!r}"
-            elif place is not None and place.count(".") >= one.module.count("."):
+            elif place is not None and place.count(".") >= node.module.count("."):
                 hint = f"{place} has"
             else:
                 continue
-            yield self.report(name, f"{one.module} has no {name.name!r}; {hint}")
+            yield self.report(name, f"{node.module} has no {name.name!r}; {hint}")

@@ -99,7 +99,7 @@ def _shape_problem(node: ast.expr) -> str:
         case ast.Attribute(value=ast.Dict(), attr="items"):
             return "items is not called: write .items()"
         case ast.List(elts=items) | ast.Tuple(elts=items):
-            if any(isinstance(one, ast.Constant | ast.JoinedStr) for one in items):
+            if any(isinstance(item, ast.Constant | ast.JoinedStr) for item in items):
                 return f"these are not pairs: {_PAIRS}"
     return ""
 
@@ -111,7 +111,7 @@ def _value_problem(launch: LaunchFile, node: ast.expr) -> str:
     if type(value) in {bool, int, float}:
         return f"{value!r}, which is not a string"
     if isinstance(node, ast.List) and any(
-        isinstance(one, ast.Constant) and type(one.value) in {bool, int, float} for one in node.elts
+        isinstance(elt, ast.Constant) and type(elt.value) in {bool, int, float} for elt in node.elts
     ):
         return "a list with a number, which launch cannot join"
     return ""

@@ -73,11 +73,11 @@ class LaunchDescriptionNotReturned(LaunchRule):
         self, launch: LaunchFile, node: ast.FunctionDef, at: Location
     ) -> Iterator[Diagnostic]:
         found, reaches_end = returns(node)
-        for one in found:
-            what = _wrong(launch, one.value)
+        for item in found:
+            what = _wrong(launch, item.value)
             if what:
                 message = f"generate_launch_description returns {what}, not a LaunchDescription"
-                yield self.report(launch.location(one), message)
+                yield self.report(launch.location(item), message)
         if not reaches_end:
             return
         last = node.body[-1]

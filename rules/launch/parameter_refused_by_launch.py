@@ -68,7 +68,9 @@ def _problem(node: ast.expr) -> str:
         case ast.List(elts=[]) | ast.Tuple(elts=[]):
             return "is an empty list, whose type is unknown"
         case ast.List(elts=items) | ast.Tuple(elts=items):
-            kinds = {type(one.value) if isinstance(one, ast.Constant) else object for one in items}
+            kinds = {
+                type(item.value) if isinstance(item, ast.Constant) else object for item in items
+            }
             if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
                 return "mixes types in a list"
     return ""

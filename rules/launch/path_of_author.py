@@ -71,8 +71,8 @@ class PathOfAuthor(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for at, text in _texts(package):
-            found = re.match(_HOME, text)
-            if found:
+            matched = re.match(_HOME, text)
+            if matched:
                 message = f"{text!r} exists on one machine only; build it from the share directory"
                 yield self.report(at, message)
         for node in consumers(package):

@@ -71,9 +71,9 @@ def _problem(node: ast.expr) -> str:
             "this is one pair: remappings are a list of pairs, [('from', 'to')]" if is_pair else ""
         )
     if isinstance(node, ast.List):
-        for one in node.elts:
-            if isinstance(one, ast.Constant) and isinstance(one.value, str):
-                return f"{one.value!r} is not a pair ('from', 'to')"
-            if isinstance(one, ast.Tuple) and len(one.elts) != 2:  # noqa: PLR2004  from and to
-                return f"a remapping is a pair, and this has {len(one.elts)} parts"
+        for elt in node.elts:
+            if isinstance(elt, ast.Constant) and isinstance(elt.value, str):
+                return f"{elt.value!r} is not a pair ('from', 'to')"
+            if isinstance(elt, ast.Tuple) and len(elt.elts) != 2:  # noqa: PLR2004  from and to
+                return f"a remapping is a pair, and this has {len(elt.elts)} parts"
     return ""

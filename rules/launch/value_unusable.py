@@ -93,7 +93,7 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
     elif call.kind not in NODES:
         return ""
     elif name in {"arguments", "ros_arguments"} and isinstance(node, ast.List | ast.Tuple):
-        numbers = [one for one in node.elts if _is_number(one)]
+        numbers = [elt for elt in node.elts if _is_number(elt)]
         problem = f"an argument must be a string: write {_text(numbers[0])!r}" if numbers else ""
     elif name == "output" and isinstance(value, str) and value not in _OUTPUTS:
         problem = f"unknown output {value!r}; choose from {', '.join(sorted(_OUTPUTS))}"
@@ -129,7 +129,7 @@ def _condition_problem(launch: LaunchFile, node: ast.expr, value: object) -> str
 
 
 def _parameter_problem(node: ast.List) -> str:
-    for one in node.elts:
-        if isinstance(one, ast.Tuple | ast.List):
+    for elt in node.elts:
+        if isinstance(elt, ast.Tuple | ast.List):
             return "parameters must be files or dictionaries {'name': value}, not lists or pairs"
     return ""

@@ -58,10 +58,10 @@ class ChangelogWithoutVersion(Rule):
         version = elements[0].text.strip()
         sections: list[tuple[int, str]] = []
         for number, (line, below) in enumerate(pairwise(source.lines), 1):
-            found = re.fullmatch(_HEADING, line.strip(), re.IGNORECASE)
-            if found is not None and re.fullmatch(r"([-=~^\"'])\1{2,}\s*", below):
-                sections.append((number, found[1]))
-        if sections and all(one != version for _, one in sections):
+            matched = re.fullmatch(_HEADING, line.strip(), re.IGNORECASE)
+            if matched is not None and re.fullmatch(r"([-=~^\"'])\1{2,}\s*", below):
+                sections.append((number, matched[1]))
+        if sections and all(item != version for _, item in sections):
             message = (
                 f"no section for {version}, the version in package.xml, line "
                 f"{elements[0].location.line}; the newest is {sections[0][1]}"

@@ -61,5 +61,7 @@ def _is_built(package: Package, directory: str) -> bool:
         commands = package.cmake.find("add_subdirectory", "set", "include", "include_directories")
     except ViewError:
         return False
-    values = {value.rpartition("}/")[2].strip("/") for one in commands for value in one.values}
+    values = {
+        value.rpartition("}/")[2].strip("/") for command in commands for value in command.values
+    }
     return any(f"{directory}/".startswith(f"{value}/") for value in values - {"", "."})

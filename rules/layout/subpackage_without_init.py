@@ -59,15 +59,19 @@ class SubpackageWithoutInit(Rule):
         packages = package.setup_py.packages
         if package.build_type != "ament_python" or packages is UNKNOWN:
             return
-        told: set[str] = set()
+        reported: set[str] = set()
         for module in package.modules():
-            for one in module.imports:
-                for directory in _directories(package, module.path, one):
+            for item in module.imports:
+                for directory in _directories(package, module.path, item):
                     init = f"{directory}/__init__.py"
-                    if init in told or package.has(init) or self._is_listed(packages, directory):
+                    if (
+                        init in reported
+                        or package.has(init)
+                        or self._is_listed(packages, directory)
+                    ):
                         continue
-                    told.add(init)
-                    at = one.location
+                    reported.add(init)
+                    at = item.location
                     message = (
                         f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
                         "installed without it"
@@ -81,20 +85,20 @@ class SubpackageWithoutInit(Rule):
         return isinstance(packages, list | tuple) and directory.replace("/", ".") in packages
 
 
-def _directories(package: Package, path: str, one: Import) -> Iterator[str]:
+def _directories(package: Package, path: str, node: Import) -> Iterator[str]:
     """Yield the directories below an import package that an import goes through."""
-    if one.level:
-        base = path.split("/")[: -one.level]
-        parts = [*base, *(one.module.split(".") if one.module else ())]
+    if node.level:
+        base = path.split("/")[: -node.level]
+        parts = [*base, *(node.module.split(".") if node.module else ())]
     else:
-        parts = one.module.split(".")
+        parts = node.module.split(".")
     if not parts or parts[0] in _TESTS or not package.has(f"{parts[0]}/__init__.py"):
         return
     for depth in range(2, len(parts) + 1):
         directory = "/".join(parts[:depth])
         if package.glob(f"{directory}/*.py") and not package.has(f"{directory}.py"):
             yield directory
-    for name in one.names:
+    for name in node.names:
         directory = "/".join([*parts, name.name])
         if package.glob(f"{directory}/*.py"):
             yield directory

@@ -110,7 +110,9 @@ def _is_known(package: Package, name: str) -> bool:
         return True
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     marker = os.path.join("share/ament_index/resource_index/packages", name)
-    return any(package.outside.is_file(os.path.join(one, marker)) for one in prefixes if one)
+    return any(
+        package.outside.is_file(os.path.join(prefix, marker)) for prefix in prefixes if prefix
+    )
 
 
 def _hint(package: Package, name: str) -> str:

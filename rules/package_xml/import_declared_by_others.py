@@ -55,11 +55,15 @@ class ImportDeclaredByOthers(Rule):
             along = [key for key in need.keys if key in there.along]
             if not along or not manifest.dependencies:
                 continue
-            if any(similar_package(one) == along[0] for one in there.direct):
+            if any(similar_package(item) == along[0] for item in there.direct):
                 continue  # misspelled, as another rule says
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
             by = next(
-                (one for one in sorted(there.direct) if along[0] in transitive_dependencies({one})),
+                (
+                    item
+                    for item in sorted(there.direct)
+                    if along[0] in transitive_dependencies({item})
+                ),
                 "",
             )
             message = (

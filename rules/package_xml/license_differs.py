@@ -80,6 +80,6 @@ def _family(name: str) -> str:
     text = name.lower()
     if " or " in text or " and " in text or "/" in text or "," in text:
         return ""
-    return next((one for one in ("apache", "lgpl", "gpl", "bsd", "mpl") if one in text), "") or (
+    return next((item for item in ("apache", "lgpl", "gpl", "bsd", "mpl") if item in text), "") or (
         "mit" if text.startswith("mit") else ""
     )

@@ -99,10 +99,12 @@ def _problem(data: DataFile, share: str) -> str:
         return ""
     if target.startswith("/"):
         return f"installs to {target}: an absolute path leaves the workspace; write {share}/..."
-    sources = [one.pattern if isinstance(one, Glob) else str(one) for one in data.sources]
+    sources = [
+        source.pattern if isinstance(source, Glob) else str(source) for source in data.sources
+    ]
     is_data = bool(sources) and all(
-        one == "package.xml" or one.startswith(tuple(f"{name}/" for name in _DIRECTORIES))
-        for one in sources
+        source == "package.xml" or source.startswith(tuple(f"{name}/" for name in _DIRECTORIES))
+        for source in sources
     )
     if is_data and target.rstrip("/") != share and not target.startswith(f"{share}/"):
         return f"installs {sources[0]} to {target}; ROS 2 looks in {share}/"

@@ -100,8 +100,8 @@ class DataFileMissing(Rule):
         ending = name.replace("*", "")
         if not any(ending[-3:] == path[-3:] for path in beside):
             return None
-        sources = [one for data in package.setup_py.data_files for one in data.sources]
-        globs = [one for one in sources if isinstance(one, Glob)]
-        if {path for one in globs for path in matches(one, package.files)}.issuperset(beside):
+        sources = [source for data in package.setup_py.data_files for source in data.sources]
+        globs = [source for source in sources if isinstance(source, Glob)]
+        if {path for glob in globs for path in matches(glob, package.files)}.issuperset(beside):
             return None  # other lines install them
         return f"the pattern {pattern.pattern} matches no file; closest: {beside[0]}"

@@ -113,7 +113,7 @@ class EntryPointUnusable(Rule):
 
 def _file_of(package: Package, name: str) -> str:
     base = name.replace(".", "/")
-    return next((one for one in (f"{base}.py", f"{base}/__init__.py") if package.has(one)), "")
+    return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
 
 
 def _meant(package: Package, name: str) -> str:
@@ -123,7 +123,7 @@ def _meant(package: Package, name: str) -> str:
         return ""
     for root in package.glob("*/__init__.py"):
         own = root.partition("/")[0]
-        for one in (f"{own}.{name}", f"{own}.{rest}" if rest else ""):
-            if one and _file_of(package, one):
-                return one
+        for item in (f"{own}.{name}", f"{own}.{rest}" if rest else ""):
+            if item and _file_of(package, item):
+                return item
     return ""

@@ -66,7 +66,7 @@ class MetadataDiffers(Rule):
                 continue
             if is_placeholder(wanted[0]) or is_placeholder_address(wanted[0]):
                 continue
-            if _normal(keyword.value) in {_normal(one) for one in wanted}:
+            if _normal(keyword.value) in {_normal(item) for item in wanted}:
                 continue
             if name == "license" and _means_one_of(keyword.value, wanted):
                 continue
@@ -102,7 +102,7 @@ def _or_all(values: list[str]) -> list[str]:
 def _means_one_of(license_: str, wanted: list[str]) -> bool:
     """Tell whether two spellings stand for the same license."""
     meant = set(spdx_of(license_))
-    return any(not meant.isdisjoint(spdx_of(one)) for one in wanted)
+    return any(not meant.isdisjoint(spdx_of(item)) for item in wanted)
 
 
 def _normal(text: str) -> str:

@@ -90,7 +90,7 @@ class ModuleNotPacked(Rule):
             return
         keyword = setup.keyword("packages")
         packages = setup.packages
-        roots = {one.module.partition(".")[0] for one in setup.console_scripts} - {""}
+        roots = {script.module.partition(".")[0] for script in setup.console_scripts} - {""}
         if isinstance(packages, FindPackages):
             yield from self._check_found(package, setup, packages, roots)
             return
@@ -104,7 +104,7 @@ class ModuleNotPacked(Rule):
                     f"packages names {name!r}, but there is no such directory: the build stops"
                 )
                 yield self.report(at, message)
-        for root in sorted(roots - {one.partition(".")[0] for one in names or ()}):
+        for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
                 message = f"packages leaves out {root!r}, which the entry points start"
                 yield self.report(at, message)

@@ -79,7 +79,7 @@ class NodeWithoutEntryPoint(Rule):
             if copied.issuperset(node.name for node in facts.classes) or not _is_module(name):
                 continue
             root = module.path.partition("/")[0]
-            if module.path.count("/") == 1 and root in {one.partition(".")[0] for one in started}:
+            if module.path.count("/") == 1 and root in {item.partition(".")[0] for item in started}:
                 stem = module.path.rpartition("/")[2].removesuffix(".py")
                 message = (
                     f"{module.path} is a node with a main function, but no entry point starts it; "
@@ -112,7 +112,7 @@ def _is_complete(package: Package, setup: SetupPy) -> bool:
     if not setup.entry_points_complete or setup.has_unknown_keywords or setup.keyword("scripts"):
         return False
     if package.build_type != "ament_python" or any(
-        one.malformed or one.joined for one in setup.entry_points
+        point.malformed or point.joined for point in setup.entry_points
     ):
         return False
     return not any(str(data.destination).startswith("lib") for data in setup.data_files)

@@ -43,7 +43,7 @@ class ReadFileMissing(Rule):
         for call in module.walk(ast.Call):
             if module.qualified_name(call.func) not in {"open", "io.open", "codecs.open"}:
                 continue
-            modes = [one.value for one in call.args[1:] if isinstance(one, ast.Constant)]
+            modes = [arg.value for arg in call.args[1:] if isinstance(arg, ast.Constant)]
             name = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
             is_optional = any(
                 isinstance(parent, ast.Try | ast.If) for parent in module.parents(call)

@@ -90,12 +90,12 @@ class TestsNotRun(Rule):
             return True
         # A list without pytest is as good as none: colcon looks for that very name.
         given = [extras.value[name] for name in EXTRAS if name in extras.value]
-        return any(not isinstance(one, list) or _names_pytest(one) for one in given)
+        return any(not isinstance(item, list) or _names_pytest(item) for item in given)
 
     def _text(self, package: Package, path: str) -> str:
         return package.source(path).text if package.has(path) else ""
 
 
 def _names_pytest(requirements: list[object]) -> bool:
-    known = [one for one in requirements if isinstance(one, str)]
-    return len(known) < len(requirements) or any(one.startswith("pytest") for one in known)
+    known = [requirement for requirement in requirements if isinstance(requirement, str)]
+    return len(known) < len(requirements) or any(item.startswith("pytest") for item in known)

@@ -106,7 +106,7 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
         case ast.Expr(value=value):
             problem = _statement_problem(module, value)
         case ast.Try(body=body, handlers=handlers) if any(
-            isinstance(one, ast.Assert) for one in body
+            isinstance(item, ast.Assert) for item in body
         ):
             for handler in handlers:
                 if _drops(module, handler):
@@ -138,7 +138,7 @@ def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
     """Tell whether a handler catches an AssertionError and does nothing."""
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     names = {module.qualified_name(kind) if kind is not None else "Exception" for kind in kinds}
-    nothing = all(isinstance(one, ast.Pass | ast.Continue) for one in handler.body)
+    nothing = all(isinstance(item, ast.Pass | ast.Continue) for item in handler.body)
     return nothing and not names.isdisjoint({"Exception", "BaseException", "AssertionError"})
 
 

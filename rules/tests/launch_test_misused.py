@@ -87,7 +87,7 @@ class LaunchTestMisused(Rule):
             for problem in _problems(package, module):
                 yield self.report(function, problem)
             for class_ in module.classes.values():
-                has_tests = any(one.name.startswith("test") for one in methods(class_.node))
+                has_tests = any(method.name.startswith("test") for method in methods(class_.node))
                 plain = not class_.node.bases or module.qualified_names(class_.node.bases[0]) == {
                     "object"
                 }
@@ -99,7 +99,7 @@ class LaunchTestMisused(Rule):
 def _problems(package: Package, module: PythonModule) -> Iterator[str]:
     """Yield what is wrong about the function that describes the launch."""
     node = module.functions[LAUNCH].node
-    arguments = {one.arg for one in node.args.args}
+    arguments = {arg.arg for arg in node.args.args}
     if not is_generator(node) and not returned(node) and may_end(node):
         yield f"{LAUNCH} returns nothing: launch_testing needs a LaunchDescription"
     elif not (

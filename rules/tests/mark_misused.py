@@ -107,7 +107,7 @@ def _mark_problem(module: PythonModule, name: str, decorator: ast.expr) -> str:
 
 def _parametrize_problem(module: PythonModule, call: ast.Call) -> str:
     words = keywords(call)
-    if any(isinstance(one, ast.Starred) for one in call.args):
+    if any(isinstance(arg, ast.Starred) for arg in call.args):
         return ""
     names = call.args[0] if call.args else words.get("argnames")
     values = call.args[1] if len(call.args) > 1 else words.get("argvalues")

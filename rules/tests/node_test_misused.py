@@ -100,8 +100,8 @@ def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
     """Tell whether the callback collects messages that the test asserts to be there."""
     match call.args:
         case [_, _, ast.Attribute(value=ast.Name(id=name), attr="append"), *_]:
-            wanted = (one.test for one in ast.walk(test.node) if isinstance(one, ast.Assert))
-            return any(isinstance(one, ast.Name) and one.id == name for one in wanted)
+            wanted = (item.test for item in ast.walk(test.node) if isinstance(item, ast.Assert))
+            return any(isinstance(item, ast.Name) and item.id == name for item in wanted)
     return False
 
 

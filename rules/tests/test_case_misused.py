@@ -121,7 +121,7 @@ def _plain(method: FunctionNode) -> str:
 def _case_problem(module: PythonModule, method: FunctionNode) -> str:
     """Return what is wrong about a method of a TestCase."""
     name, given = method.name, arguments(method)
-    decorated = {module.qualified_name(one) for one in method.decorator_list}
+    decorated = {module.qualified_name(item) for item in method.decorator_list}
     static, launched = "staticmethod" in decorated, LAUNCH in module.functions
     problem = ""
     for right in _SET_UP:

@@ -55,7 +55,7 @@ class TestFileNotCollected(Rule):
                 functions = package.module(path).functions
             except ViewError:
                 continue
-            tests = [one for one in functions if one.startswith("test_")]
+            tests = [function for function in functions if function.startswith("test_")]
             if tests:
                 message = f"{tests[0]}() never runs: pytest collects test_*.py and *_test.py only"
                 yield self.report(package.start_of(path), message)

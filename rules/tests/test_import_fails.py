@@ -68,22 +68,22 @@ class TestImportFails(Rule):
         for module in test_modules(package):
             directory = module.path.rpartition("/")[0]
             if directory in {"test", "tests"}:
-                for one in module.imports:
-                    problem = _problem(package, module, directory, one)
-                    if problem and not (one.guarded or one.conditional or one.in_function):
-                        yield self.report(one, problem)
+                for item in module.imports:
+                    problem = _problem(package, module, directory, item)
+                    if problem and not (item.guarded or item.conditional or item.in_function):
+                        yield self.report(item, problem)
 
 
-def _problem(package: Package, module: PythonModule, directory: str, one: Import) -> str:
+def _problem(package: Package, module: PythonModule, directory: str, node: Import) -> str:
     is_package = package.has(f"{directory}/__init__.py")
-    if one.level == 1 and not is_package:
+    if node.level == 1 and not is_package:
         return f"a relative import fails: {directory}/ has no __init__.py"
-    first, _, rest = one.module.partition(".")
-    helper = rest.partition(".")[0] or (one.names[0].name if one.names else "")
-    if one.level == 0 and first == "test" == directory and not is_package:
+    first, _, rest = node.module.partition(".")
+    helper = rest.partition(".")[0] or (node.names[0].name if node.names else "")
+    if node.level == 0 and first == "test" == directory and not is_package:
         if package.has(f"test/{helper}.py"):
             return f"test is a package of Python itself: write `from {helper} import ...`"
-    elif one.level == 0 and is_package and package.has(f"{directory}/{first}.py"):
+    elif node.level == 0 and is_package and package.has(f"{directory}/{first}.py"):
         is_elsewhere = package.has(f"{first}.py") or package.has(f"{first}/__init__.py")
         if not is_elsewhere and first != module.path.rpartition("/")[2][:-3]:
             return f"{directory}/ is a package: write `from .{first} import ...`"

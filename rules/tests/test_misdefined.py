@@ -94,8 +94,8 @@ class TestMisdefined(Rule):
 def _taken(module: PythonModule) -> Iterator[str]:
     """Yield the names of all arguments in a file: a fixture may take what a test does not."""
     for arguments in module.walk(ast.arguments):
-        for one in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]:
-            yield one.arg
+        for posonlyarg in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]:
+            yield posonlyarg.arg
 
 
 def _lacks_self(module: PythonModule, function: FunctionNode) -> bool:

@@ -115,7 +115,7 @@ class TestNeverRun(Rule):
             if is_named_elsewhere(package, class_.name) or class_.node.decorator_list:
                 continue
             own = methods(class_.node)
-            tests = [one for one in own if one.name.startswith("test")]
+            tests = [item for item in own if item.name.startswith("test")]
             is_case = is_test_case(module, class_.node)
             if not (class_.name.startswith("Test") or class_.node.bases) and tests:
                 message = f"pytest does not run {class_.name}: its name does not begin with Test"
@@ -148,7 +148,7 @@ def _states(method: FunctionNode) -> bool:
 
 def _asserts(function: FunctionNode, known: set[str]) -> bool:
     """Tell whether a function could be a test: it asserts, and pytest has its arguments."""
-    name, arguments = function.name, {one.arg for one in function.args.args}
+    name, arguments = function.name, {arg.arg for arg in function.args.args}
     if name.startswith(("test", "_", "pytest_", "setup", "teardown")) or not arguments <= known:
         return False
     return any(isinstance(node, ast.Assert) for node in function.body)

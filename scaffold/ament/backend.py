@@ -76,9 +76,9 @@ class StyleCheck:
         self._cache = Cache.of_user(_identity)
         self._files = {id(package): self._read(package) for package in packages}
         self._keep = list(packages)
-        wanted = [one for files in self._files.values() for one in files if one.findings is None]
+        wanted = [file for files in self._files.values() for file in files if file.findings is None]
         if wanted:
-            self._run = ruff.Run([one.on_disk for one in wanted])
+            self._run = ruff.Run([item.on_disk for item in wanted])
         self._said: Mapping[str, list[RuffDiagnostic]] | None = None
 
     def diagnostics(self, package: Package) -> list[Diagnostic]:
@@ -87,7 +87,7 @@ class StyleCheck:
         Raises:
             EnvironmentMissingError: ruff does not run.
         """
-        return [one for found in self.by_file(package).values() for one in found]
+        return [item for found in self.by_file(package).values() for item in found]
 
     def by_file(self, package: Package) -> dict[str, list[Diagnostic]]:
         """Return the same by path; raises like `diagnostics`."""
@@ -97,10 +97,10 @@ class StyleCheck:
             package.is_repeatable &= not file.ran_out_of_time
             found = by_file[file.path] = list[Diagnostic]()
             counts: dict[str, int] = {}
-            for one in findings:
-                counts[one.code] = count = counts.get(one.code, 0) + 1
+            for finding in findings:
+                counts[finding.code] = count = counts.get(finding.code, 0) + 1
                 if count <= MAX_FINDINGS + 1:
-                    found.append(_diagnostic(package, file.path, one))
+                    found.append(_diagnostic(package, file.path, finding))
         return by_file
 
     def _findings(self, file: _File, package: Package) -> list[Finding]:

@@ -53,7 +53,7 @@ def headers(package: Package) -> list[Header]:
 
 
 def _headers(package: Package) -> list[Header]:
-    found: list[Header] = []
+    result: list[Header] = []
     for path in lintable(package):
         if os.path.splitext(path)[1] not in EXTENSIONS or path == "setup.py":
             continue
@@ -66,12 +66,12 @@ def _headers(package: Package) -> list[Header]:
         except OSError:
             continue  # SC001 of whoever needs the file
         if data:
-            found.append(read(path, data))
+            result.append(read(path, data))
     for path in broken_links(package):
         if os.path.splitext(path)[1] in EXTENSIONS:
             at = Location.start_of(path)
-            found.append(Header(path, at, unreadable="this link leads to no file"))
-    return found
+            result.append(Header(path, at, unreadable="this link leads to no file"))
+    return result
 
 
 def read(path: str, data: bytes) -> Header:
@@ -165,7 +165,7 @@ def _without_common_beginning(lines: list[str]) -> list[str]:
 
 def _notices(block: str) -> tuple[list[str], str]:
     """Return the copyright notices, and what stands behind the last one."""
-    found: list[str] = []
+    result: list[str] = []
     end = 0
     notice = re.compile(_NOTICE, re.IGNORECASE | re.MULTILINE)
     for word in re.finditer("copyright", block, re.IGNORECASE):
@@ -173,9 +173,9 @@ def _notices(block: str) -> tuple[list[str], str]:
             continue
         match = notice.match(block, word.start())
         if match:
-            found.append(match[0])
+            result.append(match[0])
             end = match.end()
-    return found, block[end:]
+    return result, block[end:]
 
 
 def _begins_line(block: str, at: int, floor: int) -> bool:
@@ -222,12 +222,12 @@ class Known(NamedTuple):
 @lru_cache(maxsize=1)
 def known_texts() -> dict[str, list[Known]]:
     """Return the known texts by what they are: ``header``, or the name of a file."""
-    found: dict[str, list[Known]] = {}
+    result: dict[str, list[Known]] = {}
     with open(_DATA, encoding="utf-8") as file:
         for line in file:
             kind, licence, *sections = line.rstrip("\n").split("\t")
-            found.setdefault(kind, []).append(Known(licence, tuple(sections)))
-    return found
+            result.setdefault(kind, []).append(Known(licence, tuple(sections)))
+    return result
 
 
 @lru_cache(maxsize=256)

@@ -26,7 +26,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
         missing = [header for header in headers(package) if not header.holders]
         yield from _of_headers(package, code, missing, _no_notice)
     elif code == "LY021":
-        unknown = [one for one in headers(package) if one.holders and not one.licence]
+        unknown = [item for item in headers(package) if item.holders and not item.licence]
         yield from _of_headers(package, code, unknown, _unknown_header)
     else:
         yield from _of_repository(package, code)

@@ -50,7 +50,7 @@ def select(files: Iterable[str]) -> dict[str, int]:
     ignored = tuple(
         path[: -len(IGNORE_MARKER)] for path in listed if path.rpartition("/")[2] == IGNORE_MARKER
     )
-    found: dict[str, int] = {}
+    result: dict[str, int] = {}
     for path in listed:
         if not path.endswith(".py"):
             continue
@@ -60,5 +60,5 @@ def select(files: Iterable[str]) -> dict[str, int]:
         linters = PEP257
         if not any(path.startswith(directory) for directory in ignored):
             linters |= FLAKE8
-        found[path] = linters
-    return found
+        result[path] = linters
+    return result

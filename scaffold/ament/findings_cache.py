@@ -40,7 +40,7 @@ class Cache:
     def get(self, key: str) -> list[Finding] | None:
         """Return the findings stored under a key."""
         data = cache.read_sealed(self._path(key), _MAGIC)
-        return None if data is None else [Finding(*one) for one in marshal.loads(data)]  # noqa: S302  own files
+        return None if data is None else [Finding(*load) for load in marshal.loads(data)]  # noqa: S302  own files
 
     def put(self, key: str, findings: Sequence[Finding]) -> None:
         """Store findings."""

@@ -81,10 +81,10 @@ def _is_cmake(path: str) -> bool:
 
 def _of_file(package: Package, path: str) -> dict[str, list[Finding]]:
     def scan() -> dict[str, list[Finding]]:
-        found: dict[str, list[Finding]] = {}
+        result: dict[str, list[Finding]] = {}
         for finding in Scan(package.source(path)).run():
-            found.setdefault(finding.filter, []).append(finding)
-        return found
+            result.setdefault(finding.filter, []).append(finding)
+        return result
 
     return package.remember(("cmake_style", path), scan)
 
@@ -107,7 +107,7 @@ def lines(source: Source) -> list[Line]:
     """Return the lines of a CMake file."""
     text = source.text
     command = re.compile(r"\s*(\w+)\s*\(")
-    found: list[Line] = []
+    result: list[Line] = []
     bounds = [0, *(match.end() for match in re.finditer(r"\r\n?|\n", text)), len(text)]
     for start, end in pairwise(bounds):
         raw = text[start:end].rstrip("\r\n")
@@ -118,10 +118,10 @@ def lines(source: Source) -> list[Line]:
             code = raw[: raw.index("#")].rstrip()
         match = command.match(code) if "(" in code else None
         if match:
-            found.append(Line(start, raw, code, match[1], *match.span(1), match.end() - 1))
+            result.append(Line(start, raw, code, match[1], *match.span(1), match.end() - 1))
         else:
-            found.append(Line(start, raw, code, "", 0, 0, 0))
-    return found
+            result.append(Line(start, raw, code, "", 0, 0, 0))
+    return result
 
 
 class Scan:
@@ -134,24 +134,24 @@ class Scan:
 
     def run(self) -> list[Finding]:
         """Return what is found, without what a pragma of the file switches off."""
-        found = [*self._file_name(), *self._each_line(), *self._spaces(), *self._find_module()]
+        result = [*self._file_name(), *self._each_line(), *self._spaces(), *self._find_module()]
         switches: list[str] = []
         for line in self.lines:
             if line.raw.startswith(PRAGMA):
                 words = [word.strip() for word in line.raw[len(PRAGMA) :].split(",") if word]
                 wrong = next((word for word in words if not _is_switch(word)), None)
                 if wrong is not None:
-                    found.append(self._at(PRAGMA_INVALID, line, 0, len(line.raw), wrong))
+                    result.append(self._at(PRAGMA_INVALID, line, 0, len(line.raw), wrong))
                 switches += filter(_is_switch, words)
         if not switches:
-            return found
-        return [f for f in found if f.filter == PRAGMA_INVALID or _is_on(f.filter, switches)]
+            return result
+        return [f for f in result if f.filter == PRAGMA_INVALID or _is_on(f.filter, switches)]
 
-    def _at(self, name: str, line: Line, start: int, end: int, said: str = "") -> Finding:
-        return Finding(name, self.source, line.start + start, line.start + end, said)
+    def _at(self, name: str, line: Line, start: int, end: int, text: str = "") -> Finding:
+        return Finding(name, self.source, line.start + start, line.start + end, text)
 
-    def _whole(self, name: str, said: str) -> Finding:
-        return Finding(name, self.source, 0, 0, said)
+    def _whole(self, name: str, text: str) -> Finding:
+        return Finding(name, self.source, 0, 0, text)
 
     def _file_name(self) -> Iterator[Finding]:
         match = re.match(r"Find(.*)\.cmake", self.name)
@@ -206,7 +206,7 @@ class Scan:
     def _spaces(self) -> Iterator[Finding]:
         """Compare the blanks behind ``(`` with those before the next ``)``, wherever it is."""
         closing: Line | None = None
-        found: list[Finding] = []
+        result: list[Finding] = []
         for line in reversed(self.lines):
             if ")" in line.code:
                 closing = line
@@ -214,17 +214,17 @@ class Scan:
                 continue
             if line.name_end != line.open:
                 start, end = line.name_end, line.open
-                found.append(self._at("whitespace/extra", line, start, end, line.command))
+                result.append(self._at("whitespace/extra", line, start, end, line.command))
             if closing is None:
-                found.append(self._name(line, "syntax"))
+                result.append(self._name(line, "syntax"))
                 continue
             before = closing.code[: closing.code.index(")")]
             behind = line.code[line.open + 1 :]
             opened, closed = len(behind) - len(behind.lstrip()), len(before) - len(before.rstrip())
             if closed not in {opened, line.name_start}:
                 start, end = line.start + line.open, closing.start + len(before) + 1
-                found.append(Finding("whitespace/mismatch", self.source, start, end, line.command))
-        return iter(found)
+                result.append(Finding("whitespace/mismatch", self.source, start, end, line.command))
+        return iter(result)
 
     def _find_module(self) -> Iterator[Finding]:
         if not (self.name.startswith("Find") and self.name.endswith(".cmake")):

@@ -85,7 +85,7 @@ class Run:
         Raises:
             EnvironmentMissingError: ruff does not run.
         """
-        found: dict[str, list[RuffDiagnostic]] = {}
+        result: dict[str, list[RuffDiagnostic]] = {}
         try:
             for at, chunk in enumerate(self._chunks):
                 if at:
@@ -94,10 +94,10 @@ class Run:
                     output = _collect(*self._running.pop(0))
                     answer = _apart(arguments, chunk) if output is None else _parse(output)
                     for path, said in answer:
-                        found.setdefault(path, []).append(said)
+                        result.setdefault(path, []).append(said)
         finally:
             self.close()
-        return found
+        return result
 
     def close(self) -> None:
         """End what still runs and nobody waits for."""

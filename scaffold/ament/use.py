@@ -48,9 +48,9 @@ def linter_use(package: Package, linter: str) -> Use:
 
 def _use(package: Package, linter: str) -> Use:
     uses = (_by_cmake(package, linter), _by_pytest(package, f"ament_{linter}"))
-    found = [use for use in uses if use is not None]
-    running = [use for use in found if use.runs]
-    return next(iter(running or found), Use(runs=False, why_not="no test of this package runs it"))
+    result = [use for use in uses if use is not None]
+    running = [use for use in result if use.runs]
+    return next(iter(running or result), Use(runs=False, why_not="no test of this package runs it"))
 
 
 def _by_cmake(package: Package, linter: str) -> Use | None:
@@ -91,7 +91,7 @@ def _brings(package: Package, name: str, wrapper: str) -> bool:
 
 
 def _file_excludes(cmake: CMakeLists) -> list[str] | None:
-    found: list[str] = []
+    result: list[str] = []
     for command in cmake.find("set", "list"):
         words = [argument.text for argument in command.arguments]
         if "AMENT_LINT_AUTO_FILE_EXCLUDE" in words[:2]:
@@ -99,8 +99,8 @@ def _file_excludes(cmake: CMakeLists) -> list[str] | None:
             values = cmake.expand_list(command.arguments[start:], command)
             if values is None:
                 return None
-            found += values
-    return found
+            result += values
+    return result
 
 
 def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
@@ -110,7 +110,7 @@ def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
 
 
 def _by_pytest(package: Package, linter: str) -> Use | None:
-    found: Use | None = None
+    result: Use | None = None
     for path in package.python_files:
         if "test" not in path:
             continue
@@ -121,12 +121,12 @@ def _by_pytest(package: Package, linter: str) -> Use | None:
         if linter not in module.source.text or linter not in module.imports_by_root:
             continue
         if re.search(r"pytest\.mark\.(?:skip|xfail)|pytest\.skip\(", module.source.text):
-            found = Use(runs=False, why_not=f"{path} is skipped")
+            result = Use(runs=False, why_not=f"{path} is skipped")
         elif not _asserts(module):
-            found = Use(runs=False, why_not=f"{path} asserts nothing")
+            result = Use(runs=False, why_not=f"{path} asserts nothing")
         else:
             return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
-    return found
+    return result
 
 
 def _asserts(module: PythonModule) -> bool:
@@ -139,7 +139,7 @@ def _asserts(module: PythonModule) -> bool:
 
 def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
     """Return what follows ``--exclude`` in lists of arguments."""
-    found: list[str] = []
+    result: list[str] = []
     for node in lists:
         values = [item.value for item in node.elts if isinstance(item, ast.Constant)]
         excluding = False
@@ -147,5 +147,5 @@ def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
             if isinstance(value, str) and value.startswith("--"):
                 excluding = value == "--exclude"
             elif excluding and isinstance(value, str):
-                found.append(value.removeprefix("./"))
-    return tuple(found)
+                result.append(value.removeprefix("./"))
+    return tuple(result)

@@ -104,7 +104,9 @@ def _own(text: PythonText) -> Iterator[Finding]:
                 yield finding
 
 
-def _broken(text: PythonText, said: Sequence[RuffDiagnostic], *, is_clean: bool) -> Finding | None:
+def _broken(
+    text: PythonText, diagnostics: Sequence[RuffDiagnostic], *, is_clean: bool
+) -> Finding | None:
     """Return the one finding of a file that no Python of the target can read."""
     both = FLAKE8 | PEP257
     if not is_clean:
@@ -112,7 +114,11 @@ def _broken(text: PythonText, said: Sequence[RuffDiagnostic], *, is_clean: bool)
             "E902", 1, 1, "the bytes are not text of the declared encoding", linters=both
         )
     own = _syntax_error(text) if text.tree is None else None
-    errors = [(one.line, one.column, flakes.worded(one.message)) for one in said if not one.code]
+    errors = [
+        (item.line, item.column, flakes.worded(item.message))
+        for item in diagnostics
+        if not item.code
+    ]
     if not errors and isinstance(own, IndentationError):
         errors = [(1, 1, own.msg)]  # ruff takes tabs for another width
     if not errors:
@@ -140,34 +146,36 @@ def _syntax_error(text: PythonText) -> SyntaxError | None:
     return None
 
 
-def _from_ruff(text: PythonText, said: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
+def _from_ruff(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
     if text.tree is None:
-        yield from (flakes.plain(one) for one in said if one.code in CODES)
+        yield from (flakes.plain(item) for item in diagnostics if item.code in CODES)
         return
-    yield from flakes.translate(text, [one for one in said if one.code.startswith("F")])
+    yield from flakes.translate(text, [item for item in diagnostics if item.code.startswith("F")])
     lines: dict[str, set[int]] = {}
-    for one in said:
+    for one in diagnostics:
         lines.setdefault(one.code, set()).add(one.line)
     for module in (operators, keyword_spacing):
         rows = {row for code in module.CODES for row in lines.get(code, ())}
         rows |= {
-            text.line_of(found.start())
-            for found in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
+            text.line_of(item.start())
+            for item in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
         }
         logical_lines = {row: text.logical_line_at(row) for row in sorted(rows)}
-        for logical in dict.fromkeys(one for one in logical_lines.values() if one):
+        for logical in dict.fromkeys(line for line in logical_lines.values() if line):
             yield from module.check(logical)
-    for one in said:
+    for one in diagnostics:
         if one.code in TAKEN:
             yield flakes.plain(one)
 
 
-def _with_fixes(findings: Iterable[Finding], said: Sequence[RuffDiagnostic]) -> list[Finding]:
+def _with_fixes(
+    findings: Iterable[Finding], diagnostics: Sequence[RuffDiagnostic]
+) -> list[Finding]:
     """Give our findings the fixes that ruff has for the same code at the same line."""
     plain: dict[tuple[str, int], list[Finding]] = {}
-    for one in said:
-        if one.fix:
-            plain.setdefault((one.code, one.line), []).append(flakes.plain(one))
+    for item in diagnostics:
+        if item.fix:
+            plain.setdefault((item.code, item.line), []).append(flakes.plain(item))
     fixes = {key: _joined(same) for key, same in plain.items()}
     result = []
     for finding in findings:
@@ -210,9 +218,9 @@ class _Alignment:
         """Return the columns, from 0, where the continuation lines of a statement start."""
         if logical.row not in self._starts:
             self._starts[logical.row] = frozenset(
-                one.start[1]
-                for before, one in pairwise(logical.tokens)
-                if one.start[0] > before.start[0]
+                item.start[1]
+                for before, item in pairwise(logical.tokens)
+                if item.start[0] > before.start[0]
             )
         return self._starts[logical.row]
 
@@ -221,16 +229,16 @@ class _Alignment:
         if row not in self._columns:
             rows = self._text.token_rows
             tokens = self._text.tokens[bisect_left(rows, row) : bisect_right(rows, row)]
-            self._columns[row] = [one.start[1] for one in tokens]
+            self._columns[row] = [token.start[1] for token in tokens]
         return self._columns[row]
 
 
 def _once(findings: Iterable[Finding]) -> list[Finding]:
     """Return one finding for each line and code, in reading order."""
-    found: dict[tuple[int, str], list[Finding]] = {}
-    for finding in sorted(findings, key=lambda one: (one.line, one.column, one.code)):
-        found.setdefault((finding.line, finding.code), []).append(finding)
-    return [_joined(same) for same in found.values()]
+    result: dict[tuple[int, str], list[Finding]] = {}
+    for finding in sorted(findings, key=lambda item: (item.line, item.column, item.code)):
+        result.setdefault((finding.line, finding.code), []).append(finding)
+    return [_joined(same) for same in result.values()]
 
 
 def _joined(findings: Sequence[Finding]) -> Finding:
@@ -241,7 +249,7 @@ def _joined(findings: Sequence[Finding]) -> Finding:
     linters = first.linters
     for other in others:
         linters |= other.linters
-    fixable = [one for one in findings if one.fix]
+    fixable = [finding for finding in findings if finding.fix]
     if not fixable:
         return first._replace(linters=linters)
     leading = fixable[0]
@@ -283,4 +291,4 @@ def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
 
 def _meet(edits: Sequence[Replacement]) -> bool:
     """Tell whether any of some edits begins before the one ahead of it ends."""
-    return any(one[2:4] > other[:2] for one, other in pairwise(edits))
+    return any(item[2:4] > other[:2] for item, other in pairwise(edits))

@@ -173,7 +173,7 @@ def _verdicts(package: Package) -> list[Verdict]:
     if any(verdict and not verdict.is_checked for verdict in validated.values()):
         package.is_repeatable = False  # another time there may be time
     told.update(validated)
-    found: list[Verdict] = []
+    result: list[Verdict] = []
     complained: set[str] = set()
     for use in uses:
         verdict = told[use]
@@ -181,8 +181,8 @@ def _verdicts(package: Package) -> list[Verdict]:
             continue
         if verdict.is_checked:
             complained.add(use.path)
-        found.append(verdict)
-    return found
+        result.append(verdict)
+    return result
 
 
 def _uses(package: Package, path: str) -> Iterator[_Use]:
@@ -210,14 +210,14 @@ def _parse(data: bytes) -> etree._Element | None:
 
 def _named(root: etree._Element) -> list[tuple[str, str]]:
     """Return the kinds and places of the schemas that a document names."""
-    found: list[tuple[str, str]] = []
+    result: list[tuple[str, str]] = []
     for node in root.itersiblings(preceding=True):
         if getattr(node, "target", "") == "xml-model":
             words = dict(re.findall(r"""\b(\w+)\s*=\s*["']([^"']*)["']""", node.text or ""))
             if "href" in words and words.get("schematypens") in {XML_SCHEMA, RELAX_NG}:
-                found.append((words["schematypens"], words["href"]))
+                result.append((words["schematypens"], words["href"]))
     hint = root.get(HINT)
-    return [*found, (XML_SCHEMA, str(hint))] if hint is not None else found
+    return [*result, (XML_SCHEMA, str(hint))] if hint is not None else result
 
 
 def _judge(package: Package, use: _Use) -> Verdict | bytes | None:

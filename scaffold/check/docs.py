@@ -100,7 +100,7 @@ def write(directory: str, rules: Sequence[type[Rule]]) -> None:
     pages = {f"{rule.code}.md": page(rule) for rule in rules}
     pages |= {f"{code}.md": style_page(style) for code, style in STYLE.items()}
     styles = _rows(
-        (one.code, one.name, one.severity, one.fix, one.summary) for one in STYLE.values()
+        (item.code, item.name, item.severity, item.fix, item.summary) for item in STYLE.values()
     )
     pages["README.md"] = f"# Rules\n\n{table(rules)}\n\n{_STYLE_HEAD}\n\n{styles}\n"
     for name in os.listdir(directory):

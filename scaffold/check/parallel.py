@@ -74,7 +74,7 @@ def run(
     sizes = [_sizes(target.package, earlier) for target in targets]
     tasks = list(_tasks(sizes))
     workers = min(len(os.sched_getaffinity(0)), len(tasks))
-    if workers < 2 or sum(sum(one.values()) for one in sizes) < WORTH_WORKERS:  # noqa: PLR2004
+    if workers < 2 or sum(sum(item.values()) for item in sizes) < WORTH_WORKERS:  # noqa: PLR2004
         for start in range(0, len(targets), MOST_PACKAGES):
             yield from session.run_batch(targets[start : start + MOST_PACKAGES], None, earlier)
         return
@@ -162,6 +162,6 @@ def _run(number: int) -> _Done:
 def _all_packages(targets: Sequence[Target]) -> list[Package]:
     """Return the packages to check and those around them."""
     found = {id(target.package): target.package for target in targets}
-    for around in {id(one.package.known_workspace): one for one in targets}.values():
+    for around in {id(item.package.known_workspace): item for item in targets}.values():
         found.update((id(package), package) for package in around.package.known_workspace or ())
     return list(found.values())

@@ -45,7 +45,7 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
 
 
 def _rule_files(root: str) -> list[tuple[str, str]]:
-    found: list[tuple[str, str]] = []
+    result: list[tuple[str, str]] = []
     with os.scandir(root) as areas:
         names = {entry.name: entry.is_dir() for entry in areas}
     directories = sorted(name for name, is_directory in names.items() if is_directory)
@@ -54,12 +54,12 @@ def _rule_files(root: str) -> list[tuple[str, str]]:
             path = os.path.join(root, name)
             raise ContentError(f"{path}: a rule is in a directory of rules/, that of its area")
     for area in directories:
-        found += [
+        result += [
             (area, os.path.join(root, area, name))
             for name in sorted(os.listdir(os.path.join(root, area)))
             if name.endswith(".py") and not name.startswith("_")
         ]
-    return found
+    return result
 
 
 def _compile(path: str) -> CodeType:
@@ -91,14 +91,14 @@ def _load_file(prefix: str, area: str, path: str, code: CodeType) -> type[Rule]:
     except Exception as error:
         del sys.modules[name]
         raise ContentError(f"{path}: {type(error).__name__}: {error}") from error
-    found = [
+    result = [
         value
         for value in vars(module).values()
         if isinstance(value, type) and issubclass(value, Rule) and value.__module__ == name
     ]
-    if len(found) != 1:
-        raise ContentError(f"{path}: holds {len(found)} rules; a rule file holds one")
-    (rule,) = found
+    if len(result) != 1:
+        raise ContentError(f"{path}: holds {len(result)} rules; a rule file holds one")
+    (rule,) = result
     missing = [key for key in ("code", "name", "examples") if not hasattr(rule, key)]
     if missing:
         raise ContentError(f"{path}: the rule has no {' and no '.join(missing)}")
@@ -109,13 +109,13 @@ def _load_file(prefix: str, area: str, path: str, code: CodeType) -> type[Rule]:
 
 def loaded() -> dict[str, type[Rule]]:
     """Return the rules that this process has loaded, those of the engine included, by code."""
-    found: dict[str, type[Rule]] = {}
+    result: dict[str, type[Rule]] = {}
     pending: list[type[Rule]] = [Rule]
     for kind in pending:
         pending += kind.__subclasses__()
         if hasattr(kind, "code"):
-            found[kind.code] = kind
-    return found
+            result[kind.code] = kind
+    return result
 
 
 def is_built_in(rule: type[Rule]) -> bool:

@@ -52,8 +52,8 @@ class Earlier(NamedTuple):
     def of(cls, package: Package, verdict: Verdict, edited: Collection[str]) -> Earlier:
         """Return what is left after some files were edited."""
         style = {
-            path: found
-            for path, found in verdict.style.items()
+            path: item
+            for path, item in verdict.style.items()
             if package.full_path(path) not in edited
         }
         return cls(verdict._replace(style=style), edited)

@@ -69,7 +69,9 @@ class Check:
             if part.files.isdisjoint(edited) and (edited - same).isdisjoint(part.imports)
         }
         self._unparsable = [
-            one for one in verdict.unparsable if package.full_path(one.location.path) not in edited
+            item
+            for item in verdict.unparsable
+            if package.full_path(item.location.path) not in edited
         ]
 
     def run(self, rules: Iterable[Rule]) -> list[Diagnostic]:
@@ -80,8 +82,8 @@ class Check:
             for key, found in self._run(rule).items():
                 self._found.setdefault(key, []).extend(found)
         self._unparsable = [*dict.fromkeys([*self._unparsable, *_unparsable(self._package)])]
-        said = [one for part in self._kept.values() for one in part.diagnostics]
-        said += [one for found in self._found.values() for one in found]
+        said = [item for part in self._kept.values() for item in part.diagnostics]
+        said += [item for found in self._found.values() for item in found]
         said = [*dict.fromkeys([*said, *self._unparsable])]
         return sorted(said, key=lambda diagnostic: diagnostic.sort_key)
 
@@ -91,7 +93,7 @@ class Check:
         Args:
             style: What is known of the style of files.
         """
-        exhausted_here = any(one.message in EXHAUSTION for one in self._unparsable)
+        exhausted_here = any(item.message in EXHAUSTION for item in self._unparsable)
         if exhausted_here or not self._is_whole:
             return None  # files may have been refused because of others
         made = {
@@ -105,22 +107,22 @@ class Check:
         """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
         package = self._package
         for _ in range(MOST_REFUSED):
-            found: dict[str, list[Diagnostic]] = {}
+            result: dict[str, list[Diagnostic]] = {}
             try:
                 with time_limit.limited():
-                    self._collect(rule, found)
+                    self._collect(rule, result)
             except EXHAUSTED as error:
                 self._is_whole = False
                 package.is_repeatable &= not isinstance(error, OutOfTimeError)
                 path = _file_at_fault(package, error)
                 if path is not None and package.refuse(path, exhausted(error)):
                     continue
-                found.setdefault(rule.code, []).append(_crash(rule, package, error))
+                result.setdefault(rule.code, []).append(_crash(rule, package, error))
             except Exception as error:  # noqa: BLE001  a defect in one rule must not hide the others
                 self._is_whole = False
-                found.setdefault(rule.code, []).append(_crash(rule, package, error))
+                result.setdefault(rule.code, []).append(_crash(rule, package, error))
             break
-        return found
+        return result
 
     def _collect(self, rule: Rule, found: dict[str, list[Diagnostic]]) -> None:
         """Add to ``found`` what a rule says, by part."""
@@ -177,11 +179,11 @@ def _file_at_fault(package: Package, error: Exception) -> str | None:
 
 
 def _unparsable(package: Package) -> list[Diagnostic]:
-    found = dict.fromkeys(
+    fromkeys = dict.fromkeys(
         (isinstance(error, TooLargeError), error.location, error.message)
         for error in package.parse_errors
     )
     return [
         (FileTooLarge if too_large else UnparsableFile)().report(location, message)
-        for too_large, location, message in found
+        for too_large, location, message in fromkeys
     ]

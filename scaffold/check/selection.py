@@ -52,7 +52,7 @@ def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tupl
     Raises:
         ConfigError: a word means no rule.
     """
-    found: dict[str, None] = {}
+    result: dict[str, None] = {}
     for word in words:
         upper, lower = word.upper(), word.lower()
         codes = [code for code, name in names.items() if name == lower]
@@ -65,8 +65,8 @@ def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tupl
             what, known = ("name", names.values()) if is_name else ("code", names.keys())
             hint = nearest(lower if is_name else upper, known)
             raise ConfigError(f"{origin}: no rule has the {what} {word!r}{hint}")
-        found.update(dict.fromkeys(codes))
-    return tuple(found)
+        result.update(dict.fromkeys(codes))
+    return tuple(result)
 
 
 def nearest(word: str, known: Collection[str]) -> str:

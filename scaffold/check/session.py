@@ -96,7 +96,7 @@ class Session:
     ) -> Result:
         """Put together what rules and style found in a package."""
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
-        found = [*rules.found, *(one for path in sorted(everything) for one in everything[path])]
+        found = [*rules.found, *(item for path in sorted(everything) for item in everything[path])]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         return Result(target.package, rules.files, self._report(target, found), verdict)
 
@@ -110,13 +110,13 @@ class Session:
     ) -> Mapping[str, Sequence[Diagnostic]]:
         """Check the style of some files only; return what is found, by path."""
         style = self.start_style([package], None, paths)
-        found = style.by_file(package) if style else {}
+        result = style.by_file(package) if style else {}
         package.forget()
-        return found
+        return result
 
-    def selected(self, target: Target, found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    def selected(self, target: Target, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order."""
-        return self._report(target, list(found))
+        return self._report(target, list(diagnostics))
 
     @property
     def rule_count(self) -> int:
@@ -168,16 +168,16 @@ class Session:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
         return Ruled(len(package.files), said, verdict)
 
-    def _report(self, target: Target, found: list[Diagnostic]) -> list[Diagnostic]:
+    def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""
         # flake8 has its own code for a Python file that does not parse.
-        told = {d.location.path for d in found if d.code.startswith("E9")}
+        reported = {d.location.path for d in diagnostics if d.code.startswith("E9")}
         unreadable = (UnparsableFile.code, FileTooLarge.code)
         return sorted(
             (
                 d
-                for d in _bounded([*dict.fromkeys(found)])
-                if not (d.code in unreadable and d.location.path in told)
+                for d in _bounded([*dict.fromkeys(diagnostics)])
+                if not (d.code in unreadable and d.location.path in reported)
                 and (target.only is None or d.location.path in target.only)
                 and (d.code == RuleCrashed.code or self.selection.wants(d.code))
                 and self.selection.wants_at(d.code, d.location.path)
@@ -186,19 +186,19 @@ class Session:
         )
 
 
-def _bounded(found: list[Diagnostic]) -> list[Diagnostic]:
+def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
     """Leave out what one code says too often, and say so."""
-    if len(found) <= MAX_FINDINGS:
-        return found
+    if len(diagnostics) <= MAX_FINDINGS:
+        return diagnostics
     counts: dict[str, int] = {}
     kept: list[Diagnostic] = []
-    for one in found:
-        counts[one.code] = count = counts.get(one.code, 0) + 1
+    for item in diagnostics:
+        counts[item.code] = count = counts.get(item.code, 0) + 1
         if count <= MAX_FINDINGS:
-            kept.append(one)
+            kept.append(item)
         elif count == MAX_FINDINGS + 1:
-            said = f"{one.code} is found more than {MAX_FINDINGS} times"
-            kept.append(TooManyFindings().report(one.location, f"{said}; the rest is not shown"))
+            said = f"{item.code} is found more than {MAX_FINDINGS} times"
+            kept.append(TooManyFindings().report(item.location, f"{said}; the rest is not shown"))
     return kept
 
 

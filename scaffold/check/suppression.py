@@ -52,15 +52,15 @@ def _codes_on(package: Package, path: str, line: int) -> list[str] | None:
     has_any = package.remember(("noqa", path), lambda: "noqa" in source.text.lower())
     if not has_any or line > len(source.lines):
         return None
-    found = re.search(_COMMENT, source.lines[line - 1], re.IGNORECASE)
-    return re.findall(_CODE, (found["codes"] or "").upper()) if found else None
+    matched = re.search(_COMMENT, source.lines[line - 1], re.IGNORECASE)
+    return re.findall(_CODE, (matched["codes"] or "").upper()) if matched else None
 
 
 def _unused(
     package: Package, used: Collection[tuple[str, int, str]], ran: Collection[str]
 ) -> list[Diagnostic]:
     rule = UnusedSuppression()
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     for path in package.files:
         for source, line, code, start in _suppressions(package, path):
             if code.upper() in ran and (path, line, code.upper()) not in used:
@@ -71,8 +71,8 @@ def _unused(
                 )
             else:
                 continue
-            found.append(rule.report(source.location(start, start + len(code)), message))
-    return found
+            diagnostics.append(rule.report(source.location(start, start + len(code)), message))
+    return diagnostics
 
 
 def _suppressions(package: Package, path: str) -> Iterable[tuple[Source, int, str, int]]:

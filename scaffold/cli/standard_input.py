@@ -79,7 +79,7 @@ def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
 
     def check(package: Package) -> list[Diagnostic]:
         (result,) = session.run_batch([target._replace(package=package)])
-        return [_within(name, one) for one in result.diagnostics]
+        return [_within(name, diagnostic) for diagnostic in result.diagnostics]
 
     before = target.package.tree.read(name)
     fixed = fixer.fix(target.package, check, unsafe=unsafe)

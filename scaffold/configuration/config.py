@@ -114,9 +114,9 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
     for path in filter(None, (user_file(disk), project)):
         for table, entries in _read(disk, path).items():
             if table == "content":
-                given = {disk.real(one) for one in content}
+                given = {disk.real(item) for item in content}
                 listed = _content(disk, entries, path)
-                named = [one for one in listed if disk.real(one) not in given]
+                named = [item for item in listed if disk.real(item) not in given]
                 refused = _refused(disk, path) if named and path == project else None
                 warnings += [refused] if refused else []
                 directories += [] if refused else named

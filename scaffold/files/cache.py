@@ -153,12 +153,12 @@ def clean(top: str) -> None:
 
 def _files(top: str) -> list[str]:
     """Return the files in the directories of the cache; links to directories are not followed."""
-    found: list[str] = []
+    result: list[str] = []
     try:
         kinds = [name for name in os.listdir(top) if name.startswith(KINDS)]
     except OSError:
-        return found
+        return result
     for kind in sorted(kinds):
         for directory, _, names in os.walk(os.path.join(top, kind)):
-            found += [os.path.join(directory, name) for name in names]
-    return found
+            result += [os.path.join(directory, name) for name in names]
+    return result

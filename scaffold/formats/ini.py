@@ -233,7 +233,7 @@ class _Reader:
             section=self.section.name,
             key=key,
             value="\n".join(self.raw).rstrip(),
-            lines=tuple(IniLine(one.text, locate(one.start, one.end)) for one in self.values),
+            lines=tuple(IniLine(item.text, locate(item.start, item.end)) for item in self.values),
             location=locate(start, end),
             key_location=locate(line.start, line.start + len(key)),
             start=line.line_start,

@@ -110,19 +110,19 @@ class Element:
     @property
     def attributes(self) -> dict[str, Attribute]:
         """The attributes by name, in the order of the file."""
-        found: dict[str, Attribute] = {}
+        result: dict[str, Attribute] = {}
         locate = self._source.location
         first = self.start + 1 + len(self.tag)
         for match in _ATTRIBUTE.finditer(self._source.text, first, self.open_end):
             name = match[1]
             quoted = 2 if match[2] is not None else 3
-            found[name] = Attribute(
+            result[name] = Attribute(
                 name,
                 self._raw.get(name, match[quoted]),
                 locate(match.start(quoted), match.end(quoted)),
                 locate(match.start(1), match.end(1)),
             )
-        return found
+        return result
 
     def all(self, tag: str) -> list[Element]:
         """Return the children with a tag."""

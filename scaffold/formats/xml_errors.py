@@ -156,9 +156,9 @@ def _unbound_prefix(text: str, at: int) -> Explanation:
 
 def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation | None:
     """Explain what expat has no name for from what stands around the place."""
-    said = _bad_character(text, at) or _ampersand(text, at) or _in_comment(text, at)
-    if said is not None:
-        return said
+    result = _bad_character(text, at) or _ampersand(text, at) or _in_comment(text, at)
+    if result is not None:
+        return result
     if text.startswith("]]>", at) or text.startswith("]]>", max(0, at - 2)):
         start = text.rfind("]]>", 0, at + 3)
         return start, start + 3, 'write "]]&gt;" for "]]>"'

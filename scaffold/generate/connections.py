@@ -76,8 +76,8 @@ def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
 def _type_question(question: Question, others: Iterable[Question]) -> Question | None:
     """Return what asks for the type that belongs to a name: ``input_type`` to ``input_topic``."""
     wanted = _TYPED.get(question.type)
-    found = [one for one in others if wanted is not None and one.type == wanted]
-    if len(found) > 1:
+    result = [item for item in others if wanted is not None and item.type == wanted]
+    if len(result) > 1:
         stem = question.name.removesuffix("topic")
-        found = [one for one in found if one.name in {f"{stem}type", f"{stem}message_type"}]
-    return found[0] if len(found) == 1 else None
+        result = [item for item in result if item.name in {f"{stem}type", f"{stem}message_type"}]
+    return result[0] if len(result) == 1 else None

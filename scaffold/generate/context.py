@@ -102,19 +102,19 @@ def _part(
     part: Part, layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
 ) -> dict[str, Any]:
     template = part.template
-    found = {
+    result = {
         **part.answers,
         "kind": template.name,
         "name": part.name,
         "summary": template.summary,
     }
     if template.role is Role.NODE:
-        return _node(found, part, layers, context, renderer)
+        return _node(result, part, layers, context, renderer)
     if template.role is Role.INTERFACE:
         ending = template.definition
-        found["file"] = f"{ending}/{part.name}.{ending}"
-        found["type"] = f"{context['package']}/{ending}/{part.name}"
-    return found
+        result["file"] = f"{ending}/{part.name}.{ending}"
+        result["type"] = f"{context['package']}/{ending}/{part.name}"
+    return result
 
 
 def _node(
@@ -130,7 +130,7 @@ def _node(
             f"--node-name: {name!r} is the name of the package; its script would shadow it"
         )
     _refuse_two_classes(part)
-    taken = [one for value in part.answers.values() for one in getattr(value, "class_names", ())]
+    taken = [item for value in part.answers.values() for item in getattr(value, "class_names", ())]
     node |= {"module": name, "class_name": names.class_name(name, taken)}
     flags: dict[tuple[str, str], str] = {}
     for question in part.template.questions:
@@ -144,7 +144,7 @@ def _node(
                     f"{other} and {flag(question.name)} are both {full_name!r}: the node would "
                     "receive what it sends"
                 )
-    build = next(one for one in layers if one.role is Role.BUILD_TYPE)
+    build = next(layer for layer in layers if layer.role is Role.BUILD_TYPE)
     scope = {**context, "node": node}
     node["executable"] = renderer.text(build.executable_name, scope)
     node["parameter_file"] = renderer.text(part.template.parameter_file, scope)
@@ -161,11 +161,11 @@ def _refuse_two_classes(part: Part) -> None:
     for name, value in part.answers.items():
         for line in getattr(value, "imports", ()):
             module, _, classes = line.removeprefix("from ").partition(" import ")
-            for one in filter(None, classes.split(", ")):  # none where a module is imported
-                first, other = origins.setdefault(one, (module, name))
+            for item in filter(None, classes.split(", ")):  # none where a module is imported
+                first, other = origins.setdefault(item, (module, name))
                 if first != module:
                     raise InputError(
-                        f"{flag(name)}: {one} of {module} and {one} of {first} (for "
+                        f"{flag(name)}: {item} of {module} and {item} of {first} (for "
                         f"{flag(other)}) cannot be in one module; choose something else for one"
                     )
 
@@ -219,23 +219,23 @@ def _depends(
     renderer: Renderer,
 ) -> dict[str, list[str]]:
     """Return the dependencies of all layers by kind, each once and in alphabetical order."""
-    found: dict[str, set[str]] = {kind: set() for kind in DEPEND_KINDS}
+    result: dict[str, set[str]] = {kind: set() for kind in DEPEND_KINDS}
     for layer, scope in scopes:
         for kind, texts in layer.depends.items():
             for text in texts:
-                found[kind].update(renderer.text(text, scope).split())
+                result[kind].update(renderer.text(text, scope).split())
     for name in context["dependencies"]:
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")
-        if name in found["buildtool"] or name in BUILD_TOOLS:
+        if name in result["buildtool"] or name in BUILD_TOOLS:
             raise InputError(f"--dependencies: {name} builds the package; nodes do not need it")
-        found["exec"].add(name)
+        result["exec"].add(name)
     for kind in ("test", "exec", "build", "build_export"):
         wider: str | None = _WIDER[kind]
         while wider is not None:
-            found[kind] -= found[wider]
+            result[kind] -= result[wider]
             wider = _WIDER.get(wider)
-    return {kind: sorted(found[kind] - {context["package"]}) for kind in DEPEND_KINDS}
+    return {kind: sorted(result[kind] - {context["package"]}) for kind in DEPEND_KINDS}
 
 
 def _texts(

@@ -93,7 +93,9 @@ class _Here:
     def has(self, name: str) -> bool:
         """Tell whether a package is installed, or in the workspace."""
         prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-        paths = (os.path.join(one, "share", name, "package.xml") for one in prefixes if one)
+        paths = (
+            os.path.join(prefix, "share", name, "package.xml") for prefix in prefixes if prefix
+        )
         return any(map(os.path.isfile, paths)) or name in self.packages
 
     @cached_property
@@ -102,8 +104,8 @@ class _Here:
         from scaffold.generate import destination
         from scaffold.model.package import Package
 
-        found = destination.neighbours(os.path.realpath(self._directory))
-        return frozenset(Package.at(directory).name or "" for directory in found)
+        neighbours = destination.neighbours(os.path.realpath(self._directory))
+        return frozenset(Package.at(directory).name or "" for directory in neighbours)
 
     @cached_property
     def rosdep(self) -> RosdepKeys | None:

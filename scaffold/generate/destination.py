@@ -50,4 +50,4 @@ def neighbours(top: str) -> list[str]:
     sources = colcon.sources_at(disk, top)
     found = colcon.package_directories(disk, sources) if sources else []
     beside = (os.path.join(top, name) for name in disk.names(top)[1])
-    return [*found, *(one for one in beside if disk.is_file(os.path.join(one, MANIFEST)))]
+    return [*found, *(item for item in beside if disk.is_file(os.path.join(item, MANIFEST)))]

@@ -222,7 +222,7 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
             raise InputError(
                 f"{given[name].origin}: does not apply with {questions.flag(parts.ADD)}"
             )
-    question = next(one for one in templates[BASE].questions if one.name == parts.ADD)
+    question = next(item for item in templates[BASE].questions if item.name == parts.ADD)
     wanted = questions.parse(question, given[parts.ADD])
     return parts.requests(wanted, given[parts.ADD].origin, templates)
 
@@ -268,11 +268,11 @@ def _template(
 
 
 def _several(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> tuple[str, ...]:
-    found: tuple[str, ...] = ()
+    result: tuple[str, ...] = ()
     for question in asked:
         if question.name == name:
-            found = questions.parse(question, given.get(name, Given(question.default, "default")))
-    return found
+            result = questions.parse(question, given.get(name, Given(question.default, "default")))
+    return result
 
 
 def _answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> str:

@@ -51,14 +51,16 @@ def _is_own(path: str) -> bool:
         return False
     if name.startswith("test_") or name == "conftest.py":
         return False
-    return not any(one in _NOT_CODE or _VENDORED.fullmatch(one) for one in directories)
+    return not any(
+        directory in _NOT_CODE or _VENDORED.fullmatch(directory) for directory in directories
+    )
 
 
 def _foreign_directories(package: Package) -> set[str]:
     """Return the directories with a license file of their own: somebody else's work."""
-    found: set[str] = set()
+    result: set[str] = set()
     for path in package.files:
         directory, _, name = path.rpartition("/")
         if directory and _LICENSES.fullmatch(name):
-            found.add(f"{directory}/")
-    return found
+            result.add(f"{directory}/")
+    return result

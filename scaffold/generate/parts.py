@@ -39,7 +39,9 @@ class Request(NamedTuple):
         asked = self.template.name_question
         if asked in self.given:
             return str(self.given[asked].value)
-        return next(str(one.default) for one in self.template.questions if one.name == asked)
+        return next(
+            str(question.default) for question in self.template.questions if question.name == asked
+        )
 
 
 class Part(NamedTuple):
@@ -83,7 +85,7 @@ def kinds(templates: Mapping[str, Template]) -> list[str]:
 
 def addable(templates: Mapping[str, Template]) -> list[str]:
     """Return what can be added to a package: the kinds of parts, and the extras."""
-    extras = [name for name, one in sorted(templates.items()) if one.role is Role.EXTRA]
+    extras = [name for name, item in sorted(templates.items()) if item.role is Role.EXTRA]
     return [*kinds(templates), *extras]
 
 
@@ -173,8 +175,8 @@ def refuse_build_type(template: Template, build_type: str) -> None:
 def contents(requested: Iterable[Request]) -> str:
     """Return the parts in words, such as "the publisher node talker and the message Status"."""
     words = [
-        _WORDS[one.template.role].format(kind=one.template.name.replace("_", " "), name=one.name)
-        for one in requested
+        _WORDS[item.template.role].format(kind=item.template.name.replace("_", " "), name=item.name)
+        for item in requested
     ]
     if len(words) > _MOST_NAMED:
         words = [*words[: _MOST_NAMED - 1], f"{len(words) - _MOST_NAMED + 1} more"]

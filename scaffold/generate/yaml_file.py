@@ -75,7 +75,7 @@ class _Reader:
         """Return the only document, ``None`` when there is none."""
         import yaml
 
-        found: object = None
+        result: object = None
         count = 0
         for event in events:
             if isinstance(event, yaml.DocumentStartEvent):
@@ -83,8 +83,8 @@ class _Reader:
                 if count > 1:
                     self._refuse(event, "a second document; write only one")
             elif isinstance(event, yaml.NodeEvent):
-                found = self._value(event, events, 0)
-        return found
+                result = self._value(event, events, 0)
+        return result
 
     def _value(self, event: yaml.Event, events: Iterator[yaml.Event], depth: int) -> object:
         import yaml
@@ -103,17 +103,17 @@ class _Reader:
     def _list(self, events: Iterator[yaml.Event], depth: int) -> list[object]:
         import yaml
 
-        found: list[object] = []
+        result: list[object] = []
         for event in events:
             if isinstance(event, yaml.SequenceEndEvent):
                 break
-            found.append(self._value(event, events, depth))
-        return found
+            result.append(self._value(event, events, depth))
+        return result
 
     def _mapping(self, events: Iterator[yaml.Event], depth: int) -> Mapping[str, object]:
         import yaml
 
-        found: dict[str, object] = {}
+        result: dict[str, object] = {}
         for event in events:
             if isinstance(event, yaml.MappingEndEvent):
                 break
@@ -121,10 +121,10 @@ class _Reader:
                 self._refuse(event, "a key that is not a string")
             if event.value == "<<" and event.implicit[0]:
                 self._refuse(event, "the merge key <<: write out its value")
-            if event.value in found:
+            if event.value in result:
                 self._refuse(event, f"the key {event.value!r} is a duplicate")
-            found[event.value] = self._value(next(events), events, depth)
-        return found
+            result[event.value] = self._value(next(events), events, depth)
+        return result
 
     def _scalar(self, event: yaml.ScalarEvent) -> object:
         """Return a text, or what YAML takes one without quotes for."""

@@ -308,20 +308,20 @@ def _alike() -> Mapping[tuple[int, str], list[str]]:
     return _ALIKE
 
 
-def is_one_slip(one: str, other: str, *, digits: bool = True) -> bool:
+def is_one_slip(text: str, other: str, *, digits: bool = True) -> bool:
     """Tell whether two names differ by one letter or by two neighbours swapped.
 
     Args:
-        one: A name.
+        text: A name.
         other: Another one.
         digits: Whether a digit more or other counts as a slip.
     """
-    if abs(len(one) - len(other)) > 1:
+    if abs(len(text) - len(other)) > 1:
         return False
     same = 0
-    while same < min(len(one), len(other)) and one[same] == other[same]:
+    while same < min(len(text), len(other)) and text[same] == other[same]:
         same += 1
-    a, b = one[same:], other[same:]
+    a, b = text[same:], other[same:]
     if len(a) != len(b):
         longer, shorter = (a, b) if len(a) > len(b) else (b, a)
         return longer[1:] == shorter and (digits or not longer[0].isdigit())
@@ -465,11 +465,11 @@ a dependency that comes along this way is missing in the manifest, yet present o
 
 def transitive_dependencies(keys: set[str]) -> set[str]:
     """Return what declared packages bring along, over any number of steps."""
-    found: set[str] = set()
+    result: set[str] = set()
     pending = list(keys)
     while pending:
         for key in TRANSITIVE_DEPENDENCIES.get(pending.pop(), "").split():
-            if key not in found:
-                found.add(key)
+            if key not in result:
+                result.add(key)
                 pending.append(key)
-    return found
+    return result

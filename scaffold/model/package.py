@@ -420,10 +420,10 @@ class Package:
         """The files by the number of directories that they lie in."""
 
         def build() -> dict[int, list[str]]:
-            found: dict[int, list[str]] = {}
+            result: dict[int, list[str]] = {}
             for path in self.tree.files:
-                found.setdefault(path.count("/"), []).append(path)
-            return found
+                result.setdefault(path.count("/"), []).append(path)
+            return result
 
         return self._view("by_depth", build)
 

@@ -86,7 +86,7 @@ def arguments(function: FunctionNode) -> list[str]:
     """Return the names of the arguments without a default."""
     given = [*function.args.posonlyargs, *function.args.args]
     without = given[: len(given) - len(function.args.defaults)]
-    return [one.arg for one in [*without, *function.args.kwonlyargs]]
+    return [item.arg for item in [*without, *function.args.kwonlyargs]]
 
 
 def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr | None:
@@ -100,16 +100,16 @@ def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr 
 
 def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
     """Return the fixtures of a file of tests and of the conftest.py files around it, by name."""
-    found: dict[str, Fixture] = {}
+    result: dict[str, Fixture] = {}
     directory = module.path.rpartition("/")[0]
     for other in package.modules():
         place, _, name = other.path.rpartition("/")
         near = name == "conftest.py" and f"{directory}/".startswith(f"{place}/" if place else "")
         if near or other is module:
             for fixture in own_fixtures(other):
-                if other is module or fixture.name not in found:
-                    found[fixture.name] = fixture
-    return found
+                if other is module or fixture.name not in result:
+                    result[fixture.name] = fixture
+    return result
 
 
 def own_fixtures(module: PythonModule) -> Iterator[Fixture]:
@@ -184,9 +184,9 @@ def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
 
     Tests with launch_testing, and files that run themselves, are left out.
     """
-    around = [one for one in package.modules() if one.path.endswith("conftest.py")]
+    around = [item for item in package.modules() if item.path.endswith("conftest.py")]
     for module in test_modules(package):
         if "rclpy" not in module.imports_by_root or LAUNCH in module.functions:
             continue
         if not module.has_main_guard and "launch_pytest" not in module.imports_by_root:
-            yield module, "\n".join(one.source.text for one in [module, *around])
+            yield module, "\n".join(item.source.text for item in [module, *around])

@@ -49,11 +49,18 @@ def by_cause(result: Result) -> list[Entry]:
     Findings have one cause if their rules say so, or if they read the same.
     """
     causes: dict[tuple[str, ...], list[Diagnostic]] = {}
-    for one in result.diagnostics:
-        key = (one.cause,) if one.cause else (one.code, one.message, one.severity.value)
-        causes.setdefault(key, []).append(one)
+    for diagnostic in result.diagnostics:
+        key = (
+            (diagnostic.cause,)
+            if diagnostic.cause
+            else (diagnostic.code, diagnostic.message, diagnostic.severity.value)
+        )
+        causes.setdefault(key, []).append(diagnostic)
     return [
-        Entry(result.package, tuple(sorted(places, key=lambda one: SEVERITIES.index(one.severity))))
+        Entry(
+            result.package,
+            tuple(sorted(places, key=lambda place: SEVERITIES.index(place.severity))),
+        )
         for places in causes.values()
     ]
 

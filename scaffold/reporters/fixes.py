@@ -36,17 +36,19 @@ def placed(package: Package, fix: Fix) -> PlacedFix | None:
     """
     try:
         replacements = tuple(
-            Replacement(_source(package, one.path).location(one.start, one.end), one.text)
-            for one in fix.changes
-            if isinstance(one, Edit)
+            Replacement(
+                _source(package, change.path).location(change.start, change.end), change.text
+            )
+            for change in fix.changes
+            if isinstance(change, Edit)
         )
     except ViewError:
         return None
     return PlacedFix(
         replacements,
-        tuple(one for one in fix.changes if isinstance(one, CreateFile)),
-        tuple(one.path for one in fix.changes if isinstance(one, MakeExecutable)),
-        tuple(one.path for one in fix.changes if isinstance(one, Remove)),
+        tuple(change for change in fix.changes if isinstance(change, CreateFile)),
+        tuple(change.path for change in fix.changes if isinstance(change, MakeExecutable)),
+        tuple(change.path for change in fix.changes if isinstance(change, Remove)),
     )
 
 

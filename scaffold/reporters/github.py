@@ -51,13 +51,17 @@ def job_summary(results: Sequence[Result]) -> str:
         lines += _table(findings[:_MOST_LISTED])
         if len(findings) > _MOST_LISTED:
             lines += ["", f"The first {_MOST_LISTED} of {len(findings)} findings."]
-        lines += ["", *_counts([one for _, one in findings])]
+        lines += ["", *_counts([item for _, item in findings])]
     return "\n".join(lines) + "\n"
 
 
 def _worst_first(results: Sequence[Result]) -> list[tuple[Package, Diagnostic]]:
-    findings = [Entry(result.package, (one,)) for result in results for one in result.diagnostics]
-    return [(one.package, one.first) for one in in_order(findings)]
+    findings = [
+        Entry(result.package, (diagnostic,))
+        for result in results
+        for diagnostic in result.diagnostics
+    ]
+    return [(item.package, item.first) for item in in_order(findings)]
 
 
 def _table(findings: Sequence[tuple[Package, Diagnostic]]) -> Iterator[str]:
@@ -72,7 +76,9 @@ def _table(findings: Sequence[tuple[Package, Diagnostic]]) -> Iterator[str]:
 def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
     yield "| code | name | severity | findings |"
     yield "|---|---|---|--:|"
-    counts = Counter((one.code, one.name, one.severity) for one in diagnostics)
+    counts = Counter(
+        (diagnostic.code, diagnostic.name, diagnostic.severity) for diagnostic in diagnostics
+    )
     for (code, name, severity), number in sorted(
         counts.items(), key=lambda item: (SEVERITIES.index(item[0][2]), -item[1], item[0][0])
     ):
@@ -81,7 +87,7 @@ def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
 
 def _cell(text: str) -> str:
     """Return text for a cell of a table: nothing of it is Markdown or HTML."""
-    escaped = "".join(f"\\{one}" if one in "\\`*_[]|~" else one for one in printable(text))
+    escaped = "".join(f"\\{item}" if item in "\\`*_[]|~" else item for item in printable(text))
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 

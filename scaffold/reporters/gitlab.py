@@ -20,16 +20,16 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     fingerprints = Fingerprints()
     findings = [
         {
-            "description": f"{one.code} {printable(one.message)}",
-            "check_name": one.code,
-            "fingerprint": fingerprints.of(result.package, one),
-            "severity": _SEVERITIES[one.severity],
+            "description": f"{diagnostic.code} {printable(diagnostic.message)}",
+            "check_name": diagnostic.code,
+            "fingerprint": fingerprints.of(result.package, diagnostic),
+            "severity": _SEVERITIES[diagnostic.severity],
             "location": {
-                "path": in_repository(result.package, one.location.path),
-                "lines": {"begin": one.location.line, "end": one.location.end_line},
+                "path": in_repository(result.package, diagnostic.location.path),
+                "lines": {"begin": diagnostic.location.line, "end": diagnostic.location.end_line},
             },
         }
         for result in results
-        for one in result.diagnostics
+        for diagnostic in result.diagnostics
     ]
     out.write(json_text(findings) + "\n")

@@ -31,7 +31,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 
 
 def _diagnostics(results: Sequence[Result]) -> Iterator[dict[str, object]]:
-    pages = rule_pages.of(one.code for result in results for one in result.diagnostics)
+    pages = rule_pages.of(item.code for result in results for item in result.diagnostics)
     number = 0
     for result in results:
         repetitions = Repetitions()

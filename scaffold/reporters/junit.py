@@ -33,11 +33,13 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 def _suite(result: Result) -> ET.Element:
     package = printable(result.package.identity.name)
     by_case: dict[tuple[str, str, str], list[str]] = {}
-    for one in result.diagnostics:
-        at = one.location
+    for diagnostic in result.diagnostics:
+        at = diagnostic.location
         path = printable(shown(result.package, at.path))
-        line = f"{path}:{at.line}:{at.column}: {one.code} {printable(one.message)}"
-        by_case.setdefault((f"{one.code} {path}", path, _outcome(one)), []).append(line)
+        line = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.message)}"
+        by_case.setdefault((f"{diagnostic.code} {path}", path, _outcome(diagnostic)), []).append(
+            line
+        )
     cases = [
         _case(package, name, lines, outcome, path)
         for (name, path, outcome), lines in by_case.items()
@@ -45,10 +47,10 @@ def _suite(result: Result) -> ET.Element:
     return _of_cases(package, cases or [_case(package, "check", [])])
 
 
-def _outcome(one: Diagnostic) -> str:
-    if one.code == RuleCrashed.code:
+def _outcome(diagnostic: Diagnostic) -> str:
+    if diagnostic.code == RuleCrashed.code:
         return "error"
-    return "system-out" if one.severity is Severity.INFO else "failure"
+    return "system-out" if diagnostic.severity is Severity.INFO else "failure"
 
 
 def _case(

@@ -75,5 +75,5 @@ def _repository() -> str | None:
     for entry in entries:
         label, _, address = entry.partition(",")
         urls["".join(filter(str.isalnum, label)).lower()] = address.strip()
-    found = [urls[label] for label in _LABELS if label in urls]
-    return found[0].rstrip("/").removesuffix(".git") if found else None
+    result = [urls[label] for label in _LABELS if label in urls]
+    return result[0].rstrip("/").removesuffix(".git") if result else None

@@ -34,7 +34,9 @@ Data = dict[str, Any]
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
     """Write one run with every finding, and the rules of these."""
-    pages = rule_pages.of(one.code for result in results for one in result.diagnostics)
+    pages = rule_pages.of(
+        diagnostic.code for result in results for diagnostic in result.diagnostics
+    )
     numbers = {code: number for number, code in enumerate(pages)}
     run: Data = {
         "tool": {
@@ -74,26 +76,28 @@ def _rule(page: RulePage) -> Data:
 
 def _results(results: Sequence[Result], numbers: dict[str, int]) -> list[Data]:
     fingerprints = Fingerprints()
-    found: list[Data] = []
+    results: list[Data] = []
     for result in results:
         repetitions = Repetitions()
-        for one in result.diagnostics:
-            data = _result(result.package, one, numbers[one.code])
-            data["partialFingerprints"]["finding/v1"] = fingerprints.of(result.package, one)
-            if one.fix is not None and repetitions.first(one.fix, len(found)) == len(found):
-                fix = _fix(result.package, one.fix)
+        for diagnostic in result.diagnostics:
+            data = _result(result.package, diagnostic, numbers[diagnostic.code])
+            data["partialFingerprints"]["finding/v1"] = fingerprints.of(result.package, diagnostic)
+            if diagnostic.fix is not None and repetitions.first(diagnostic.fix, len(results)) == len(
+                results
+            ):
+                fix = _fix(result.package, diagnostic.fix)
                 data |= {"fixes": [fix]} if fix else {}
-            found.append(data)
-    return found
+            results.append(data)
+    return results
 
 
-def _result(package: Package, one: Diagnostic, number: int) -> Data:
-    at = one.location
+def _result(package: Package, diagnostic: Diagnostic, number: int) -> Data:
+    at = diagnostic.location
     return {
-        "ruleId": one.code,
+        "ruleId": diagnostic.code,
         "ruleIndex": number,
-        "level": _LEVELS[one.severity],
-        "message": {"text": printable(one.message)},
+        "level": _LEVELS[diagnostic.severity],
+        "message": {"text": printable(diagnostic.message)},
         "locations": [
             {
                 "physicalLocation": {

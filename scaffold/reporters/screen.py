@@ -40,7 +40,7 @@ class _Folded(NamedTuple):
 
     @property
     def all(self) -> list[Diagnostic]:
-        return [one for result in self.results for one in result.diagnostics]
+        return [diagnostic for result in self.results for diagnostic in result.diagnostics]
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
@@ -77,7 +77,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 
 
 def _without(result: Result, hidden: set[Diagnostic]) -> Result:
-    kept = [one for one in result.diagnostics if one not in hidden]
+    kept = [diagnostic for diagnostic in result.diagnostics if diagnostic not in hidden]
     return Result(result.package, result.files, kept)
 
 
@@ -85,16 +85,18 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
     if options.style:
         return _Folded(())
     has_errors = any(
-        one.severity is Severity.ERROR for result in results for one in result.diagnostics
+        diagnostic.severity is Severity.ERROR
+        for result in results
+        for diagnostic in result.diagnostics
     )
     found = [
         Result(
             result.package,
             result.files,
             [
-                one
-                for one in result.diagnostics
-                if is_style(one) and (has_errors or not _runs(result, one))
+                diagnostic
+                for diagnostic in result.diagnostics
+                if is_style(diagnostic) and (has_errors or not _runs(result, diagnostic))
             ],
         )
         for result in results
@@ -102,10 +104,10 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
     return _Folded([result for result in found if result.diagnostics])
 
 
-def _runs(result: Result, one: Diagnostic) -> bool:
+def _runs(result: Result, diagnostic: Diagnostic) -> bool:
     """Tell whether a test of the package itself would report a style finding."""
-    linter = "pep257" if one.code.startswith("D") else "flake8"
-    return linter_use(result.package, linter).covers(one.location.path)
+    linter = "pep257" if diagnostic.code.startswith("D") else "flake8"
+    return linter_use(result.package, linter).covers(diagnostic.location.path)
 
 
 def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
@@ -154,12 +156,12 @@ def _further(entry: Entry) -> list[Text]:
     shown = others[:_MAX_PLACES]
     rest = len(others) - len(shown)
     more = f" and {count(rest, 'more place')}" if rest else ""
-    places = [place(entry.package, one) for one in shown]
-    if all((one.code, one.message) == (first.code, first.message) for one in shown):
+    places = [place(entry.package, item) for item in shown]
+    if all((item.code, item.message) == (first.code, first.message) for item in shown):
         return [Text(f"    also at {', '.join(places)}{more}", style="dim")]
     lines = [
-        f"    also {at}: {one.code} {shorten(printable(one.message), 80, placeholder=' …')}"
-        for at, one in zip(places, shown, strict=True)
+        f"    also {at}: {item.code} {shorten(printable(item.message), 80, placeholder=' …')}"
+        for at, item in zip(places, shown, strict=True)
     ]
     return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
 
@@ -168,7 +170,7 @@ def _room(blocks: Sequence[Text], height: int, width: int) -> int:
     """Return how many blocks fit on the screen; at least one."""
     used = 0
     for at, block in enumerate(blocks):
-        used += sum(max(1, -(-len(one) // width)) for one in block.plain.split("\n"))
+        used += sum(max(1, -(-len(item) // width)) for item in block.plain.split("\n"))
         if used > height:
             return max(1, at)
     return len(blocks)
@@ -176,11 +178,11 @@ def _room(blocks: Sequence[Text], height: int, width: int) -> int:
 
 def _left_out(entries: Sequence[Entry]) -> list[Text]:
     """Return what does not fit on the screen, by code and by package, and how to see it."""
-    found = [one for entry in entries for one in entry.places]
-    codes = Counter(one.code for one in found)
+    result = [item for entry in entries for item in entry.places]
+    codes = Counter(item.code for item in result)
     names = Counter(printable(entry.package.name) for entry in entries for _ in entry.places)
     return [
-        Text(f"not shown: {by_severity(found)}; --all shows them", style="bold"),
+        Text(f"not shown: {by_severity(result)}; --all shows them", style="bold"),
         Text(f"    by code: {_named(codes)}", style="dim"),
         Text(f"    by package: {_named(names)}", style="dim"),
     ]
@@ -216,6 +218,6 @@ def _style_line(result: Result) -> Text:
     )
 
 
-def _fixable(found: Iterable[Diagnostic]) -> str:
-    number = sum(one.fix is not None for one in found)
+def _fixable(diagnostics: Iterable[Diagnostic]) -> str:
+    number = sum(item.fix is not None for item in diagnostics)
     return f"{number:,} fixable with --fix; --style shows them"

@@ -20,16 +20,16 @@ def summary(results: Sequence[Result], *, unsafe: bool) -> str:
     """
     total = Summary.of(results)
     checked = f"{count(total.packages, 'package')}, {count(total.files, 'file')}"
-    found = [one for result in results for one in result.diagnostics]
+    found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if not found:
         return f"{checked}: no findings"
     return f"{checked}: {by_severity(found)}{_fixable(found, unsafe=unsafe)}"
 
 
-def by_severity(found: Iterable[Diagnostic]) -> str:
+def by_severity(diagnostics: Iterable[Diagnostic]) -> str:
     """Return ``2 errors, 1 warning``."""
-    numbers = Counter(one.severity for one in found)
-    return ", ".join(count(numbers[one], one.value) for one in SEVERITIES if numbers[one])
+    numbers = Counter(item.severity for item in diagnostics)
+    return ", ".join(count(numbers[item], item.value) for item in SEVERITIES if numbers[item])
 
 
 def count(number: int, noun: str) -> str:
@@ -37,9 +37,9 @@ def count(number: int, noun: str) -> str:
     return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
 
 
-def _fixable(found: Iterable[Diagnostic], *, unsafe: bool) -> str:
+def _fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
     """Say how many fixes there are, and which flags apply them."""
-    fixes = [one.fix for one in found if one.fix is not None]
+    fixes = [item.fix for item in diagnostics if item.fix is not None]
     careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
     others = len(fixes) - careful
     parts = [f"{careful:,} fixable with --fix"] if careful else []

@@ -45,28 +45,28 @@ def worst_first(
     """Yield the findings that are to be shown: errors, then warnings, then advice."""
     for severity in SEVERITIES[: SEVERITIES.index(options.severity) + 1]:
         for result in results:
-            for one in result.diagnostics:
-                if one.severity is severity:
-                    yield result.package, one
+            for diagnostic in result.diagnostics:
+                if diagnostic.severity is severity:
+                    yield result.package, diagnostic
 
 
-def line(package: Package, one: Diagnostic) -> str:
+def line(package: Package, diagnostic: Diagnostic) -> str:
     """Return the line of a finding: ``path:line:column: severity code message [name]``."""
-    head = f"{place(package, one)}: {one.severity.value} {one.code}"
-    return f"{head} {printable(one.message)} [{one.name}]"
+    head = f"{place(package, diagnostic)}: {diagnostic.severity.value} {diagnostic.code}"
+    return f"{head} {printable(diagnostic.message)} [{diagnostic.name}]"
 
 
-def place(package: Package, one: Diagnostic) -> str:
+def place(package: Package, diagnostic: Diagnostic) -> str:
     """Return ``path:line:column``, as terminals and editors follow it."""
-    at = one.location
+    at = diagnostic.location
     return f"{printable(shown(package, at.path))}:{at.line}:{at.column}"
 
 
 def _statistics(results: Sequence[Result], out: TextIO) -> None:
     """Write how often each code is reported, the most frequent first."""
-    found = [one for result in results for one in result.diagnostics]
-    numbers = Counter((one.code, one.name, one.severity) for one in found)
-    fixable = {one.code for one in found if one.fix is not None}
+    found = [diagnostic for result in results for diagnostic in result.diagnostics]
+    numbers = Counter((item.code, item.name, item.severity) for item in found)
+    fixable = {item.code for item in found if item.fix is not None}
     width = len(str(max(numbers.values(), default=0)))
     for (code, name, severity), number in numbers.most_common():
         mark = "[*]" if code in fixable else "[ ]"

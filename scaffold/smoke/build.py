@@ -82,10 +82,10 @@ async def build(
         log = _Log.read(layout.log / "latest_build", said, succeeded=exit_code == 0)
         log = replace(log, left_running=tuple(left_running))
         # A package that makes colcon itself fail ends the build also of those that come later.
-        later = [one for one in left if log.had_no_turn(one.name)] if in_time else []
+        later = [item for item in left if log.had_no_turn(item.name)] if in_time else []
         if len(later) == len(left):
             later = []
-        done.update({one.name: log.result(one) for one in left if one not in later})
+        done.update({item.name: log.result(item) for item in left if item not in later})
         left = later
     return done
 
@@ -215,10 +215,10 @@ class _Log:
     """Processes that have outlived the build."""
 
     @classmethod
-    def read(cls, directory: Path, said: str, *, succeeded: bool) -> _Log:
+    def read(cls, directory: Path, text: str, *, succeeded: bool) -> _Log:
         events = directory / "events.log"
         if not events.exists():
-            return cls(directory, None, without_repeats(said), succeeded)
+            return cls(directory, None, without_repeats(text), succeeded)
         jobs: dict[str, _Job] = {}
         for line in output.read(events).splitlines():
             event = _JOB.match(line)
@@ -234,7 +234,7 @@ class _Log:
                 job.succeeded = bool(_SUCCESS.search(event["rest"]))
             else:
                 job.skipped = True
-        return cls(directory, jobs, without_repeats(said), succeeded)
+        return cls(directory, jobs, without_repeats(text), succeeded)
 
     def had_no_turn(self, name: str) -> bool:
         """Tell whether the build ended early, for no reason that concerns this package."""

@@ -21,12 +21,12 @@ _Entity = TypeVar("_Entity", bound=Endpoint)
 
 def expectations(package: Package) -> dict[str, Expectation]:
     """Return what is expected of the executables that are Python, by their names."""
-    found: dict[str, Expectation] = {}
+    result: dict[str, Expectation] = {}
     for start in starts_of(package):
         expectation = _expectation(package, start)
         if expectation is not None:
-            found[start.program] = expectation
-    return found
+            result[start.program] = expectation
+    return result
 
 
 # -- what one of them does
@@ -67,7 +67,7 @@ def _publications(
             continue  # it publishes once it is activated, which nobody does here
         alone = owner.facts is facts and not (isinstance(owner, NodeClass) and owner.base)
         reaches = PublishReach(owner.facts, starts, alone=alone)
-        for publisher in _made(owner, starts, lambda one: one.publishers):
+        for publisher in _made(owner, starts, lambda item: item.publishers):
             topic = _resolved(publisher.topic, owner)
             if topic is not None:
                 rates = publish_rates(owner.facts, publisher) if alone else None
@@ -88,11 +88,11 @@ def _publications(
 def _offers(owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]) -> Iterator[Offer]:
     """Yield the services and actions that are there once the nodes are made."""
     for owner in owners:
-        for service in _made(owner, starts, lambda one: one.services):
+        for service in _made(owner, starts, lambda item: item.services):
             name = _resolved(service.name, owner)
             if name is not None:
                 yield Offer("service", name, service.interface)
-        for server in _made(owner, starts, lambda one: one.action_servers):
+        for server in _made(owner, starts, lambda item: item.action_servers):
             name = _resolved(server.name, owner)
             if name is not None:
                 yield Offer("action", name, server.interface)
@@ -149,23 +149,23 @@ def _resolved(topic: str | Unknown, owner: NodeDefinition) -> str | None:
 
 def _merged(publications: Iterable[Publication]) -> tuple[Publication, ...]:
     """Join what is published on the same topic: the rates add up."""
-    found: dict[str, Publication] = {}
-    for one in publications:
-        other = found.get(one.topic)
-        found[one.topic] = one if other is None else _joined(one, other)
-    return tuple(found.values())
+    result: dict[str, Publication] = {}
+    for publication in publications:
+        other = result.get(publication.topic)
+        result[publication.topic] = publication if other is None else _joined(publication, other)
+    return tuple(result.values())
 
 
-def _joined(one: Publication, other: Publication) -> Publication:
-    rates = (one.rate_hz, other.rate_hz)
+def _joined(publication: Publication, other: Publication) -> Publication:
+    rates = (publication.rate_hz, other.rate_hz)
     known = [rate for rate in rates if rate is not None]
     rate = sum(known) if len(known) == len(rates) else None
     return Publication(
-        one.topic,
-        other.type or one.type,
+        publication.topic,
+        other.type or publication.type,
         rate,
-        certain=one.certain or other.certain,
-        never=one.never and other.never,
-        sources=one.sources + other.sources,
-        timer_hz=one.timer_hz or other.timer_hz,
+        certain=publication.certain or other.certain,
+        never=publication.never and other.never,
+        sources=publication.sources + other.sources,
+        timer_hz=publication.timer_hz or other.timer_hz,
     )

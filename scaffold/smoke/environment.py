@@ -252,13 +252,13 @@ def _from_variables(
 
 def _rmw(prefixes: list[str], wanted: str | None) -> str:
     """Return the middleware: the wanted one if it is there and works without a router."""
-    found: set[str] = set()
+    result: set[str] = set()
     for prefix in prefixes:
         index = os.path.join(prefix, "share/ament_index/resource_index/rmw_typesupport")
         if os.path.isdir(index):
-            found.update(os.listdir(index))
+            result.update(os.listdir(index))
     # The index also names the package that chooses between them.
-    usable = sorted(n for n in found if n != "rmw_implementation" and "zenoh" not in n)
+    usable = sorted(n for n in result if n != "rmw_implementation" and "zenoh" not in n)
     if wanted in usable:
         return str(wanted)
     return usable[0] if usable and DEFAULT_RMW not in usable else DEFAULT_RMW

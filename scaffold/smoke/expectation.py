@@ -157,7 +157,7 @@ def _said(publication: Publication, expectation: Expectation) -> str:
 
 
 def _silent(
-    publication: Publication, topic: Topic, seconds: float, said: str
+    publication: Publication, topic: Topic, seconds: float, text: str
 ) -> tuple[list[Problem], list[str]]:
     rate = publication.rate_hz
     if rate and seconds < PATIENCE / rate:
@@ -166,16 +166,16 @@ def _silent(
         return [Problem(f"no message on {topic.name}: nothing that runs calls publish")], []
     if not publication.certain:
         return [], [f"no message on {topic.name}: something has to happen first"]
-    return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {said}")], []
+    return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {text}")], []
 
 
-def _wrong_rate(publication: Publication, topic: Topic, said: str) -> list[Problem]:
+def _wrong_rate(publication: Publication, topic: Topic, text: str) -> list[Problem]:
     rate = publication.rate_hz or 0.0
     expected = rate * topic.watched
     if expected >= ENOUGH_MESSAGES and topic.count < expected / 2:
         many = "message" if topic.count == 1 else "messages"
         return [
-            Problem(f"only {topic.count} {many} on {topic.name} in {topic.watched:.1f} s: {said}")
+            Problem(f"only {topic.count} {many} on {topic.name} in {topic.watched:.1f} s: {text}")
         ]
     enough = topic.count >= ENOUGH_MESSAGES or topic.span >= ENOUGH_SECONDS_SLOW
     if topic.rate_hz is None or topic.span < ENOUGH_SECONDS or not enough:
@@ -184,4 +184,4 @@ def _wrong_rate(publication: Publication, topic: Topic, said: str) -> list[Probl
     at_the_ends = (publication.sources - 1 + rate * LATENESS) / topic.span
     if abs(topic.rate_hz - rate) <= tolerance * rate + at_the_ends:
         return []
-    return [Problem(f"{topic.name} comes at {topic.rate_hz:g} Hz: {said}")]
+    return [Problem(f"{topic.name} comes at {topic.rate_hz:g} Hz: {text}")]

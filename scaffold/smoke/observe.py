@@ -98,7 +98,7 @@ class Observer:
 
     def has_seen_anything(self) -> bool:
         """Tell whether a node or a publisher has appeared."""
-        return bool(self._nodes) or any(one["publishers"] for one in self._topics.values())
+        return bool(self._nodes) or any(topic["publishers"] for topic in self._topics.values())
 
     def count(self, topic: str) -> int:
         """Return how many messages of a topic have come, counting the first few only."""

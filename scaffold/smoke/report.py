@@ -55,7 +55,7 @@ def _package_data(package: PackageResult) -> dict[str, Any]:
             "errors": list(build.errors),
             "warnings": list(build.warnings),
         },
-        "executables": [_executable_data(one) for one in package.executables],
+        "executables": [_executable_data(executable) for executable in package.executables],
     }
 
 
@@ -118,7 +118,9 @@ def _without_escapes(value: Value) -> Value:
     elif isinstance(value, Mapping):
         cleaned = {_without_escapes(key): _without_escapes(item) for key, item in value.items()}
     elif is_dataclass(value) and not isinstance(value, type):
-        changes = {one.name: _without_escapes(getattr(value, one.name)) for one in fields(value)}
+        changes = {
+            field.name: _without_escapes(getattr(value, field.name)) for field in fields(value)
+        }
         cleaned = replace(value, **changes)
     return cast("Value", cleaned)
 
@@ -230,13 +232,13 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
 
 
 def _summary(result: Smoke, paint: Paint) -> str:
-    executables = [one for package in result.packages for one in package.executables]
+    executables = [executable for package in result.packages for executable in package.executables]
     said = f"{_count(len(result.packages), 'package')}, {_count(len(executables), 'executable')}"
     seconds = f"in {result.seconds:.1f} s"
     if result.ok:
         return f"{said}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
-    bad = [one.name for one in executables if not one.ok]
+    bad = [executable.name for executable in executables if not executable.ok]
     parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
     parts += [f"{_listed(bad)} not ok"] if bad else []
     return f"{said}: {paint('; '.join(parts), _RED)} {seconds}"

@@ -114,7 +114,7 @@ class PackageResult:
     @property
     def ok(self) -> bool:
         """Tell whether it was built and all its executables are as they should be."""
-        return self.build.ok and all(one.ok for one in self.executables)
+        return self.build.ok and all(executable.ok for executable in self.executables)
 
 
 @dataclass(frozen=True)

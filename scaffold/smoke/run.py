@@ -180,7 +180,11 @@ class _Run:
         await observer.settle(SETTLING, plan.timeout, running)
 
     def _has_seen_all(self) -> Callable[[], bool]:
-        topics = [one.topic for one in self._expectation.publications if one.certain]
+        topics = [
+            publication.topic
+            for publication in self._expectation.publications
+            if publication.certain
+        ]
         offers = self._expectation.offers
         return lambda: (
             all(self._observer.count(topic) for topic in topics)

@@ -199,13 +199,15 @@ class _Session:
             timeout=self._options.timeout,
         )
         runs = [
-            (source.name, one) for source in sources for one in self._of_package(plan, source.name)
+            (source.name, item)
+            for source in sources
+            for item in self._of_package(plan, source.name)
         ]
-        done = await _together([one for _, one in runs])
-        found: dict[str, list[Executable]] = {}
+        done = await _together([item for _, item in runs])
+        result: dict[str, list[Executable]] = {}
         for (name, _), executable in zip(runs, done, strict=True):
-            found.setdefault(name, []).append(executable)
-        return {name: tuple(executables) for name, executables in found.items()}
+            result.setdefault(name, []).append(executable)
+        return {name: tuple(executables) for name, executables in result.items()}
 
     async def _sourced(self) -> dict[str, str]:
         """Return the variables with the built packages in them."""
@@ -301,12 +303,12 @@ def installed(package: str, variables: Mapping[str, str]) -> list[Path] | None:
     for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         if not os.path.exists(f"{prefix}/share/ament_index/resource_index/packages/{package}"):
             continue
-        found: list[Path] = []
+        result: list[Path] = []
         for parent, directories, names in os.walk(os.path.join(prefix, "lib", package)):
             directories[:] = sorted(name for name in directories if not name.startswith("."))
             paths = (Path(parent, name) for name in sorted(names))
-            found += [path for path in paths if os.access(path, os.X_OK)]
-        return found
+            result += [path for path in paths if os.access(path, os.X_OK)]
+        return result
     return None
 
 
@@ -334,7 +336,7 @@ def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Ex
     return Executable(
         name=name,
         observation=first.observation,
-        stops=tuple(one.stop for one in trials),
+        stops=tuple(item.stop for item in trials),
         problems=tuple(problems),
         notes=tuple(notes),
     )

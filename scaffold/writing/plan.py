@@ -185,18 +185,18 @@ class WritePlan:
 
 def _replacements(plans: Sequence[WritePlan], root: str) -> list[transaction.Replacement]:
     """Return the changes by real file: two paths may be links to the same one."""
-    found: dict[str, transaction.Replacement] = {}
+    result: dict[str, transaction.Replacement] = {}
     for plan in plans:
         for file in plan.changes:
             path = os.path.relpath(file.target, root).replace(os.sep, "/")
             content = None if file.state is State.REMOVED else file.content
             new = transaction.Replacement(path, file.seen, content, file.executable)
-            if found.setdefault(path, new) != new:
+            if result.setdefault(path, new) != new:
                 raise ConflictError(
                     f"{file.path} in {plan.root} is another name of a file that is to have other "
                     "content; nothing was written"
                 )
-    return list(found.values())
+    return list(result.values())
 
 
 def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:

@@ -361,9 +361,9 @@ class _Transaction:
             if entries["mark"] != found._mark():
                 return None
             changes = [Change(*entry) for entry in entries["changes"]]
-            if any(map(_leads_out, [one.path for one in changes] + entries["directories"])) and (
-                not Disk().is_own(stage.file(_MARK))
-            ):
+            if any(
+                map(_leads_out, [change.path for change in changes] + entries["directories"])
+            ) and (not Disk().is_own(stage.file(_MARK))):
                 return None
             is_forward = bool(entries["is_forward"])
             return cls(root, stage, changes, entries["directories"], is_forward=is_forward)
@@ -407,7 +407,9 @@ class _Transaction:
 
     def refuse_changed(self) -> None:
         """Raise ConflictError if a file is not what it was when it was read."""
-        changed = [one.path for one in self.changes if state(self.target(one)) != one.before]
+        changed = [
+            change.path for change in self.changes if state(self.target(change)) != change.before
+        ]
         if changed:
             raise ConflictError(_refusal(self.root, changed, ()))
 
@@ -459,7 +461,7 @@ class _Transaction:
             if not os.path.lexists(_join(self.root, directory)):
                 new_files.make_directory(_join(self.root, directory))
         pending = [change for change in self.changes if not self._is_done(change)]
-        left = self._swap_each([one for one in pending if self._now(one) != one.after])
+        left = self._swap_each([item for item in pending if self._now(item) != item.after])
         self.close()
         return left
 

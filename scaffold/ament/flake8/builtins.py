@@ -123,8 +123,10 @@ def _flat(target: ast.expr | None, *, starred: bool) -> list[str]:
     """Return the names of a target, not deeper than one level."""
     elements = target.elts if isinstance(target, (ast.Tuple, ast.List)) else [target]
     if starred:
-        elements = [one.value if isinstance(one, ast.Starred) else one for one in elements]
-    return [one.id for one in elements if isinstance(one, ast.Name)]
+        elements = [
+            element.value if isinstance(element, ast.Starred) else element for element in elements
+        ]
+    return [element.id for element in elements if isinstance(element, ast.Name)]
 
 
 def _arguments(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.arg]:

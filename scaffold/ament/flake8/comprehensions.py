@@ -98,7 +98,7 @@ def _of_one(node: ast.Call, name: str, first: ast.expr) -> str:
         return "C418" if name == "dict" and not node.keywords else ""
     if isinstance(first, (ast.Tuple, ast.List)):
         if name == "dict":
-            pairs = all(isinstance(one, ast.Tuple) and _is_pair(one) for one in first.elts)
+            pairs = all(isinstance(elt, ast.Tuple) and _is_pair(elt) for elt in first.elts)
             return "C406" if pairs else ""
         return {"tuple": "C409", "list": "C410", "set": "C405"}.get(name, "")
     return ""
@@ -149,5 +149,5 @@ def _copies(node: _Copy) -> bool:
     return _same_name(node.elt, target)
 
 
-def _same_name(one: ast.expr, two: ast.expr) -> bool:
-    return isinstance(one, ast.Name) and isinstance(two, ast.Name) and one.id == two.id
+def _same_name(node: ast.expr, two: ast.expr) -> bool:
+    return isinstance(node, ast.Name) and isinstance(two, ast.Name) and node.id == two.id

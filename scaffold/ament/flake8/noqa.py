@@ -70,17 +70,17 @@ class _Silenced:
     def _read(self, line: int) -> tuple[str, ...]:
         first, last = self._groups.get(line, (line, line))
         joined = "".join(self._text.lines[first - 1 : last])
-        found = re.search(_INLINE, joined, re.IGNORECASE)
-        if found is None:
+        matched = re.search(_INLINE, joined, re.IGNORECASE)
+        if matched is None:
             return ()
-        if found["codes"] is None:
+        if matched["codes"] is None:
             return _ALL
-        return tuple(code for code in re.split(r"[,\s]", found["codes"]) if code)
+        return tuple(code for code in re.split(r"[,\s]", matched["codes"]) if code)
 
 
 def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
     """Return first and last row of the rows that a string or a backslash ties together."""
-    found: dict[int, tuple[int, int]] = {}
+    result: dict[int, tuple[int, int]] = {}
     first = last = 0
     for token in text.tokens:
         if token.type in (ENDMARKER, DEDENT):
@@ -89,6 +89,6 @@ def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
         last = max(last, token.end[0])
         if token.type in NEWLINES:
             for row in range(first, last + 1):
-                found[row] = (first, last)
+                result[row] = (first, last)
             first = last = 0
-    return found
+    return result

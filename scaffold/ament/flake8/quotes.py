@@ -110,7 +110,7 @@ def _fix(
 
 def _docstrings(tokens: list[Token]) -> set[Position]:
     """Return the starts of the string tokens where a docstring may stand."""
-    found: set[Position] = set()
+    positions: set[Position] = set()
     awaited = True
     keyword = False
     depth = 0
@@ -119,7 +119,7 @@ def _docstrings(tokens: list[Token]) -> set[Position]:
             continue
         if token.type == STRING:
             if awaited:
-                found.add(token.start)
+                positions.add(token.start)
             awaited = False
         elif token.type == NAME and token.string in ("class", "def"):
             keyword, awaited, depth = True, False, 0
@@ -134,4 +134,4 @@ def _docstrings(tokens: list[Token]) -> set[Position]:
             awaited = False
         else:
             awaited = False
-    return found
+    return positions

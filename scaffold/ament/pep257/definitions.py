@@ -120,7 +120,7 @@ class Definition:
         """Names of the decorators up to their arguments."""
         if isinstance(self.node, ast.Module):
             return ()
-        return tuple(self._decorator(one) for one in self.node.decorator_list)
+        return tuple(self._decorator(item) for item in self.node.decorator_list)
 
     def _decorator(self, node: ast.expr) -> str:
         line = self.text.lines[node.lineno - 1]
@@ -219,10 +219,10 @@ def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
     if line[column - 1 : column] not in "\"'rRuUbB":
         return None
     start = text.line_starts[node.lineno - 1] + column - 1
-    found = re.compile(_LITERAL, re.DOTALL).match(text.text, start)
-    if found is None:
+    matched = re.compile(_LITERAL, re.DOTALL).match(text.text, start)
+    if matched is None:
         return None
-    literal = found[0]
+    literal = matched[0]
     rows = literal.count("\n")
     end = len(literal) - literal.rfind("\n") if rows else column + len(literal)
     return Literal(literal, node.lineno, column, node.lineno + rows, end)

@@ -33,7 +33,7 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
     # A summary that moves to the second line was too long before.
     if not splices or (code != "D213" and _is_too_long(definition, splices)):
         return (), ""
-    return tuple(_placed(definition, one) for one in splices), title
+    return tuple(_placed(definition, splice) for splice in splices), title
 
 
 def _is_raw(definition: Definition) -> bool:

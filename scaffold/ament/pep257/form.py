@@ -65,13 +65,13 @@ def _judge(definition: Definition) -> Said:
     if not definition.value.strip():
         yield "D419", "the docstring is empty"
         return
-    for one in _CHECKS:
-        yield from one(definition)
+    for item in _CHECKS:
+        yield from item(definition)
     if definition.kind == CLASS:
         yield from _blank_lines_in_class(definition)
     elif definition.is_function:
-        for one in _FUNCTION_CHECKS:
-            yield from one(definition)
+        for item in _FUNCTION_CHECKS:
+            yield from item(definition)
     if "\n" in definition.docstring:
         from scaffold.ament.pep257.sections import check as check_sections
 
@@ -165,8 +165,8 @@ def _quotes(definition: Definition) -> Said:
     docstring = definition.docstring
     wanted = "'''[^']" if '"""' in definition.value else '"""[^"]'
     if not re.match(f"[uU]?[rR]?{wanted}", docstring):
-        found = re.match("[uU]?[rR]?(\"+|'+)", docstring)
-        yield "D300", f'the docstring uses {found[1] if found else "other"} quotes, not """'
+        matched = re.match("[uU]?[rR]?(\"+|'+)", docstring)
+        yield "D300", f'the docstring uses {matched[1] if matched else "other"} quotes, not """'
 
 
 def _backslashes(definition: Definition) -> Said:
@@ -208,7 +208,7 @@ def _signature(definition: Definition) -> Said:
 def _capital(definition: Definition) -> Said:
     first = definition.value.split()[0]
     letters = string.ascii_letters + "'"
-    if first == first.upper() or any(one not in letters for one in first):
+    if first == first.upper() or any(item not in letters for item in first):
         return
     if first != first.capitalize():
         yield "D403", f"the first word of the docstring is {first!r}, not {first.capitalize()!r}"

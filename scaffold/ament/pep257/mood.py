@@ -27,10 +27,10 @@ def correct(word: str) -> str | None:
     return max(sorted(forms), key=lambda form: _common(lowered, form)).capitalize()
 
 
-def _common(one: str, two: str) -> int:
+def _common(text: str, two: str) -> int:
     """Return how many letters two words have in common at their start."""
-    pairs = zip(one, two, strict=False)
-    return next((at for at, (a, b) in enumerate(pairs) if a != b), min(len(one), len(two)))
+    pairs = zip(text, two, strict=False)
+    return next((at for at, (a, b) in enumerate(pairs) if a != b), min(len(text), len(two)))
 
 
 @lru_cache(maxsize=1)
@@ -58,12 +58,12 @@ def _imperatives() -> dict[str, set[str]]:
     if data is not None:
         known: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
         return known
-    found: dict[str, set[str]] = {}
+    result: dict[str, set[str]] = {}
     for word in _known():
-        found.setdefault(_stem(word), set()).add(word)
+        result.setdefault(_stem(word), set()).add(word)
     if kept:
-        cache.write_sealed(place, head, marshal.dumps(found))
-    return found
+        cache.write_sealed(place, head, marshal.dumps(result))
+    return result
 
 
 @lru_cache(maxsize=4096)

@@ -60,7 +60,7 @@ def _of_file(path: str, data: bytes) -> list[Difference]:
     said = _reference(path.rpartition("/")[2], data)
     if said is None:
         return []
-    ours = {(one.line, one.code) for one in docstrings.check(text) if one.linters & PEP257}
+    ours = {(item.line, item.code) for item in docstrings.check(text) if item.linters & PEP257}
     return [
         Difference(path, line, code, only_reference=(line, code) in said)
         for line, code in sorted(ours ^ said)
@@ -89,6 +89,6 @@ def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
                 said = list(pydocstyle.check([file], select=codes))
             except Exception:  # noqa: BLE001  whatever pydocstyle stumbles over
                 return None
-    if not all(isinstance(one, pydocstyle.Error) for one in said):
+    if not all(isinstance(item, pydocstyle.Error) for item in said):
         return None
-    return {(one.line, one.code) for one in said}
+    return {(item.line, item.code) for item in said}

@@ -140,8 +140,8 @@ def _is_section(line: str, before: str) -> bool:
 
 def _leading_words(line: str) -> str | None:
     """Return the words that a line starts with, up to the first other character."""
-    found = re.match(r"[\w ]+", line.strip())
-    return found[0] if found else None
+    matched = re.match(r"[\w ]+", line.strip())
+    return matched[0] if matched else None
 
 
 def _numpy(section: Section, definition: Definition) -> Said:
@@ -205,15 +205,15 @@ def _underline(section: Section, definition: Definition) -> Said:
 
 def _numpy_parameters(section: Section) -> set[str]:
     """Return the parameters with a description: a deeper line below them."""
-    found: set[str] = set()
+    result: set[str] = set()
     level = leading_space(section.line)
     content = "\n".join(section.after).replace("\\\n", "").split("\n")
     for line, below in pairwise(content):
         deeper = len(leading_space(below)) > len(leading_space(line))
         if leading_space(line) == level and deeper and below.strip():
             names = line.partition(":")[0] if ":" in line else line.strip()
-            found.update(name.strip() for name in names.split(","))
-    return found
+            result.update(name.strip() for name in names.split(","))
+    return result
 
 
 def _google_arguments(section: Section) -> set[str]:
@@ -229,7 +229,7 @@ def _google_arguments(section: Section) -> set[str]:
         else:
             entries.append(line)
     matches = (re.match(_ARGUMENT, entry) for entry in entries)
-    return {found[1] for found in matches if found}
+    return {item[1] for item in matches if item}
 
 
 def _undocumented(documented: set[str], definition: Definition) -> Said:
@@ -237,7 +237,7 @@ def _undocumented(documented: set[str], definition: Definition) -> Said:
     if not isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
         return
     arguments = node.args
-    names = [one.arg for one in [*arguments.args, *arguments.kwonlyargs]]
+    names = [arg.arg for arg in [*arguments.args, *arguments.kwonlyargs]]
     if definition.kind == METHOD and "staticmethod" not in definition.decorators:
         names = names[1:]
     missing = {name for name in names if not name.startswith("_")} - documented

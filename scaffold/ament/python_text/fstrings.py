@@ -52,7 +52,7 @@ class _Opened:
         self._line = token.line
         self._first = len(prefix) + width
         self._last = len(text) - width
-        self._breaks = [at for at, one in enumerate(text) if one == "\n"] if "\n" in text else []
+        self._breaks = [at for at, item in enumerate(text) if item == "\n"] if "\n" in text else []
 
     def tokens(self) -> Iterator[TokenInfo]:
         """Yield the tokens of the string."""
@@ -147,18 +147,18 @@ class _Opened:
         feed = io.StringIO(f"({self._text[start:end]})").readline
         row, column = self._place(start)
         try:
-            inner = [one for one in tokenize.generate_tokens(feed) if one.type not in _NOISE]
+            inner = [token for token in tokenize.generate_tokens(feed) if token.type not in _NOISE]
         except (tokenize.TokenError, SyntaxError):
             return
         moved = [
             TokenInfo(
-                one.type,
-                one.string,
-                _moved(one.start, row, column),
-                _moved(one.end, row, column),
+                item.type,
+                item.string,
+                _moved(item.start, row, column),
+                _moved(item.end, row, column),
                 self._line,
             )
-            for one in inner[1:-1]
+            for item in inner[1:-1]
         ]
         yield from open_up(moved)
 

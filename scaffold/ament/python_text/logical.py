@@ -42,12 +42,14 @@ class LogicalLine:
     @property
     def last(self) -> str:
         """The text of the last token that is not a comment; empty for a comment."""
-        return next((one.string for one in reversed(self.tokens) if one.type not in SILENT), "")
+        return next(
+            (token.string for token in reversed(self.tokens) if token.type not in SILENT), ""
+        )
 
     @cached_property
     def is_comment(self) -> bool:
         """Whether there is nothing but a comment."""
-        return self._first.type == COMMENT and all(one.type in SILENT for one in self.tokens)
+        return self._first.type == COMMENT and all(token.type in SILENT for token in self.tokens)
 
     @cached_property
     def indent(self) -> int:
@@ -104,7 +106,7 @@ class LogicalLine:
 
 def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
     """Cut a file into logical lines."""
-    found: list[LogicalLine] = []
+    logical_lines: list[LogicalLine] = []
     depth = blank = start = 0
     first: Token | None = None
     for at, token in enumerate(tokens):
@@ -119,14 +121,14 @@ def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
             first = first or token
         elif depth == 0 and kind in NEWLINES:
             if first is not None:
-                found.append(LogicalLine(tokens[start : at + 1], first, lines, blank))
+                logical_lines.append(LogicalLine(tokens[start : at + 1], first, lines, blank))
                 blank, first, start = 0, None, at + 1
             elif kind == NL and at == start:
                 blank += 1
                 start = at + 1
     if first is not None and first.string:
-        found.append(LogicalLine(tokens[start:], first, lines, blank))
-    return found
+        logical_lines.append(LogicalLine(tokens[start:], first, lines, blank))
+    return logical_lines
 
 
 def ends_statement(logical: LogicalLine) -> bool:

@@ -151,8 +151,8 @@ class PythonText:
     @cached_property
     def indent_char(self) -> str:
         """The character that the first indented line starts with; empty without one."""
-        found = re.search(r"^[ \t]", self.text, re.MULTILINE)
-        return found[0] if found else ""
+        matched = re.search(r"^[ \t]", self.text, re.MULTILINE)
+        return matched[0] if matched else ""
 
     def logical_line_at(self, line: int) -> LogicalLine | None:
         """Return the logical line that covers a line of the file."""

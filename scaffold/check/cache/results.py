@@ -56,10 +56,12 @@ class ResultCache:
         self._trees: dict[int, Seen] = {}
         self._outside: Seen = {}
         if run is not None and run.is_same_outside():
-            self._recall(run, [_Known(*one) for one in run.results])
+            self._recall(run, [_Known(*result) for result in run.results])
 
     def _recall(self, run: CachedRun, known: Sequence[_Known]) -> None:
-        if [(one.directory, one.only) for one in known] != [_asked(one) for one in self._targets]:
+        if [(item.directory, item.only) for item in known] != [
+            _asked(item) for item in self._targets
+        ]:
             return
         edits = [self._edits(run, at) for at in range(len(known))]
         for one, target, edited in zip(known, self._targets, edits, strict=True):
@@ -111,15 +113,15 @@ class ResultCache:
 
     def run(self, session: Session) -> Iterator[Result]:
         """Yield the results of all packages in their order; check those that are not known."""
-        fresh = [one for at, one in enumerate(self._targets) if at not in self._known]
+        fresh = [item for at, item in enumerate(self._targets) if at not in self._known]
         checked = session.run(fresh, self._earlier)
         for at, target in enumerate(self._targets):
             known = self._known.get(at)
             if known is None:
                 yield next(checked)
             else:
-                found = [_decode(one) for one in known.diagnostics]
-                yield Result(target.package, known.files, found)
+                result = [_decode(diagnostic) for diagnostic in known.diagnostics]
+                yield Result(target.package, known.files, result)
 
     def save(
         self,
@@ -147,8 +149,8 @@ class ResultCache:
         disk.note(self._outside)
         if not (disk.is_settled and holds(disk.seen)):
             return
-        identities = [one.package.identity for one in self._targets]
-        needs = Needs([one.package for one in self._targets], identities)
+        identities = [item.package.identity for item in self._targets]
+        needs = Needs([item.package for item in self._targets], identities)
         trees: list[Seen | None] = []
         found: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
@@ -191,7 +193,7 @@ def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
     """Return what was looked at in a package; ``None`` if its verdict is not to be kept."""
     disk = disk_of(package)
     disk.note(before)
-    crashed = any(one.code == RuleCrashed.code for one in result.diagnostics)
+    crashed = any(diagnostic.code == RuleCrashed.code for diagnostic in result.diagnostics)
     if crashed or not (disk.is_settled and package.is_repeatable):
         return None
     # Ruff reads the files by itself, a little later.
@@ -204,7 +206,7 @@ class Needs:
     def __init__(self, packages: Sequence[Package], identities: Sequence[Identity]) -> None:
         self._packages = packages
         self._places = {id(package): at for at, package in enumerate(packages)}
-        self._defining = {at for at, one in enumerate(identities) if one.may_define_interfaces}
+        self._defining = {at for at, item in enumerate(identities) if item.may_define_interfaces}
 
     def of(self, package: Package, before: Iterable[int] | None = ()) -> tuple[int, ...] | None:
         """Return the places of the packages, ``None`` for all.
@@ -234,12 +236,12 @@ class _Encoder:
         self._made: dict[int, tuple[Any, ...]] = {}
         self._kept: list[Diagnostic] = []
 
-    def __call__(self, one: Diagnostic) -> tuple[Any, ...]:
+    def __call__(self, diagnostic: Diagnostic) -> tuple[Any, ...]:
         """Return a diagnostic as a tuple."""
-        if id(one) not in self._made:
-            self._kept.append(one)  # so that no other gets its number
-            self._made[id(one)] = _encode(one)
-        return self._made[id(one)]
+        if id(diagnostic) not in self._made:
+            self._kept.append(diagnostic)  # so that no other gets its number
+            self._made[id(diagnostic)] = _encode(diagnostic)
+        return self._made[id(diagnostic)]
 
 
 def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
@@ -253,7 +255,7 @@ def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
         (key, places(part.files), places(part.imports), tuple(map(encode, part.diagnostics)))
         for key, part in verdict.parts.items()
     ]
-    style = [(path, tuple(map(encode, found))) for path, found in verdict.style.items()]
+    style = [(path, tuple(map(encode, item))) for path, item in verdict.style.items()]
     imports = [(path, tuple(sorted(names))) for path, names in verdict.imports.items()]
     return tuple(paths), parts, style, tuple(map(encode, verdict.unparsable)), imports
 
@@ -266,18 +268,26 @@ def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
 
     return Verdict(
         {
-            key: Part(files(read), files(imported), tuple(map(_decode, found)))
-            for key, read, imported, found in parts
+            key: Part(files(read), files(imported), tuple(map(_decode, item)))
+            for key, read, imported, item in parts
         },
-        {path: list(map(_decode, found)) for path, found in style},
+        {path: list(map(_decode, item)) for path, item in style},
         list(map(_decode, unparsable)),
         {path: frozenset(names) for path, names in imports},
     )
 
 
-def _encode(one: Diagnostic) -> tuple[Any, ...]:
-    fix = _encode_fix(one.fix) if one.fix else None
-    return one.code, one.name, one.severity.value, tuple(one.location), one.message, fix, one.cause
+def _encode(diagnostic: Diagnostic) -> tuple[Any, ...]:
+    fix = _encode_fix(diagnostic.fix) if diagnostic.fix else None
+    return (
+        diagnostic.code,
+        diagnostic.name,
+        diagnostic.severity.value,
+        tuple(diagnostic.location),
+        diagnostic.message,
+        fix,
+        diagnostic.cause,
+    )
 
 
 def _encode_fix(fix: Fix) -> tuple[Any, ...]:

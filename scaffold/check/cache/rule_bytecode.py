@@ -37,8 +37,8 @@ def codes(
     head = _MAGIC + digest(stamps.encode("utf-8", "surrogateescape")).encode()
     data = cache.read_sealed(place, head)
     if data is not None:
-        found: list[CodeType] = marshal.loads(data)  # noqa: S302  own files
-        return found
+        types: list[CodeType] = marshal.loads(data)  # noqa: S302  own files
+        return types
     made = [compile_one(path) for path in paths]
     if cache.write_sealed(place, head, marshal.dumps(made)):
         cache.trim(kept, MAX_ROOTS)

@@ -22,9 +22,9 @@ class _Seen(NamedTuple):
     @classmethod
     def taken_from(cls, disk: Disk) -> _Seen:
         """Return what was seen since the last call."""
-        found = cls(disk.seen, disk.is_settled)
+        result = cls(disk.seen, disk.is_settled)
         disk.seen = {}
-        return found
+        return result
 
 
 class WorkerReads(NamedTuple):
@@ -85,7 +85,7 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
     Packages that have no place, because they only lie around the checked ones, are looked
     through: what was looked at in them is noted, but they may in turn have used checked ones.
     """
-    found: set[int] = set()
+    result: set[int] = set()
     uses_all = uses_interfaces = False
     seen = {id(package)}
     pending = [package]
@@ -95,11 +95,11 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
         uses_interfaces |= around.uses_interfaces
         for key, used in around.used.items():
             if key in places:
-                found.add(places[key])
+                result.add(places[key])
             elif key not in seen:
                 seen.add(key)
                 pending.append(used)
-    return found, uses_all, uses_interfaces
+    return result, uses_all, uses_interfaces
 
 
 def disk_of(package: Package) -> Disk:

@@ -91,11 +91,16 @@ def outcome(
         unsafe: Whether unsafe fixes were to be applied.
         is_settled: Whether the last round found nothing more that it could apply.
     """
-    pending = [one for one in diagnostics if _is_wanted(one.fix, unsafe=unsafe)]
-    unsettled = frozenset[str]() if is_settled else frozenset(one.code for one in pending)
+    pending = [
+        diagnostic for diagnostic in diagnostics if _is_wanted(diagnostic.fix, unsafe=unsafe)
+    ]
+    unsettled = frozenset[str]() if is_settled else frozenset(item.code for item in pending)
     if is_settled and pending:
-        refused = {id(one) for one in pending}
-        diagnostics = [one._replace(fix=None) if id(one) in refused else one for one in diagnostics]
+        refused = {id(item) for item in pending}
+        diagnostics = [
+            diagnostic._replace(fix=None) if id(diagnostic) in refused else diagnostic
+            for diagnostic in diagnostics
+        ]
     changed = overlay.differing
     before = {path: data for path in {*changed, *overlay.removed} for data in overlay.had(path)}
     removed, executable = frozenset(overlay.removed), frozenset(overlay.executable)
@@ -116,8 +121,12 @@ def apply(
     Returns:
         The files afterwards, and how many fixes were applied.
     """
-    fixes = [one.fix for one in diagnostics if one.fix and _is_wanted(one.fix, unsafe=unsafe)]
-    inside = [fixed for one in fixes if (fixed := _inside(one, overlay)) is not None]
+    fixes = [
+        diagnostic.fix
+        for diagnostic in diagnostics
+        if diagnostic.fix and _is_wanted(diagnostic.fix, unsafe=unsafe)
+    ]
+    inside = [fixed for item in fixes if (fixed := _inside(item, overlay)) is not None]
     chosen, texts = _sound(package, _compatible(inside))
     result = overlay.copy()
     for change in _changes(chosen):
@@ -139,7 +148,7 @@ def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
 
 def _changes(fixes: Iterable[Fix]) -> list[Change]:
     """Return the changes of fixes, each once."""
-    return [*dict.fromkeys(change for one in fixes for change in one.changes)]
+    return [*dict.fromkeys(change for item in fixes for change in item.changes)]
 
 
 def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
@@ -161,9 +170,9 @@ def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
     chosen: list[Fix] = []
     taken: dict[str, list[Edit]] = {}
     whole: set[str] = set()
-    for one in dict.fromkeys(fixes):
-        edits = [change for change in one.changes if isinstance(change, Edit)]
-        files = {c.path for c in one.changes if isinstance(c, CreateFile | Remove)}
+    for item in dict.fromkeys(fixes):
+        edits = [change for change in item.changes if isinstance(change, Edit)]
+        files = {c.path for c in item.changes if isinstance(c, CreateFile | Remove)}
         clash = any(
             edit.path in whole or any(_clash(edit, other) for other in taken.get(edit.path, ()))
             for edit in edits
@@ -173,26 +182,26 @@ def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
         for edit in edits:
             taken.setdefault(edit.path, []).append(edit)
         whole |= files
-        chosen.append(one)
+        chosen.append(item)
     return chosen
 
 
-def _clash(one: Edit, other: Edit) -> bool:
+def _clash(edit: Edit, other: Edit) -> bool:
     """Tell whether two edits touch each other and do not go together."""
-    if one.start > other.end or other.start > one.end:
+    if edit.start > other.end or other.start > edit.end:
         return False
-    return not _go_together(one, other)
+    return not _go_together(edit, other)
 
 
-def _go_together(one: Edit, other: Edit) -> bool:
+def _go_together(edit: Edit, other: Edit) -> bool:
     """Tell whether both insert a dependency, each on a line of its own, at one place."""
-    if one.path != MANIFEST or not one.start == one.end == other.start == other.end:
+    if edit.path != MANIFEST or not edit.start == edit.end == other.start == other.end:
         return False
     from scaffold.model.manifest.edit import inserted_dependency
 
-    first, second = inserted_dependency(one), inserted_dependency(other)
+    first, second = inserted_dependency(edit), inserted_dependency(other)
     return bool(first and second and first.is_before == second.is_before) and (
-        one.text == other.text or first.name != second.name  # type: ignore[union-attr]  # see above
+        edit.text == other.text or first.name != second.name  # type: ignore[union-attr]  # see above
     )
 
 
@@ -230,14 +239,14 @@ def _sound(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, 
         broken = next((path for path, data in texts.items() if data is None), None)
         if broken is None:
             return fixes, {path: data for path, data in texts.items() if data is not None}
-        touching = [one for one in fixes if _edits_of(one, broken)]
-        kept = {id(one) for one in _largest(package, broken, touching)}
-        fixes = [one for one in fixes if not _edits_of(one, broken) or id(one) in kept]
+        touching = [item for item in fixes if _edits_of(item, broken)]
+        kept = {id(item) for item in _largest(package, broken, touching)}
+        fixes = [item for item in fixes if not _edits_of(item, broken) or id(item) in kept]
 
 
 def _largest(package: Package, path: str, fixes: Sequence[Fix]) -> Sequence[Fix]:
     """Return many of some fixes that together do not break a file."""
-    edits = [edit for one in fixes for edit in _edits_of(one, path)]
+    edits = [edit for item in fixes for edit in _edits_of(item, path)]
     if not fixes or _edited(package, path, dict.fromkeys(edits)) is not None:
         return fixes
     if len(fixes) == 1:
@@ -246,7 +255,7 @@ def _largest(package: Package, path: str, fixes: Sequence[Fix]) -> Sequence[Fix]
     first = _largest(package, path, fixes[:middle])
     second = _largest(package, path, fixes[middle:])
     both = [*first, *second]
-    edits = [edit for one in both for edit in _edits_of(one, path)]
+    edits = [edit for item in both for edit in _edits_of(item, path)]
     is_sound = _edited(package, path, dict.fromkeys(edits)) is not None
     return both if is_sound else first or second
 

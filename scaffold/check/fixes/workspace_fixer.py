@@ -100,7 +100,7 @@ def fix(
     pending = pieces
     for number in range(1, MAX_ROUNDS + 1):
         _check(pending, session, progress, f"round {number}")
-        changed = [one for one in pending if one.apply(one.diagnostics, unsafe=unsafe)]
+        changed = [item for item in pending if item.apply(item.diagnostics, unsafe=unsafe)]
         for one in changed:
             _fix_style(one, session, unsafe=unsafe)
         pending = _affected(pieces, changed)
@@ -110,14 +110,14 @@ def fix(
         _check(pending, session, progress, "last look")
     return [
         fixer.outcome(
-            one.package,
-            one.overlay,
-            one.diagnostics,
-            one.applied,
+            piece.package,
+            piece.overlay,
+            piece.diagnostics,
+            piece.applied,
             unsafe=unsafe,
-            is_settled=one not in pending,
+            is_settled=piece not in pending,
         )
-        for one in pieces
+        for piece in pieces
     ]
 
 
@@ -128,7 +128,9 @@ def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
         paths = piece.overlay.edited_since(before) or piece.package.files
         found = session.check_style(piece.package, paths)
         piece.style.update(found)
-        selected = session.selected(piece.target, (one for ones in found.values() for one in ones))
+        selected = session.selected(
+            piece.target, (item for ones in found.values() for item in ones)
+        )
         before = piece.overlay
         if not piece.apply(selected, unsafe=unsafe):
             return
@@ -139,9 +141,9 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
     """Return the changed packages and those whose verdict may be another because of them."""
     if not changed:
         return []
-    packages = [one.package for one in pieces]
+    packages = [piece.package for piece in pieces]
     needs = Needs(packages, [package.identity for package in packages])
-    edits = {at: one.edited() for at, one in enumerate(pieces) if one in changed}
+    edits = {at: item.edited() for at, item in enumerate(pieces) if item in changed}
     affected: list[_Piece] = []
     for at, one in enumerate(pieces):
         needed = needs.of(one.package)
@@ -151,15 +153,15 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
             files = [edits[place] for place in places]
             is_known = None not in files
             one.leave(frozenset().union(*(some or () for some in files)) if is_known else None)
-    for workspace in {id(one.known_workspace): one.known_workspace for one in packages}.values():
+    for workspace in {id(item.known_workspace): item.known_workspace for item in packages}.values():
         if workspace is not None:
             workspace.forget()
     return affected
 
 
 def _check(pieces: Sequence[_Piece], session: Session, progress: Progress, label: str) -> None:
-    targets = [one.target for one in pieces]
-    is_on_disk = all(not isinstance(one.package.tree, Overlay) for one in pieces)
+    targets = [item.target for item in pieces]
+    is_on_disk = all(not isinstance(item.package.tree, Overlay) for item in pieces)
     if is_on_disk:
         progress.begin(label, len(targets))
         for piece, result in zip(pieces, session.run(targets), strict=True):

@@ -68,7 +68,7 @@ def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str
     words = [f"{kind}:{entry[asked]}"]
     for name, value in entry.items():
         if name not in {parts.KIND, asked}:
-            words += [f"{name}={one}" for one in (value if isinstance(value, list) else [value])]
+            words += [f"{name}={item}" for item in (value if isinstance(value, list) else [value])]
     return " ".join(_quoted_inside(word) for word in words)
 
 
@@ -87,4 +87,4 @@ def quoted(word: str) -> str:
     if re.fullmatch(r"[\w@+=:,./-]+", word, re.ASCII) and word[0] != "=":
         return word
     pieces = re.findall(r"[\\']|[^\\']+", word)
-    return "".join(f"\\{one}" if one in "\\'" else f"'{one}'" for one in pieces) or "''"
+    return "".join(f"\\{piece}" if piece in "\\'" else f"'{piece}'" for piece in pieces) or "''"

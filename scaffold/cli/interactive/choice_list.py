@@ -39,7 +39,7 @@ class ChoiceList:
         self._choices = choices
         self._takes_several = takes_several
         self._typed = ""
-        self._at = next((i for i, one in enumerate(choices) if one.name == default), 0)
+        self._at = next((i for i, item in enumerate(choices) if item.name == default), 0)
         self._chosen: set[str] = set()
 
     def run(self) -> list[str]:
@@ -165,7 +165,7 @@ class ChoiceList:
         def end(event: KeyPressEvent) -> None:
             found = self._found()
             if self._takes_several:
-                names = [one.name for one in self._choices if one.name in self._chosen]
+                names = [choice.name for choice in self._choices if choice.name in self._chosen]
                 event.app.exit(result=names)
             elif found:
                 event.app.exit(result=[found[self._at].name])

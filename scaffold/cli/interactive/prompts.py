@@ -68,9 +68,9 @@ def several(question: str, choices: Sequence[Choice]) -> list[str]:
     """Ask for the names of any number of choices; see `line`."""
     if is_dumb():
         return _by_names(question, choices)
-    found = ChoiceList(question, choices, None, takes_several=True).run()
-    _echo(question, found)
-    return found
+    result = ChoiceList(question, choices, None, takes_several=True).run()
+    _echo(question, result)
+    return result
 
 
 def _read(question: str, default: str, completions: Sequence[str]) -> str:

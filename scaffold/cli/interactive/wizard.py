@@ -74,7 +74,7 @@ def ask(
         raise KeyboardInterrupt from None
     found = {name: Given(value, f"{ORIGIN}: {name}") for name, value in answers.items()}
     base = {question.name: question for question in templates[BASE].questions}
-    said = {name: one.value for name, one in given.items() if one.origin.startswith("--")}
+    said = {name: item.value for name, item in given.items() if item.origin.startswith("--")}
     words = answer_text.command({**said, **answers}, base, templates)
     return Asked(
         {**given, **found}, " ".join(answer_text.quoted(word) for word in [*words, *options])
@@ -130,7 +130,7 @@ class _Interview:
         """Ask for one part after the other, until they are all."""
         entries: list[dict[str, Any]] = []
         definitions = _definitions(self._user.directory)
-        while (kind := self._kind([one[parts.KIND] for one in entries])) != _DONE:
+        while (kind := self._kind([item[parts.KIND] for item in entries])) != _DONE:
             entry = self._part(kind, entries, definitions)
             fault = self._contradiction([*entries, entry])
             if fault is None:
@@ -168,7 +168,7 @@ class _Interview:
     ) -> dict[str, Any]:
         """Ask the questions of a kind of part."""
         template, entry = self._templates[kind], {parts.KIND: kind}
-        taken = [str(one[self._templates[one[parts.KIND]].name_question]) for one in entries]
+        taken = [str(item[self._templates[item[parts.KIND]].name_question]) for item in entries]
         for question in template.questions:
             if question.name == template.name_question:
                 free = _free(str(question.default), taken)
@@ -263,7 +263,7 @@ def _free(name: str, taken: Iterable[str]) -> str:
     """Return a name, with a number if another part has it."""
     joint = "" if name[:1].isupper() else "_"
     numbered = (f"{name}{joint}{number}" for number in count(2))
-    return next(one for one in chain([name], numbered) if one not in taken)
+    return next(item for item in chain([name], numbered) if item not in taken)
 
 
 def _definitions(directory: str) -> Definitions:

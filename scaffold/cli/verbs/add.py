@@ -82,10 +82,10 @@ def run(options: argparse.Namespace) -> int:
             return INTERNAL_ERROR
         if not is_dry:
             plan.write(force=True, around=above)
-    for note in [*added.remarks, *(_line(target.package, one) for one in said)]:
+    for note in [*added.remarks, *(_line(target.package, item) for item in said)]:
         terminal.note(note)
     _show(options, target.package, added, plan, above)
-    return FINDINGS if any(one.is_needed for one in added.by_hand) else CLEAN
+    return FINDINGS if any(item.is_needed for item in added.by_hand) else CLEAN
 
 
 def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
@@ -123,8 +123,8 @@ def _asked(templates: Mapping[str, Template]) -> list[Question]:
 
     kinds = [templates[kind] for kind in parts.addable(templates)]
     names = {kind.name_question for kind in kinds}
-    own = [one for one in questions.unique(kinds) if one.name not in names]
-    general = [one for one in templates[BASE].questions if one.name in OF_PACKAGES]
+    own = [item for item in questions.unique(kinds) if item.name not in names]
+    general = [question for question in templates[BASE].questions if question.name in OF_PACKAGES]
     return [*own, *general]
 
 
@@ -181,8 +181,8 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
     """Return what the checker says only now, and what nobody expects."""
     from scaffold.generate.add import add
 
-    found = add.new_diagnostics(before, session.check(added.package))
-    return [diagnostic for diagnostic in found if not added.is_expected(diagnostic)]
+    diagnostics = add.new_diagnostics(before, session.check(added.package))
+    return [diagnostic for diagnostic in diagnostics if not added.is_expected(diagnostic)]
 
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
@@ -215,7 +215,7 @@ def _refuse_differing(
         )
 
 
-def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
+def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
     """Tell whether an edit or a template made something that the checker calls an error.
 
     What it says of other files is not: they may be looked at only now that there is a program.
@@ -223,21 +223,21 @@ def _is_defect(session: Session, said: list[Diagnostic], added: Added) -> bool:
     """
     from scaffold.diagnostic import Severity
 
-    if any(one.is_needed for one in added.by_hand):
+    if any(item.is_needed for item in added.by_hand):
         return False
     others = [path for path in added.package.files if path not in added.files]
     errors = [
-        one
-        for one in said
-        if one.severity is Severity.ERROR
-        and one.location.path not in others
-        and not any(path in one.message for path in others)
+        item
+        for item in diagnostics
+        if item.severity is Severity.ERROR
+        and item.location.path not in others
+        and not any(path in item.message for path in others)
     ]
     return bool(errors and added.without_own(errors, session.check(added.unedited)))
 
 
-def _report(package: Package, said: list[Diagnostic]) -> None:
-    for diagnostic in said:
+def _report(package: Package, diagnostics: list[Diagnostic]) -> None:
+    for diagnostic in diagnostics:
         terminal.say(_line(package, diagnostic))
     terminal.say(
         "ros2-scaffold: internal error: the checker finds errors in what was to be added; "
@@ -340,7 +340,7 @@ def _by_hand(package: Package, added: Added) -> list[str]:
     if not added.by_hand:
         return []
     lines = ["Add by hand:"]
-    for one in added.by_hand:
-        path = os.path.normpath(os.path.join(package.directory, one.path))
-        lines += [f"    {path}: {one.line}", f"        because {one.reason}"]
+    for item in added.by_hand:
+        path = os.path.normpath(os.path.join(package.directory, item.path))
+        lines += [f"    {path}: {item.line}", f"        because {item.reason}"]
     return lines

@@ -186,7 +186,9 @@ def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry 
     if slot is None or not options.whole_packages:
         return slot
     flags = {name: value for name, value in vars(options).items() if name not in {"paths", "slot"}}
-    return CacheEntry.of([repr(sorted(flags.items())), *(one.package.directory for one in targets)])
+    return CacheEntry.of(
+        [repr(sorted(flags.items())), *(target.package.directory for target in targets)]
+    )
 
 
 def _report_options(options: argparse.Namespace) -> ReportOptions:
@@ -212,7 +214,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     written, has_failed = _write_fixes(options, session, targets)
     for one in written:
         _note_links(one)
-    results = [Result(one.package, len(one.package.files), one.diagnostics) for one in written]
+    results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
     code = _report_fixes(options, results, written)
     return USAGE_ERROR if has_failed else code
 
@@ -236,7 +238,7 @@ def _write_fixes(
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
         if held.has_waited:  # what was found before may have changed
             targets = discovery.find(options.paths, whole_packages=options.whole_packages)
-        targets = [one for one in targets if one.package.root in held.roots]
+        targets = [item for item in targets if item.package.root in held.roots]
         trees = [target.package.tree for target in targets]
         with Bar() as bar:
             fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
@@ -264,7 +266,7 @@ def _note_links(fixed: Fixed) -> None:
     from scaffold.writing.plan import target_outside
 
     root = fixed.package.directory
-    for path in sorted({one.location.path for one in fixed.diagnostics}):
+    for path in sorted({diagnostic.location.path for diagnostic in fixed.diagnostics}):
         target = target_outside(root, path)
         if target is not None:
             place = os.path.join(root, path)
@@ -324,9 +326,9 @@ def _report_fixes(
     from scaffold.cli import reports
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
-    count = sum(one.applied for one in fixed)
+    count = sum(item.applied for item in fixed)
     terminal.say(f"{_fixes(count)}{', nothing written' if options.diff else ' applied'}")
-    unsettled = sorted({code for one in fixed for code in one.unsettled})
+    unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
             f"{MAX_ROUNDS} rounds of fixes were not enough for {', '.join(unsettled)}: their fixes "
@@ -371,7 +373,7 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
     found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if any(diagnostic.code == RuleCrashed.code for diagnostic in found):
         return INTERNAL_ERROR
-    has_findings = any(one.severity is not Severity.INFO for one in found)
+    has_findings = any(item.severity is not Severity.INFO for item in found)
     return FINDINGS if has_findings and not is_zero else CLEAN
 
 

@@ -34,6 +34,10 @@ def complete(parser: argparse.ArgumentParser) -> None:
 
     class Finder(CompletionFinder):
         def filter_completions(self, completions: list[str]) -> list[str]:
-            return [one for one in super().filter_completions(completions) if one.isprintable()]
+            return [
+                completion
+                for completion in super().filter_completions(completions)
+                if completion.isprintable()
+            ]
 
     Finder()(parser)

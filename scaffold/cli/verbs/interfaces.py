@@ -84,12 +84,12 @@ def _as_data(interface: Interface) -> dict[str, object]:
         **{
             section.name: {
                 "constants": [
-                    {"type": str(one.type), "name": one.name, "value": one.value}
-                    for one in section.constants
+                    {"type": str(constant.type), "name": constant.name, "value": constant.value}
+                    for constant in section.constants
                 ],
                 "fields": [
-                    {"type": str(one.type), "name": one.name, "default": one.default}
-                    for one in section.fields
+                    {"type": str(field.type), "name": field.name, "default": field.default}
+                    for field in section.fields
                 ],
             }
             for section in interface.sections

@@ -38,9 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
     general = {question.name for question in templates[template.BASE].questions}
     asked = questions.shared(_in_order(templates))
-    about_package = [one for one in asked if one.name in general]
+    about_package = [item for item in asked if item.name in general]
     questions.add_flags(parser.add_argument_group("the package"), about_package, kinds)
-    about_parts = [one for one in asked if one.name not in general]
+    about_parts = [item for item in asked if item.name not in general]
     group = parser.add_argument_group("its node, interface or program")
     questions.add_flags(group, about_parts, kinds)
     writing = parser.add_argument_group("where and how it is written")
@@ -177,7 +177,7 @@ def _in_order(templates: dict[str, Template]) -> list[Template]:
     """Return the base first: its questions are the general ones."""
     from scaffold.generate.templates.template import BASE
 
-    return [templates[BASE], *(one for name, one in templates.items() if name != BASE)]
+    return [templates[BASE], *(item for name, item in templates.items() if name != BASE)]
 
 
 def _given(
@@ -299,7 +299,7 @@ def _tell_by_hand(
     options: argparse.Namespace, made: Draft, left: Mapping[str, ByHand | None]
 ) -> bool:
     """Say what the user has to add by hand; tell whether that is anything."""
-    by_hand = [one for one in left.values() if one is not None]
+    by_hand = [item for item in left.values() if item is not None]
     if by_hand:
         terminal.say("Add by hand:")
     directory = os.path.join(options.destination_directory, made.name)

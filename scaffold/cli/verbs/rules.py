@@ -81,7 +81,10 @@ def _codes(word: str, rules: list[type[Rule]]) -> list[str]:
     from scaffold.check import selection
     from scaffold.errors import ConfigError, InputError
 
-    names = {**{rule.code: rule.name for rule in rules}, **{one: STYLE[one].name for one in STYLE}}
+    names = {
+        **{rule.code: rule.name for rule in rules},
+        **{item: STYLE[item].name for item in STYLE},
+    }
     if word.upper() in names:
         return [word.upper()]
     try:
@@ -104,8 +107,8 @@ def _listed(rules: list[type[Rule]], style: Sequence[str]) -> str:
         for rule in rules
     ]
     rows += [
-        (code, one.severity.value, "fix" if one.fix else "", one.name, one.summary)
-        for code, one in ((code, STYLE[code]) for code in style)
+        (code, item.severity.value, "fix" if item.fix else "", item.name, item.summary)
+        for code, item in ((code, STYLE[code]) for code in style)
     ]
     width = max((len(name) for *_, name, _ in rows), default=0)
     return "\n".join(

@@ -54,8 +54,8 @@ def run(options: argparse.Namespace) -> int:
         within = os.path.realpath(options.directory) + os.sep
         templates_of = [
             name
-            for name, one in templates.items()
-            if os.path.realpath(one.directory).startswith(within)
+            for name, item in templates.items()
+            if os.path.realpath(item.directory).startswith(within)
         ]
     else:
         templates_of = list(templates)
@@ -84,7 +84,7 @@ def _listed(templates: Mapping[str, Template], names: Sequence[str]) -> str:
         of_role = [templates[name] for name in names if templates[name].role is role]
         if of_role:
             lines += ["", f"{role.value.replace('_', ' ')}:"]
-            lines += [f"    {one.name:{width}}  {one.summary}" for one in of_role]
+            lines += [f"    {item.name:{width}}  {item.summary}" for item in of_role]
     return "\n".join(lines[1:])
 
 
@@ -109,10 +109,10 @@ def _test(
         )
         for defect in one.defects:
             terminal.show(f"    {defect}")
-    wrong = sum(bool(one.defects) for one in tried)
+    wrong = sum(bool(item.defects) for item in tried)
     if options.build:
         wrong += _build(tried)
-    without = sorted(set(names) - {one.example.template for one in tried})
+    without = sorted(set(names) - {item.example.template for item in tried})
     for name in without:
         terminal.note(f"{name} has no examples: it was not tested")
     terminal.show(f"{len(tried)} examples, {wrong} wrong")
@@ -142,13 +142,13 @@ def _build(tried: Sequence[Tried]) -> int:
 def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
     """Return the packages by name; colcon cannot build two of one name together."""
     rounds: list[dict[str, tuple[Example, Draft]]] = []
-    for one in tried:
-        if one.made is None:
+    for item in tried:
+        if item.made is None:
             continue
-        if all(one.made.name in together for together in rounds):
+        if all(item.made.name in together for together in rounds):
             rounds.append({})
-        free = next(together for together in rounds if one.made.name not in together)
-        free[one.made.name] = (one.example, one.made)
+        free = next(together for together in rounds if item.made.name not in together)
+        free[item.made.name] = (item.example, item.made)
     return rounds
 
 

@@ -58,7 +58,7 @@ class Added(NamedTuple):
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
         """Tell whether a finding follows from what the user is told, or is left to do."""
-        if any(one.path == diagnostic.location.path for one in self.by_hand):
+        if any(item.path == diagnostic.location.path for item in self.by_hand):
             return True
         in_part = diagnostic.location.path in self.new
         return in_part and not self.has_header and diagnostic.name in HEADER_RULES
@@ -77,15 +77,15 @@ class Added(NamedTuple):
             unedited: What is said of `unedited`.
         """
         known = Counter(map(_said, unedited))
-        found: list[Diagnostic] = []
-        for one in said:
-            about = one.message.partition("; ")[0]
-            is_ours = one.location.path in self.new or any(path in about for path in self.new)
-            if not is_ours and known[_said(one)]:
-                known[_said(one)] -= 1
+        diagnostics: list[Diagnostic] = []
+        for item in said:
+            about = item.message.partition("; ")[0]
+            is_ours = item.location.path in self.new or any(path in about for path in self.new)
+            if not is_ours and known[_said(item)]:
+                known[_said(item)] -= 1
             else:
-                found.append(one)
-        return found
+                diagnostics.append(item)
+        return diagnostics
 
 
 def add(target: Target, wanted: Wanted) -> Added:
@@ -173,17 +173,17 @@ def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str,
     is_there = (
         made.template.role is Role.EXTRA and old is not None and regenerate.is_noted(old, made)
     )
-    found: dict[str, bytes] = {}
+    result: dict[str, bytes] = {}
     for path, text in made.rendered.files.items():
         there = _content(target, path)
         data = text.encode()
         if there is None:
-            found[path] = data
+            result[path] = data
         elif is_there or path in REPOSITORY_FILES or _timeless(there) == _timeless(data):
-            found[path] = there
+            result[path] = there
         else:
-            found[path] = data
-    return found
+            result[path] = data
+    return result
 
 
 def _content(target: Target, path: str) -> bytes | None:
@@ -241,9 +241,9 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
 
     known = Counter(map(_said, before))
     styles = {
-        (one.code, one.location.path)
-        for one in before
-        if one.code in STYLE or one.severity is not Severity.ERROR
+        (item.code, item.location.path)
+        for item in before
+        if item.code in STYLE or item.severity is not Severity.ERROR
     }
     left: list[Diagnostic] = []
     for diagnostic in after:
@@ -252,14 +252,14 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
         elif (diagnostic.code, diagnostic.location.path) not in styles:
             left.append(diagnostic)
     reworded = Counter((code, path) for code, path, _ in known.elements())
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     for diagnostic in left:
         place = diagnostic.code, diagnostic.location.path
         if reworded[place]:
             reworded[place] -= 1
         else:
-            found.append(diagnostic)
-    return found
+            diagnostics.append(diagnostic)
+    return diagnostics
 
 
 def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:

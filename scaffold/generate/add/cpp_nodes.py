@@ -18,14 +18,14 @@ def executables(package: Package) -> Mapping[str, bool]:
     if package.build_type != "ament_cmake":
         return {}
     using = _using(package)
-    found: dict[str, bool] = {}
+    result: dict[str, bool] = {}
     for command in package.cmake.find(*_MADE):
         name = next(iter(package.cmake.expand_list(command.arguments[:1], command) or ()), "")
-        found[name] = name in using
+        result[name] = name in using
     for command in package.cmake.find(_COMPONENT):
         words = command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"})
-        found |= dict.fromkeys(package.cmake.expand_list(words, command) or (), True)
-    return found
+        result |= dict.fromkeys(package.cmake.expand_list(words, command) or (), True)
+    return result
 
 
 def _using(package: Package) -> set[str]:
@@ -39,13 +39,13 @@ def _using(package: Package) -> set[str]:
         for command in cmake.find("ament_auto_add_executable"):
             target = next(iter(cmake.expand_list(command.arguments[:1], command) or ()), "")
             linked.setdefault(target, set()).add("rclcpp")
-    found: set[str] = set()
+    result: set[str] = set()
     while True:
         more = {
             target
             for target, names in linked.items()
-            if any(name in found or re.match(_RCLCPP, name) for name in names)
+            if any(name in result or re.match(_RCLCPP, name) for name in names)
         }
-        if more == found:
-            return found
-        found = more
+        if more == result:
+            return result
+        result = more

@@ -53,7 +53,7 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
     declared = [
         spdx_of(element.text) or (element.text,) for element in package.manifest.all("license")
     ]
-    choices = {one for spellings in declared for one in spellings if one in known}
+    choices = {spelling for spellings in declared for spelling in spellings if spelling in known}
     if len(choices) == 1:
         return choices.pop()
     written = Counter(header.licence for header in own_headers(package) if header.licence in known)
@@ -77,11 +77,11 @@ def own_header(package: Package) -> str:
 
     It is empty where the license is not decided, or where the files do not agree.
     """
-    headers = [one for one in own_headers(package) if one.path.endswith(".py")]
+    headers = [header for header in own_headers(package) if header.path.endswith(".py")]
     comments = (
-        _comment(package.source(one.path).lines, one.location.line - 1)
-        for one in headers
-        if any(_may_hold(package, name) for name in one.holders)
+        _comment(package.source(header.path).lines, header.location.line - 1)
+        for header in headers
+        if any(_may_hold(package, name) for name in header.holders)
     )
     return (majority(comments, len(headers)) or "") if is_decided(package) else ""
 
@@ -111,7 +111,9 @@ def _may_hold(package: Package, name: str) -> bool:
     if not name.lower().startswith(_OF_EXAMPLES):
         return True
     maintainers = package.manifest.all("maintainer")
-    return any((one.get("email") or "").endswith(_OF_OPEN_ROBOTICS) for one in maintainers)
+    return any(
+        (maintainer.get("email") or "").endswith(_OF_OPEN_ROBOTICS) for maintainer in maintainers
+    )
 
 
 def _without_remark(name: str) -> str:

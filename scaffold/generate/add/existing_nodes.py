@@ -42,8 +42,8 @@ def find(
     kept = [
         node for node in recorded if node["executable"] in programs.sources or not programs.complete
     ]
-    known = {node["executable"] for node in recorded} | {one["name"] for one in compiled}
-    found: list[Mapping[str, Any]] = list(kept)
+    known = {node["executable"] for node in recorded} | {item["name"] for item in compiled}
+    result: list[Mapping[str, Any]] = list(kept)
     others: list[str] = []
     in_cpp = executables(package)
     for program, source in programs.sources.items():
@@ -52,10 +52,10 @@ def find(
             continue
         names = {owner.node_name for owner in nodes_of(package, program)}
         if names or in_cpp.get(program):
-            found.append(_node(package, program, names))
+            result.append(_node(package, program, names))
         else:
             others.append(program)
-    return FoundNodes(list(_renamed(found)), others)
+    return FoundNodes(list(_renamed(result)), others)
 
 
 def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str, Any]:

@@ -133,13 +133,13 @@ def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
         extras = written if isinstance(written, list) else [written]
         if piece.template.name in extras:
             return dict(old.answers)
-        asked = {one.name for one in piece.template.questions}
+        asked = {question.name for question in piece.template.questions}
         own = {name: value for name, value in piece.composed.answers.items() if name in asked}
         return {**old.answers, **own, EXTRAS: [*extras, piece.template.name]}
     part = piece.composed.answers[parts.ADD][0]
     name = piece.template.name_question
     known = old.answers.get(parts.ADD, [])
-    if any((one[parts.KIND], one.get(name)) == (part[parts.KIND], part[name]) for one in known):
+    if any((item[parts.KIND], item.get(name)) == (part[parts.KIND], part[name]) for item in known):
         return dict(old.answers)
     return {**old.answers, parts.ADD: [*known, part]}
 
@@ -151,14 +151,14 @@ def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Dra
 def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> list[str]:
     """Return the questions whose answer names the parts, and was the default: it follows them."""
     questions = [
-        one
-        for one in target.templates[BASE].questions
-        if one.name in given and re.search(r"\bcontents\b", str(one.default))
+        item
+        for item in target.templates[BASE].questions
+        if item.name in given and re.search(r"\bcontents\b", str(item.default))
     ]
     names = {question.name for question in questions}
     if not names:
         return []
-    asked = {name: one for name, one in given.items() if name not in names}
+    asked = {name: item for name, item in given.items() if name not in names}
     asked[parts.ADD] = Given(old.answers.get(parts.ADD, []), NAME)
     answers = _drafted(target, asked, old).answers
     return [name for name in names if answers[name] == old.answers[name]]

@@ -38,9 +38,9 @@ def remarks(package: Package, path: str) -> Iterator[str]:
 
 def _namesakes(package: Package, path: str) -> Iterator[str]:
     files = list(rclpy_files(package))
-    names = {node.node_name for one in files if one.module.path == path for node in one.nodes}
-    for one in files:
-        for node in one.nodes if one.module.path != path else ():
+    names = {node.node_name for file in files if file.module.path == path for node in file.nodes}
+    for item in files:
+        for node in item.nodes if item.module.path != path else ():
             if isinstance(node.node_name, str) and node.node_name in names:
                 at = node.node_name_location
                 yield (
@@ -51,12 +51,12 @@ def _namesakes(package: Package, path: str) -> Iterator[str]:
 
 def _misconnected(package: Package, path: str) -> Iterator[str]:
     uses = sorted(_uses(package), key=lambda use: _path(use) != path)  # the new node comes first
-    told: set[tuple[str, str]] = set()
+    result: set[tuple[str, str]] = set()
     for clash in clashes(uses):
         name = clash.first.kind, clash.first.name
         is_new = _path(clash.first) == path != _path(clash.other)
-        if is_new and name not in told and not _has_rule(clash):
-            told.add(name)
+        if is_new and name not in result and not _has_rule(clash):
+            result.add(name)
             yield str(clash)
 
 

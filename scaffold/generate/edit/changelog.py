@@ -20,7 +20,7 @@ def add_to_changelog(source: Source, addition: Addition) -> Outcome:
 
 
 def _add(source: Source, line: str) -> Source:
-    lines = [one.rstrip() for one in source.lines]
+    lines = [item.rstrip() for item in source.lines]
     if UPCOMING not in lines or line in lines:
         return source
     last = None

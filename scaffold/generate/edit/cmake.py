@@ -280,8 +280,8 @@ def _is_extendable(install: Install, kind: str, destination: str) -> bool:
     )
 
 
-def _is_beside(one: str | None, other: str) -> bool:
-    return one is not None and one.rpartition("/")[0] == other.rpartition("/")[0]
+def _is_beside(text: str | None, other: str) -> bool:
+    return text is not None and text.rpartition("/")[0] == other.rpartition("/")[0]
 
 
 def _has_list(install: Install) -> bool:

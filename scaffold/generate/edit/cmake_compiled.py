@@ -130,9 +130,9 @@ def _run_in_tests(editor: Editor, name: str) -> None:
 
 def _generation(lists: CMakeLists) -> Generation | None:
     """Return the call that generates what the package installs."""
-    for one in generations_of(lists):
-        if not one.for_tests and "SKIP_INSTALL" not in one.options and one.command.depth == 0:
-            return one
+    for item in generations_of(lists):
+        if not item.for_tests and "SKIP_INSTALL" not in item.options and item.command.depth == 0:
+            return item
     return None
 
 
@@ -156,7 +156,7 @@ def _refuse_conflict(lists: CMakeLists) -> None:
 def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | None:
     """Add a file behind the last one of its kind."""
     ending = path.rpartition(".")[2]
-    like = [one for one in generation.files if one.path.endswith(f".{ending}")]
+    like = [file for file in generation.files if file.path.endswith(f".{ending}")]
     last = (like or generation.files)[-1].argument
     holder = _holder(lists, last)
     if holder is None:
@@ -185,7 +185,7 @@ def _depend(editor: Editor, name: str) -> None:
         return
     command = found.command
     given = command.keyword("DEPENDENCIES", {"LIBRARY_NAME", "ADD_LINTER_TESTS", "SKIP_INSTALL"})
-    keyword = [one for one in command.arguments if one.value == "DEPENDENCIES"]
+    keyword = [argument for argument in command.arguments if argument.value == "DEPENDENCIES"]
     last = [*command.arguments, *keyword, *given][-1]
     words = [name] if keyword else [f"DEPENDENCIES {name}"]
     editor.edit(cmake_edit.append_arguments(editor.lists, command, last, words, raw=True))
@@ -206,11 +206,15 @@ def _enable(editor: Editor, *languages: str) -> None:
     project = editor.lists.project
     if project is None:
         return
-    written = [one for one in project.arguments[1:] if one.value in {*_LANGUAGES, "NONE"}]
+    written = [
+        argument for argument in project.arguments[1:] if argument.value in {*_LANGUAGES, "NONE"}
+    ]
     if not written:
         return
-    none = [one for one in written if one.value == "NONE"]
-    missing = [one for one in languages if one not in [other.value for other in written]]
+    none = [item for item in written if item.value == "NONE"]
+    missing = [
+        language for language in languages if language not in [other.value for other in written]
+    ]
     if none and len(languages) > 1 and not project.has("LANGUAGES"):
         editor.edit(cmake_edit.remove_argument(editor.lists, none[0]))
     elif none:
@@ -239,7 +243,7 @@ def _installed_targets(lists: CMakeLists, package: str) -> Install | None:
 
 def _last_target(lists: CMakeLists, before: Command | None) -> Command | None:
     """Return the last command about a target above the one that installs it."""
-    found: Sequence[Command] = [
+    commands: Sequence[Command] = [
         command
         for command in lists.commands
         if (command.name == "add_executable" or "target_" in command.name)
@@ -247,4 +251,4 @@ def _last_target(lists: CMakeLists, before: Command | None) -> Command | None:
         and before is not None
         and command.index < before.index
     ]
-    return found[-1] if found else None
+    return commands[-1] if commands else None

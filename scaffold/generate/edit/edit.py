@@ -90,7 +90,11 @@ def _with_found(addition: Addition, package: Package) -> Addition:
     for running or for tests alone, the build still fails.
     """
     known = package.manifest.names_for("build", "run")
-    found = {one.name for one in package.cmake.found_packages if not one.in_testing} - known
+    found = {
+        found_package.name
+        for found_package in package.cmake.found_packages
+        if not found_package.in_testing
+    } - known
     depends = {kind: list(names) for kind, names in addition.depends.items()}
     for kind, wider in (("exec", "depend"), ("test", "build")):
         moved = [name for name in depends.get(kind, ()) if name in found]

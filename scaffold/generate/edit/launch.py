@@ -118,7 +118,7 @@ def _description(launch: LaunchFile) -> _Description | None:
         if isinstance(target, ast.Name) and len(statement.targets) == 1
     }
     variable = value.id if isinstance(value, ast.Name) else ""
-    values = [one for one, (name, _) in assigned.items() if name == variable]
+    values = [item for item, (name, _) in assigned.items() if name == variable]
     call = launch.call_of(values[0] if len(values) == 1 else value)
     if call is None or call.kind != "LaunchDescription":
         return None

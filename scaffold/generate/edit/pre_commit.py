@@ -60,4 +60,4 @@ def _hooks(there: bytes) -> Iterator[dict[str, Any]]:
 
 def _entries(table: object, key: str) -> list[dict[str, Any]]:
     found = table.get(key) if isinstance(table, dict) else None
-    return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else []
+    return [item for item in found if isinstance(item, dict)] if isinstance(found, list) else []

@@ -122,10 +122,10 @@ def _merge(source: Source, part: Source, new: Section) -> Source:
 
 def _join(source: Source, title: str, new: Section) -> Source:
     """Add a block to a section: to the one of its title, or with its heading."""
-    section = next(one for one in sections(source) if one.title == title)
+    section = next(item for item in sections(source) if item.title == title)
     blocks = _blocks(source.lines, section)
     head = next(filter(_is_row, new.lines), None)
-    home = next((one for one in blocks if one.title == new.title), None)
+    home = next((block for block in blocks if block.title == new.title), None)
     if home is None and head in blocks[0].lines:
         home = blocks[0]
     if home is not None:
@@ -133,7 +133,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
     if _says(source.lines, new):  # the README of a single node says it in several sections
         return source
     lines = [f"{_BELOW}{new.title}", "", *new.lines]
-    behind = [one for one in blocks[1:] if any(map(_is_row, one.lines))]
+    behind = [block for block in blocks[1:] if any(map(_is_row, block.lines))]
     if head is None and behind and behind[-1] is blocks[-1]:
         # Programs stand in a table below the nodes.
         at = source.offset(behind[-1].start + 1)

@@ -53,8 +53,8 @@ def installs_package(setup: SetupPy, name: str) -> bool | None:
     if isinstance(packages, FindPackages):
         if not isinstance(packages.include, tuple) or not isinstance(packages.exclude, tuple):
             return None
-        return any(fnmatchcase(name, one) for one in packages.include) and not any(
-            fnmatchcase(name, one) for one in packages.exclude
+        return any(fnmatchcase(name, item) for item in packages.include) and not any(
+            fnmatchcase(name, item) for item in packages.exclude
         )
     if isinstance(packages, list | tuple) and name in packages:
         return True

@@ -67,9 +67,9 @@ def definitions(directory: str = ".") -> Definitions:
     disk = Disk()
     sources = colcon.sources_at(disk, disk.real(directory))
     workspace = Workspace()
-    for found in colcon.package_directories(disk, sources) if sources else ():
-        if _has_interfaces(found):
-            workspace.add(Package.at(found, workspace))
+    for package_directory in colcon.package_directories(disk, sources) if sources else ():
+        if _has_interfaces(package_directory):
+            workspace.add(Package.at(package_directory, workspace))
     return Definitions.around(workspace)
 
 

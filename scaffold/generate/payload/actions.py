@@ -26,7 +26,7 @@ def of_action(text: str, interfaces: Definitions) -> ActionPayload:
 def _alike(interface: Interface) -> ActionRecipe | None:
     """Return the recipe of Fibonacci for one of the many copies of it."""
     parts = (interface.goal, interface.result, interface.feedback)
-    names = [[field.name for field in one.fields] for one in parts]
+    names = [[field.name for field in part.fields] for part in parts]
     known = recipe.find_action(_FIBONACCI)
     if known is None or interface.name != "Fibonacci" or names[:2] != [["order"], ["sequence"]]:
         return None
@@ -43,21 +43,25 @@ def _alike(interface: Interface) -> ActionRecipe | None:
     )
 
 
-def _by_recipe(types: Types, found: ActionRecipe) -> ActionPayload:
+def _by_recipe(types: Types, action_recipe: ActionRecipe) -> ActionPayload:
     own = types.interface
     start = Block()
-    start.embed(found.start, "feedback")
+    start.embed(action_recipe.start, "feedback")
     return ActionPayload(
         package=own.package,
         name=types.own_name,
         action=types.own_alias,
-        says=found.says,
-        goal=section.by_recipe(types, own.goal, found.goal, found.goal_log),
-        refused=found.refused,
+        says=action_recipe.says,
+        goal=section.by_recipe(types, own.goal, action_recipe.goal, action_recipe.goal_log),
+        refused=action_recipe.refused,
         start=tuple(start.lines()),
-        steps=found.steps,
-        feedback=section.by_recipe(types, own.feedback, found.feedback, found.feedback_log),
-        result=section.by_recipe(types, own.result, found.result, found.result_log, found.checks),
+        steps=action_recipe.steps,
+        feedback=section.by_recipe(
+            types, own.feedback, action_recipe.feedback, action_recipe.feedback_log
+        ),
+        result=section.by_recipe(
+            types, own.result, action_recipe.result, action_recipe.result_log, action_recipe.checks
+        ),
     )
 
 

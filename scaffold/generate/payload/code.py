@@ -115,7 +115,7 @@ class Block:
     @property
     def size(self) -> int:
         """The number of lines, without local names for tokens."""
-        sizes = (1 if isinstance(one, str) else one[1].size for one in self._items)
+        sizes = (1 if isinstance(item, str) else item[1].size for item in self._items)
         return sum(sizes)
 
     def lines(self) -> list[str]:

@@ -26,8 +26,8 @@ _ENUMS = frozenset(
 def telling(options: Sequence[Constant], field: Field) -> Constant:
     """Return the constant that a field probably has: of outcomes, a good one."""
     if _OUTCOMES & set(words.split(field.name)):
-        options = [one for one in options if is_good(one)] or options
-    return next((one for one in options if not _DULL.search(one.name)), options[0])
+        options = [option for option in options if is_good(option)] or options
+    return next((option for option in options if not _DULL.search(option.name)), options[0])
 
 
 def is_good(constant: Constant) -> bool:
@@ -51,15 +51,19 @@ def constants_of(section: Section, field: Field) -> list[Constant]:
         for other in section.fields
         if other.type == field.type and not _by_name(section, other)
     ]
-    taken = {one for other in section.fields for one in _by_name(section, other)}
-    free = [one for one in section.constants if one.type == field.type and one not in taken]
+    taken = {item for other in section.fields for item in _by_name(section, other)}
+    free = [
+        constant
+        for constant in section.constants
+        if constant.type == field.type and constant not in taken
+    ]
     if len(rivals) > 1:
-        free = [one for one in free if _is_next_to(one, field, section)]
-    is_only = sum(one.type.name in INTEGER_RANGES for one in section.fields) == 1
+        free = [item for item in free if _is_next_to(item, field, section)]
+    is_only = sum(item.type.name in INTEGER_RANGES for item in section.fields) == 1
     if words.split(field.name)[-1] in _ENUMS or (is_only and len(free) > 1):
         return free
     own = set(words.split(field.name))
-    alike = [one for one in free if own & set(one.name.lower().split("_"))]
+    alike = [item for item in free if own & set(item.name.lower().split("_"))]
     return alike if len(alike) > 1 else []
 
 
@@ -67,16 +71,18 @@ def _by_name(section: Section, field: Field) -> list[Constant]:
     stem = field.name.upper()
     if field.type.is_array or field.type.name not in INTEGER_RANGES:
         return []
-    found = [one for one in section.constants if one.name.startswith(f"{stem}_")]
-    found = found or [one for one in section.constants if one.name.endswith(f"_{stem}")]
+    found = [constant for constant in section.constants if constant.name.startswith(f"{stem}_")]
+    found = found or [
+        constant for constant in section.constants if constant.name.endswith(f"_{stem}")
+    ]
     if len(found) == 1 and words.split(field.name)[-1] not in _ENUMS:
         return []
     longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
     return [
-        one
-        for one in found
-        if not any(one.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
-        and one.type.name in INTEGER_RANGES
+        item
+        for item in found
+        if not any(item.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
+        and item.type.name in INTEGER_RANGES
     ]
 
 

@@ -32,9 +32,9 @@ def imports(
             messages.add(full_name)
             if not full_name.endswith(f"/{name}"):
                 aliases[full_name] = name
-    modules = [one for one in MODULES if one in names]
+    modules = [item for item in MODULES if item in names]
     packages = sorted({name.partition("/")[0] for name in messages})
-    lines = [f"import {one}" for one in modules]
+    lines = [f"import {module}" for module in modules]
     for package in packages:
         classes = sorted(
             f"{name.rpartition('/')[2]} as {aliases[name]}"

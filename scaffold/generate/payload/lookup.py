@@ -67,7 +67,7 @@ class Types:
         """Return the code of a recipe with the names that messages have here."""
         package = full_name.partition("/")[0]
         for name in set(re.findall(r"(?<![.\w])[A-Z]\w+", code)):
-            meant = [one for one in sorted(self._messages) if one.endswith(f"/{name}")]
+            meant = [message for message in sorted(self._messages) if message.endswith(f"/{name}")]
             if meant:
                 own = f"{package}/msg/{name}"
                 new = self.class_name(own if own in meant else min(meant, key=_is_uncommon))

@@ -47,7 +47,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         statements=tuple(lines),
         log=words_.log,
         says=words_.says,
-        checks=tuple(one for one in words_.checks if len(one) <= MAX_CHECK)[:MAX_CHECKS],
+        checks=tuple(check for check in words_.checks if len(check) <= MAX_CHECK)[:MAX_CHECKS],
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
@@ -82,14 +82,14 @@ def changes(lines: Iterable[str]) -> bool:
 def _words(types: Types, walk: Walk) -> Recipe:
     """Return what is said about a message: by its recipe, that of its only part, or its fields."""
     own = types.interface
-    found = recipe.find(own.full_name)
+    result = recipe.find(own.full_name)
     header = own.section("message").field("header")
     is_stamped = header is not None and header.type.full_name == HEADER
-    if found is None:
-        found = _words_of_part(types) or _words_of_fields(types, walk)
+    if result is None:
+        result = _words_of_part(types) or _words_of_fields(types, walk)
     if is_stamped:
-        found = found._replace(checks=("message.header.stamp.sec > 0", *found.checks))
-    return found
+        result = result._replace(checks=("message.header.stamp.sec > 0", *result.checks))
+    return result
 
 
 def _words_of_part(types: Types) -> Recipe | None:
@@ -104,7 +104,7 @@ def _words_of_part(types: Types) -> Recipe | None:
         return None
     return found._replace(
         log=joined(re.sub(r"\bmsg\.", f"msg.{name}.", found.log).split(", ")),
-        checks=tuple(re.sub(r"\bmessage\.", f"message.{name}.", one) for one in found.checks),
+        checks=tuple(re.sub(r"\bmessage\.", f"message.{name}.", check) for check in found.checks),
     )
 
 
@@ -116,7 +116,9 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
         or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
         frame=walk.frame,
         checks=tuple(
-            re.sub(r"\bmsg\b", "message", one) for one in walk.checks if "header.stamp" not in one
+            re.sub(r"\bmsg\b", "message", check)
+            for check in walk.checks
+            if "header.stamp" not in check
         ),
     )
 
@@ -124,8 +126,8 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
 def joined(shown: Iterable[str]) -> str:
     """Return replacement fields in a row, as many as fit into a line of the log."""
     log = ""
-    for one in shown:
-        longer = f"{log}, {one}" if log else one
+    for item in shown:
+        longer = f"{log}, {item}" if log else item
         log = longer if len(longer) <= MAX_LOG else log
     return log
 

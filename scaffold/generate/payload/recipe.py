@@ -35,8 +35,8 @@ class Recipe(NamedTuple):
 
 def find(full_name: str) -> Recipe | None:
     """Return the recipe of a message by ``package/msg/Name``; ``None`` if there is none."""
-    found: Recipe | None = _in(full_name, "RECIPES")
-    return found
+    recipe: Recipe | None = _in(full_name, "RECIPES")
+    return recipe
 
 
 class ServiceRecipe(NamedTuple):
@@ -80,14 +80,14 @@ class ActionRecipe(NamedTuple):
 
 def find_service(full_name: str) -> ServiceRecipe | None:
     """Return the recipe of a service by ``package/srv/Name``; ``None`` if there is none."""
-    found: ServiceRecipe | None = _in(full_name, "SERVICES")
-    return found
+    recipe: ServiceRecipe | None = _in(full_name, "SERVICES")
+    return recipe
 
 
 def find_action(full_name: str) -> ActionRecipe | None:
     """Return the recipe of an action by ``package/action/Name``; ``None`` if there is none."""
-    found: ActionRecipe | None = _in(full_name, "ACTIONS")
-    return found
+    recipe: ActionRecipe | None = _in(full_name, "ACTIONS")
+    return recipe
 
 
 def _in(full_name: str, table: str) -> Any:  # noqa: ANN401  of the type that the table has

@@ -39,7 +39,7 @@ def asked(types: Types, section: Section) -> SectionPayload:
 
 def answered(types: Types, section: Section, given: Sequence[Section]) -> SectionPayload:
     """Return what a server answers: a response or a result, taken from what it was given."""
-    fields = tuple(one for one in section.fields if not _is_failure(section, one))
+    fields = tuple(item for item in section.fields if not _is_failure(section, item))
     values = {field.name: _answer(field, given) for field in fields}
     return _filled(types, section._replace(fields=fields), values)
 
@@ -48,7 +48,7 @@ def _is_failure(section: Section, field: Field) -> bool:
     """Tell whether a field is a code of errors without one for success: 0 is the default."""
     if field.type.name not in INTEGER_RANGES or not _ERROR.search(field.name):
         return False
-    return not any(enums.is_good(one) for one in enums.constants_of(section, field))
+    return not any(enums.is_good(item) for item in enums.constants_of(section, field))
 
 
 def reported(types: Types, section: Section) -> SectionPayload:
@@ -88,10 +88,10 @@ def _owner(types: Types, section: Section) -> str:
 
 def _answer(field: Field, given: Sequence[Section]) -> str | None:
     """Return the value of a field that follows from other sections; ``None``: it is made up."""
-    for one in given:
-        same = one.field(field.name)
+    for item in given:
+        same = item.field(field.name)
         if same is not None and same.type == field.type:
-            return f"{one.name}.{field.name}"
+            return f"{item.name}.{field.name}"
     if field.type.is_array:
         return None
     if field.type.name == "bool":
@@ -104,10 +104,10 @@ def _answer(field: Field, given: Sequence[Section]) -> str | None:
 def _sum(field: Field, given: Sequence[Section]) -> str | None:
     """Return the sum of all numbers of the field's type that were given, if there are several."""
     numbers = [
-        f"{section.name}.{one.name}"
+        f"{section.name}.{item.name}"
         for section in given
-        for one in section.fields
-        if one.type == field.type and one.type.name in _NUMBERS
+        for item in section.fields
+        if item.type == field.type and item.type.name in _NUMBERS
     ]
     return " + ".join(numbers) if len(numbers) > 1 else None
 
@@ -161,7 +161,7 @@ def _payload(
         statements=tuple(lines),
         log=log,
         says=enumerated(names, "", 60) if names else "",
-        checks=tuple(one for one in checks if len(one) <= MAX_CHECK),
+        checks=tuple(check for check in checks if len(check) <= MAX_CHECK),
         imports=lines_of_imports,
         packages=packages,
         is_stamped=any("self.frame_id" in line for line in lines),

@@ -48,8 +48,8 @@ class Walk:
     @property
     def frame(self) -> str:
         """The frame that what is filled is given in: that of a sensor before any other."""
-        told = [one for one in self._frames if one not in {"", FRAME}]
-        return next((one for one in told if one != "map"), told[0] if told else FRAME)
+        result = [item for item in self._frames if item not in {"", FRAME}]
+        return next((item for item in result if item != "map"), result[0] if result else FRAME)
 
     def _is_root(self, target: str) -> bool:
         """Tell whether a target is, or is a part of, what is filled, and not a local name."""
@@ -76,7 +76,7 @@ class Walk:
 
     def shown_fields(self, section: Section, target: str) -> list[Field]:
         """Return the fields of a section that are filled: the most telling ones if brief."""
-        wanted = [one for one in section.fields if one.default is None or self._changing]
+        wanted = [field for field in section.fields if field.default is None or self._changing]
         if not self._limits:
             return wanted
         depth = target.count(".") + (not self._is_root(target))
@@ -106,7 +106,7 @@ class Walk:
             code = self._types.renamed(self._with_constants(found, target), full_name)
             block.embed(code, _near(block, target, code))
             self._frames.append(found.frame)
-            checks = tuple(self._types.renamed(one, full_name) for one in found.checks)
+            checks = tuple(self._types.renamed(check, full_name) for check in found.checks)
             self._judge(found._replace(checks=checks), target)
         else:
             self.fill(block, section, self._types.class_name(full_name), target)
@@ -116,8 +116,8 @@ class Walk:
         if self._is_root(target):
             if found.log:
                 self._spare.append(re.sub(r"\bmsg\.", f"{target}.", found.log))
-            for one in found.checks[:1]:
-                self.checks.append(re.sub(r"\bmessage\.", f"{target}.", one))
+            for check in found.checks[:1]:
+                self.checks.append(re.sub(r"\bmessage\.", f"{target}.", check))
 
     def _with_constants(self, found: Recipe, target: str) -> str:
         """Return the code of a recipe whose constants are defined.
@@ -192,14 +192,14 @@ class Walk:
     def _wrapped(self, field: Field) -> Field | None:
         """Return the only field of a message such as std_msgs/Float64, by its name here."""
         fields = self._types.message(field.type.full_name).fields
-        if field.type.package not in WRAPPERS or [one.name for one in fields] != ["data"]:
+        if field.type.package not in WRAPPERS or [item.name for item in fields] != ["data"]:
             return None
         data = fields[0]
         return field._replace(type=data.type) if data.type.is_primitive else None
 
     def _enum(self, block: Block, field: Field, options: Sequence[Constant], owner: str) -> str:
         if self._changing and len(options) > 1:
-            names = [f"{owner}.{one.name}" for one in options[: elements.ELEMENTS]]
+            names = [f"{owner}.{option.name}" for option in options[: elements.ELEMENTS]]
             every = block.define(f"every_{field.name}", f"[{', '.join(names)}]")
             return f"{every}[{COUNT} % {len(names)}]"
         return f"{owner}.{enums.telling(options, field).name}"

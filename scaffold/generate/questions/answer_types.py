@@ -80,14 +80,14 @@ def address(given: object) -> str:
     Raises:
         InputError: they would not.
     """
-    found = text(given)
-    if len(found) > MAX_PERSON:
-        raise InputError(f"{_short(found)!r} has more than {MAX_PERSON} characters")
-    if not re.fullmatch(_ADDRESS, found, re.ASCII):
-        raise InputError(f"{found!r} is not a mail address such as ada@example.com")
-    if is_placeholder_address(found):
-        raise InputError(f"{found!r} is a placeholder")
-    return found
+    result = text(given)
+    if len(result) > MAX_PERSON:
+        raise InputError(f"{_short(result)!r} has more than {MAX_PERSON} characters")
+    if not re.fullmatch(_ADDRESS, result, re.ASCII):
+        raise InputError(f"{result!r} is not a mail address such as ada@example.com")
+    if is_placeholder_address(result):
+        raise InputError(f"{result!r} is a placeholder")
+    return result
 
 
 def rate(given: object) -> float:

@@ -58,12 +58,12 @@ class User:
             done = git.run(*words, directory=directory)
         except (OSError, subprocess.TimeoutExpired):
             return {}
-        found: dict[str, str] = {}
+        result: dict[str, str] = {}
         for entry in done.stdout.decode(errors="replace").split("\0"):
             key, _, value = entry.partition("\n")
             if value.strip():
-                found[key] = value
-        return found
+                result[key] = value
+        return result
 
 
 def configured(config: Config) -> dict[str, Given]:

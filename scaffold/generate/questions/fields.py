@@ -58,8 +58,8 @@ def fields(given: object, where: str = ".") -> Fields:
                 line = lines[field.location.line - 1]
                 raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
             _refuse_large(field.type, lines[field.location.line - 1])
-    types = [one.type.element for section in definition.sections for one in section.fields]
-    used = {one.full_name for one in types if not one.is_primitive}
+    types = [item.type.element for section in definition.sections for item in section.fields]
+    used = {item.full_name for item in types if not item.is_primitive}
     own = {name for name in used if name.startswith(f"{_OWN}/")}
     _refuse_unknown(used - own, where)
     return Fields(
@@ -75,7 +75,7 @@ def refuse_turning(text: str) -> None:
     Raises:
         InputError: with the character.
     """
-    found = next((one for one in text if one in _TURNING), None)
+    found = next((item for item in text if item in _TURNING), None)
     if found is not None:
         raise InputError(
             f"contains the character U+{ord(found):04X}, which changes the direction of text"
@@ -116,7 +116,7 @@ def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
     known = set(messages)
     for name in found.own_types:
         if name not in known:
-            others = [one for one in payload.definitions().matches(name) if "/msg/" in one]
+            others = [item for item in payload.definitions().matches(name) if "/msg/" in item]
             hint = f"; did you mean {' or '.join(others[:3])}?" if others else ""
             raise InputError(f"the package has no message {name!r} to use as a type{hint}")
 

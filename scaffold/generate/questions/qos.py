@@ -116,19 +116,19 @@ def _settings(words: Sequence[str], text: str) -> dict[str, str]:
     Raises:
         InputError: one is none, or contradicts another one.
     """
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for word in words:
         key, equals, value = (part.strip() for part in word.partition("="))
         if not equals:
             key, value = _KEY_OF.get(word, "depth" if _is_depth(word) else ""), word
         if key not in _KEYS:
             raise InputError(_unknown(text, word))
-        if key in found:
+        if key in result:
             raise InputError(
-                f"the quality of service {text!r} gives the {key} twice: {found[key]} and {value}"
+                f"the quality of service {text!r} gives the {key} twice: {result[key]} and {value}"
             )
-        found[key] = _checked(key, value, text)
-    return found
+        result[key] = _checked(key, value, text)
+    return result
 
 
 def _checked(key: str, value: str, text: str) -> str:
@@ -193,7 +193,7 @@ def _profile(settings: Mapping[str, str], name: str) -> Qos:
         arguments.append(f"{key}={value}")
     imports.add(f"from rclpy.qos import {', '.join(sorted(classes))}")
     whole = f"{CONSTANT} = QoSProfile({', '.join(arguments)})"
-    lines = [f"{CONSTANT} = QoSProfile(", *(f"    {one}," for one in arguments), ")"]
+    lines = [f"{CONSTANT} = QoSProfile(", *(f"    {argument}," for argument in arguments), ")"]
     return Qos(
         CONSTANT,
         tuple(sorted(imports)),

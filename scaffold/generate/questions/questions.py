@@ -34,11 +34,11 @@ class Given(NamedTuple):
 
 def unique(templates: Iterable[Template]) -> list[Question]:
     """Return the questions of templates, each name once, in their order."""
-    found: dict[str, Question] = {}
+    result: dict[str, Question] = {}
     for template in templates:
         for question in template.questions:
-            found.setdefault(question.name, question)
-    return list(found.values())
+            result.setdefault(question.name, question)
+    return list(result.values())
 
 
 def shared(templates: Iterable[Template]) -> list[Question]:
@@ -46,14 +46,14 @@ def shared(templates: Iterable[Template]) -> list[Question]:
 
     A default in which the templates differ is left out.
     """
-    found: dict[str, Question] = {}
+    result: dict[str, Question] = {}
     for template in templates:
         for question in template.questions:
-            first = found.setdefault(question.name, question)
+            first = result.setdefault(question.name, question)
             helps = dict.fromkeys([*first.help.split("; "), question.help])
             default = first.default if first.default == question.default else None
-            found[question.name] = first._replace(help="; ".join(helps), default=default)
-    return list(found.values())
+            result[question.name] = first._replace(help="; ".join(helps), default=default)
+    return list(result.values())
 
 
 def add_flags(
@@ -130,9 +130,9 @@ def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Se
         if not blank:
             return [f"{kind}:" for kind in kinds]
         if not equals:
-            return [f"{before} {one.name}=" for one in asked if not one.name.endswith("_name")]
-        offers = [completer(one) for one in asked if one.name == name]
-        values = [value for one in offers if one is not None for value in one(prefix=answer)]
+            return [f"{before} {item.name}=" for item in asked if not item.name.endswith("_name")]
+        offers = [completer(item) for item in asked if item.name == name]
+        values = [value for item in offers if item is not None for value in item(prefix=answer)]
         return [f"{before} {name}={value}" for value in values]
 
     return offer
@@ -179,7 +179,7 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
         InputError: a key is no question.
     """
     known = {question.name for question in questions}
-    found: dict[str, Given] = {}
+    result: dict[str, Given] = {}
     for key, given in entries.items():
         name = key.replace("-", "_")
         if name not in known:
@@ -187,8 +187,8 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
             hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(sorted(known))}"
             raise InputError(f"{given.origin}: {key!r} is not a question of the templates; {hint}")
         if given.value is not None:
-            found[name] = Given(given.value, f"{given.origin}: {key}")
-    return found
+            result[name] = Given(given.value, f"{given.origin}: {key}")
+    return result
 
 
 class Answers(NamedTuple):
@@ -230,7 +230,7 @@ def resolve(
         is_list = question.type == SEVERAL and question.choices
         answers.written[question.name] = [*value] if is_list else found.value
 
-    later = [one for one in questions if one.name not in given and _is_jinja(one.default)]
+    later = [item for item in questions if item.name not in given and _is_jinja(item.default)]
     for question in questions:
         if question not in later:
             add(question, given.get(question.name) or _default(question, fallback))
@@ -247,10 +247,10 @@ def _is_jinja(default: object) -> bool:
 def _default(question: Question, fallback: Callable[[str], Given | None]) -> Given:
     if question.default is not None:
         return Given(question.default, "default")
-    found = fallback(question.name)
-    if found is None:
+    result = fallback(question.name)
+    if result is None:
         raise InputError(f"{flag(question.name)} is required: {question.help}")
-    return found
+    return result
 
 
 def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: ANN401  as its type says
@@ -294,7 +294,7 @@ def _no_choice(word: str, choices: Sequence[str]) -> str:
     near = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
     if not near and len(word) >= _TELLING:
         near = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
-    hint = f"; did you mean {' or '.join(by_lower[one] for one in near)}?" if near else ""
+    hint = f"; did you mean {' or '.join(by_lower[item] for item in near)}?" if near else ""
     return f"{word!r} is not one of {', '.join(choices)}{hint}"
 
 

@@ -15,13 +15,13 @@ NOTE = "note.jinja"
 
 def names(roots: Sequence[str]) -> tuple[str, ...]:
     """Return the identifiers of the licenses in content directories."""
-    found: set[str] = set()
+    result: set[str] = set()
     for root in roots:
         directory = os.path.join(root, DIRECTORY)
         if os.path.isdir(directory):
-            found.update(
+            result.update(
                 name
                 for name in os.listdir(directory)
                 if os.path.isfile(os.path.join(directory, name, TEXT))
             )
-    return tuple(sorted(found))
+    return tuple(sorted(result))

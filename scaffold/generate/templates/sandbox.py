@@ -29,11 +29,11 @@ class Sandbox(ImmutableSandboxedEnvironment):
         self.globals["range"] = self._range
 
     def _range(self, *arguments: int) -> range:
-        found = range(*arguments)
-        self._rounds += len(found)
+        result = range(*arguments)
+        self._rounds += len(result)
         if self._rounds > _MOST_ROUNDS:
             raise SecurityError(f"more than {_MOST_ROUNDS} rounds of loops")
-        return found
+        return result
 
     def call_binop(
         self,

@@ -174,11 +174,11 @@ def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
 
 def _places(root: str) -> dict[str, tuple[str, Role]]:
     """Return the directories of the templates in a content directory, and their roles."""
-    found: dict[str, tuple[str, Role]] = {}
+    result: dict[str, tuple[str, Role]] = {}
     for folder in sorted(os.listdir(root)):
         place = os.path.join(root, folder)
         if folder == BASE and os.path.isfile(os.path.join(place, MANIFEST)):
-            found[BASE] = place, Role.PACKAGE
+            result[BASE] = place, Role.PACKAGE
             continue
         if os.path.isfile(os.path.join(place, MANIFEST)):
             raise ContentError(f"{place}: a template must be in {', '.join(FOLDERS)}")
@@ -186,10 +186,10 @@ def _places(root: str) -> dict[str, tuple[str, Role]]:
             directory = os.path.join(place, name)
             if folder not in FOLDERS:
                 raise ContentError(f"{directory}: a template must be in {', '.join(FOLDERS)}")
-            if name in found:
-                raise ContentError(f"{directory}: {found[name][0]} has the same name")
-            found[name] = directory, FOLDERS[folder]
-    return found
+            if name in result:
+                raise ContentError(f"{directory}: {result[name][0]} has the same name")
+            result[name] = directory, FOLDERS[folder]
+    return result
 
 
 def _templates(place: str) -> Iterator[str]:
@@ -209,8 +209,8 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
     place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
     data = cache.read_sealed(place, head) if kept else None
     if data is not None:
-        found: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
-        return found
+        result: list[dict[str, Any]] = marshal.loads(data)  # noqa: S302  own files
+        return result
     made = [_manifest(path) for path in paths]
     if kept and cache.write_sealed(place, head, marshal.dumps(made)):
         cache.trim(kept, _MOST_KEPT)
@@ -228,7 +228,7 @@ def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]
             kinds = ", ".join(DEPEND_KINDS)
             raise ContentError(f"{path}: depends must map {kinds} to lists of names")
     asked = manifest.get("questions", {}).items()
-    found = Template(
+    result = Template(
         name=name,
         directory=directory,
         role=role,
@@ -247,13 +247,15 @@ def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]
         notes=manifest.get("notes", {}),
         examples=manifest.get("examples", {}),
     )
-    if (role is Role.INTERFACE) is not (found.definition in _DEFINITIONS):
+    if (role is Role.INTERFACE) is not (result.definition in _DEFINITIONS):
         raise ContentError(
             f"{path}: interfaces, and no others, have definition: msg, srv or action"
         )
-    if role in PARTS and found.name_question not in [one.name for one in found.questions]:
-        raise ContentError(f"{path}: the questions must have {found.name_question}")
-    return found
+    if role in PARTS and result.name_question not in [
+        question.name for question in result.questions
+    ]:
+        raise ContentError(f"{path}: the questions must have {result.name_question}")
+    return result
 
 
 def _manifest(path: str) -> dict[str, Any]:

@@ -286,7 +286,7 @@ def _depth(value: object) -> int:
     """
     depth, level = 0, [value]
     while level and depth <= _MOST_DEEP:
-        if any(isinstance(one, tuple) for one in level):
+        if any(isinstance(item, tuple) for item in level):
             return _MOST_DEEP + 1
         inner: list[object] = []
         for one in level:

@@ -159,7 +159,7 @@ def _known_part(
 def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict[str, bytes]:
     """Return those of some files that are there, in the package or at the top of the repository."""
     files = set(tree.files)
-    found: dict[str, bytes] = {}
+    result: dict[str, bytes] = {}
     for path in filter(is_below, paths):
         content: bytes | None
         if path in files:
@@ -169,8 +169,8 @@ def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict
         else:  # a tree leaves hidden directories out
             content = read_file(place_of_files(where), path)
         if content is not None:
-            found[path] = content
-    return found
+            result[path] = content
+    return result
 
 
 def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> None:

@@ -37,9 +37,9 @@ class Program(NamedTuple):
 def uses_ament(package: Package) -> bool:
     """Tell whether a CMakeLists.txt is meant to be of an ament_cmake package."""
     cmake = package.cmake
-    return any(found.name.startswith("ament_cmake") for found in cmake.found_packages) or bool(
-        cmake.find(*PACKAGE_COMMANDS)
-    )
+    return any(
+        found_package.name.startswith("ament_cmake") for found_package in cmake.found_packages
+    ) or bool(cmake.find(*PACKAGE_COMMANDS))
 
 
 def has_unknown_commands(package: Package) -> bool:
@@ -91,7 +91,7 @@ def _only_defines(statement: ast.stmt) -> bool:
 
 def programs(package: Package) -> list[Program]:
     """Return the files that are installed as programs, where it is known which."""
-    found: list[Program] = []
+    result: list[Program] = []
     for install in package.cmake.installs:
         if install.kind != "PROGRAMS":
             continue
@@ -99,10 +99,10 @@ def programs(package: Package) -> list[Program]:
             if item.path is None:
                 continue
             name = install.rename or item.path.rpartition("/")[2]
-            found.append(
+            result.append(
                 Program(item.path, name, install.destination, item.location, install.command)
             )
-    return found
+    return result
 
 
 def installs_directory(package: Package, directory: str) -> bool | None:
@@ -132,7 +132,7 @@ def is_made_by_build(package: Package, path: str) -> bool:
         return True
     # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
     named = package.cmake.find("set") if makers else ()
-    return any(f"/{path}/" in argument.value for one in named for argument in one.arguments)
+    return any(f"/{path}/" in argument.value for item in named for argument in item.arguments)
 
 
 def runs_if_exists(command: Command) -> bool:
@@ -140,7 +140,7 @@ def runs_if_exists(command: Command) -> bool:
     at = command
     while at.parent is not None and at.branch is not None:
         asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
-        if any("EXISTS" in one.values for one in asked):
+        if any("EXISTS" in item.values for item in asked):
             return True
         at = at.parent
     return False
@@ -168,14 +168,14 @@ def is_used_by_build(package: Package, path: str) -> bool:
     if _is_entry_point(package, path):
         return True
     others = [command for command in package.cmake.commands if command.name != "install"]
-    return any(name in one.value for command in others for one in command.arguments)
+    return any(name in argument.value for command in others for argument in command.arguments)
 
 
 def _is_entry_point(package: Package, path: str) -> bool:
     """Tell whether the setup.cfg of a package of CMake starts a function of a file."""
     entry = path.removesuffix(".py").replace("/", ".") + ":"
     files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
-    return any(entry in _text(package, one) for one in files)
+    return any(entry in _text(package, file) for file in files)
 
 
 def runs_with_python(package: Package, path: str) -> bool:

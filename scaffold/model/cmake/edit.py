@@ -28,7 +28,9 @@ def insert_find_package(lists: CMakeLists, name: str, *, testing: bool = False) 
     """
     if lists.errors:
         return None
-    if any(found.name == name and found.in_testing <= testing for found in lists.found_packages):
+    if any(
+        package.name == name and package.in_testing <= testing for package in lists.found_packages
+    ):
         return ()
     if testing:
         return _find_in_testing(lists, name)
@@ -239,7 +241,7 @@ def _insert_call(lists: CMakeLists, calls: Sequence[Command], name: str) -> Edit
     call = f"{opening}{name} REQUIRED)"
     # ament_cmake comes first by custom, whatever the order of the others.
     start = 1 if names[0].startswith("ament_cmake") and len(names) > 1 else 0
-    if all(one <= two for one, two in pairwise(names[start:])):
+    if all(item <= two for item, two in pairwise(names[start:])):
         for command in run[start:]:
             if command.arguments[0].value > name and _begins_line(lists, command):
                 indent = _indent_of(lists, command)
@@ -266,7 +268,7 @@ def _install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None
     if lists.errors:
         return None
     name = lists.project_name
-    found = [
+    result = [
         install
         for install in lists.installs
         if install.kind == kind and install.command.name == "install"
@@ -274,10 +276,10 @@ def _install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None
     destination = f"{base}/{name}"
     if any(
         install.destination == destination and any(item.path == path for item in install.items)
-        for install in found
+        for install in result
     ):
         return ()
-    for install in found:
+    for install in result:
         usable = install.command.depth == 0 and install.rename is None and not install.patterns
         if usable and name is not None and install.destination == destination and install.items:
             edits = append_arguments(lists, install.command, install.items[-1].argument, [path])

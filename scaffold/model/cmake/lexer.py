@@ -71,7 +71,7 @@ class Tokens(Sequence[Token]):
 
     def __getitem__(self, number: int | slice) -> Token | list[Token]:
         if isinstance(number, slice):
-            return [self[one] for one in range(*number.indices(len(self)))]
+            return [self[item] for item in range(*number.indices(len(self)))]
         number = range(len(self.kinds))[number]
         return Token(self.kinds[number], self.starts[number], self.starts[number + 1])
 

@@ -129,15 +129,15 @@ class CMakeLists:
         """Return the calls of some commands, by lower-case names, in the order of the file."""
         if len(names) == 1:
             return self._by_name.get(names[0], [])
-        found = [command for name in names for command in self._by_name.get(name, ())]
-        return sorted(found, key=lambda command: command.index)
+        result = [command for name in names for command in self._by_name.get(name, ())]
+        return sorted(result, key=lambda command: command.index)
 
     @cached_property
     def _by_name(self) -> Mapping[str, list[Command]]:
-        found: dict[str, list[Command]] = {}
+        result: dict[str, list[Command]] = {}
         for command in self.commands:
-            found.setdefault(command.name, []).append(command)
-        return found
+            result.setdefault(command.name, []).append(command)
+        return result
 
     @property
     def comments(self) -> list[Token]:
@@ -205,13 +205,13 @@ class CMakeLists:
         bindings: Mapping[str, str] = _NO_BINDINGS,
     ) -> list[str] | None:
         """Replace variables in arguments and split lists; ``None`` when anything is not known."""
-        found: list[str] = []
+        result: list[str] = []
         for argument in arguments:
             values = self._variables.argument(argument, at, bindings)
             if values is None:
                 return None
-            found.extend(map(_shown, values))
-        return found
+            result.extend(map(_shown, values))
+        return result
 
     def path_of(self, value: str) -> str:
         """Return the path, relative to the root of the package, of what ``expand`` returned."""
@@ -276,7 +276,7 @@ class CMakeLists:
 
     def finds(self, name: str) -> bool:
         """Tell whether a package is looked for by its name."""
-        return any(found.name == name for found in self.found_packages)
+        return any(package.name == name for package in self.found_packages)
 
     def _found_packages(self) -> Iterator[FoundPackage]:
         for command in self.find("find_package"):
@@ -297,7 +297,7 @@ class CMakeLists:
     @cached_property
     def installs(self) -> list[Install]:
         """What is installed, with ``install`` and with ``ament_auto_package`` and its like."""
-        found: list[Install] = []
+        result: list[Install] = []
         items = 0
         for command in self.find("install", *LAST_CALLS[1:]):
             if self.is_for_ros1(command):
@@ -305,10 +305,10 @@ class CMakeLists:
             # A loop over something unknown still tells what is written down.
             for bindings in self._variables.combinations(command) or ({},):
                 if items > _MOST_ITEMS:
-                    return found
-                found.extend(self._installs_of(command, bindings))
-                items += len(found[-1].items) if found else 0
-        return found
+                    return result
+                result.extend(self._installs_of(command, bindings))
+                items += len(result[-1].items) if result else 0
+        return result
 
     def _installs_of(self, command: Command, bindings: Mapping[str, str]) -> Iterator[Install]:
         if command.name != "install":
@@ -349,21 +349,21 @@ class CMakeLists:
         *,
         are_files: bool,
     ) -> list[InstallItem]:
-        found: list[InstallItem] = []
+        install_items: list[InstallItem] = []
         for argument in arguments:
             values = self._variables.argument(argument, command, bindings)
             if values is None:
-                found.append(InstallItem(argument, None, None))
+                install_items.append(InstallItem(argument, None, None))
                 continue
             for value in values:
                 full = value if value.startswith((ROOT, "/")) else f"{self._directory}/{value}"
                 path = self._path(full) if are_files else None
-                found.append(InstallItem(argument, _shown(value), path))
-        return found
+                install_items.append(InstallItem(argument, _shown(value), path))
+        return install_items
 
     def _destinations(self, command: Command, bindings: Mapping[str, str]) -> dict[str, str | None]:
         """Return where each kind of artifact of a target goes."""
-        found: dict[str, str | None] = {}
+        result: dict[str, str | None] = {}
         artifact = ""
         arguments = iter(command.arguments)
         for argument in arguments:
@@ -373,8 +373,8 @@ class CMakeLists:
             elif value == "DESTINATION":
                 where = next(arguments, None)
                 if where is not None:
-                    found[artifact] = self._destination(where, command, bindings)
-        return found
+                    result[artifact] = self._destination(where, command, bindings)
+        return result
 
     def _destination(
         self, argument: Argument | None, command: Command, bindings: Mapping[str, str]

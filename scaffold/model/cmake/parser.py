@@ -196,14 +196,14 @@ class Command:
         A keyword that is there without arguments has an empty list; the arguments of one that is
         there twice are joined.
         """
-        found: dict[str, list[Argument]] = {"": []}
-        current = found[""]
+        result: dict[str, list[Argument]] = {"": []}
+        current = result[""]
         for argument in self.arguments:
             if argument.kind in {"unquoted", "quoted"} and argument.value in keywords:
-                current = found.setdefault(argument.value, [])
+                current = result.setdefault(argument.value, [])
             else:
                 current.append(argument)
-        return found
+        return result
 
     def keyword(self, name: str, keywords: Collection[str]) -> list[Argument]:
         """Return the arguments behind a keyword, up to the next one."""

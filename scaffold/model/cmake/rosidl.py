@@ -64,7 +64,8 @@ def may_generate_more(package: Package) -> bool:
 def is_interface_package(package: Package) -> bool:
     """Tell whether a package installs interfaces; raises ViewError."""
     return any(
-        not one.for_tests and "SKIP_INSTALL" not in one.options for one in generations(package)
+        not generation.for_tests and "SKIP_INSTALL" not in generation.options
+        for generation in generations(package)
     )
 
 
@@ -110,7 +111,7 @@ def _where_written(cmake: CMakeLists, command: Command, argument: Argument, valu
         return argument
     for other in cmake.find("set", "list"):
         if other.index < command.index:
-            for one in other.arguments[1:]:
-                if one.value == value:
-                    return one
+            for item in other.arguments[1:]:
+                if item.value == value:
+                    return item
     return argument

@@ -59,7 +59,7 @@ def targets_named_once(cmake: CMakeLists) -> list[tuple[str, Argument]]:
             taken = _targets(command)
         named.update(_words(cmake, command, taken))
         if not command.blocks:
-            used += [(cmake.expand(one, command) or "", one) for one in taken]
+            used += [(cmake.expand(item, command) or "", item) for item in taken]
     return [
         (name, argument)
         for name, argument in used
@@ -70,7 +70,7 @@ def targets_named_once(cmake: CMakeLists) -> list[tuple[str, Argument]]:
 
 def _targets(command: Command) -> list[Argument]:
     """Return the targets that ``install(TARGETS ...)`` begins with."""
-    taken = takewhile(lambda one: not one.value.isupper(), command.arguments[1:])
+    taken = takewhile(lambda item: not item.value.isupper(), command.arguments[1:])
     return list(taken)
 
 

@@ -311,9 +311,9 @@ def _index(entry: _Entry) -> int:
 
 def _branches(command: Command) -> Iterator[tuple[Command, Command]]:
     """Yield the blocks around a command with the branch that it is in, the outermost first."""
-    found: list[tuple[Command, Command]] = []
+    result: list[tuple[Command, Command]] = []
     at = command
     while at.parent is not None and at.branch is not None:
-        found.append((at.parent, at.branch))
+        result.append((at.parent, at.branch))
         at = at.parent
-    return iter(found[::-1])
+    return iter(result[::-1])

@@ -38,7 +38,7 @@ def package_directories(
     """
     if disk.is_file(os.path.join(top, MANIFEST)):
         return [top]
-    found: list[str] = []
+    result: list[str] = []
     pending = [top]
     for parent in pending:
         for name in disk.names(parent)[1]:
@@ -48,12 +48,12 @@ def package_directories(
             if disk.is_file(os.path.join(path, ENVIRONMENT)):
                 continue
             if disk.is_file(os.path.join(path, MANIFEST)):
-                found.append(path)
+                result.append(path)
             elif name not in BUILD_DIRECTORIES:
                 pending.append(path)
-        if most is not None and len(pending) + len(found) > most:
+        if most is not None and len(pending) + len(result) > most:
             return []
-    return sorted(found)
+    return sorted(result)
 
 
 def _is_visible(disk: Disk, directory: str) -> bool:
@@ -82,7 +82,7 @@ def sources_around(disk: Disk, directory: str) -> str | None:
         disk: Notes what was looked at.
         directory: An absolute path without links.
     """
-    found = [one for one in _upwards(directory) if os.path.basename(one) == SOURCES]
+    found = [upward for upward in _upwards(directory) if os.path.basename(upward) == SOURCES]
     for sources in found if len(found) > 1 else ():
         top = os.path.dirname(sources)
         if any(disk.is_directory(os.path.join(top, result)) for result in _RESULTS):
@@ -104,7 +104,7 @@ def sources_at(disk: Disk, directory: str) -> str | None:
 
 
 def _upwards(directory: str) -> list[str]:
-    found = [directory]
-    while found[-1] != os.path.dirname(found[-1]):
-        found.append(os.path.dirname(found[-1]))
-    return found
+    result = [directory]
+    while result[-1] != os.path.dirname(result[-1]):
+        result.append(os.path.dirname(result[-1]))
+    return result

@@ -88,15 +88,15 @@ def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
     """Return directories as they are, and the packages of files; see `find`."""
     around = colcon.package_around(disk, os.path.abspath(os.curdir))
     packages = [os.path.relpath(around)] if around else colcon.package_directories(disk, os.curdir)
-    by_place = {os.path.join(disk.real(one), ""): os.path.normpath(one) for one in packages}
-    found: dict[str, None] = {}
+    by_place = {os.path.join(disk.real(item), ""): os.path.normpath(item) for item in packages}
+    result: dict[str, None] = {}
     for path in paths:
         if disk.is_directory(path) or not disk.exists(path):
-            found[path] = None
+            result[path] = None
             continue
         real = disk.real(path)
-        found.update((one, None) for place, one in by_place.items() if real.startswith(place))
-    return [*found]
+        result.update((item, None) for place, item in by_place.items() if real.startswith(place))
+    return [*result]
 
 
 def _surroundings(
@@ -110,11 +110,13 @@ def _surroundings(
         given: The directories that were searched for them.
         tops: Directories whose packages belong together, besides those of the workspace.
     """
-    own = [disk.real(one.directory) for one in workspace if not isinstance(one.tree, _LooseFiles)]
+    own = [
+        disk.real(item.directory) for item in workspace if not isinstance(item.tree, _LooseFiles)
+    ]
     covered = [os.path.join(disk.real(path), "") for path in given]
-    around = filter(None, (colcon.sources_around(disk, one) for one in own))
+    around = filter(None, (colcon.sources_around(disk, item) for item in own))
     sources = dict.fromkeys([*around, *tops])
-    open_ = [one for one in sources if not os.path.join(one, "").startswith((*covered,))]
+    open_ = [source for source in sources if not os.path.join(source, "").startswith((*covered,))]
     return UncheckedPackages(open_, frozenset(own), workspace) if open_ else None
 
 
@@ -142,11 +144,11 @@ def _sort_files(
 
 
 def _package_directories(disk: Disk, path: str) -> list[str]:
-    found = colcon.package_directories(disk, path)
+    result = colcon.package_directories(disk, path)
     # If nothing else is there, these are meant; a rule says that colcon does not see them.
-    found = found or colcon.package_directories(disk, path, ignored=True)
-    if found:
-        return found
+    result = result or colcon.package_directories(disk, path, ignored=True)
+    if result:
+        return result
     around = colcon.package_around(disk, os.path.abspath(path))
     if around is not None:
         return [around if os.path.isabs(path) else os.path.relpath(around)]

@@ -43,13 +43,13 @@ class UncheckedPackages:
     @cached_property
     def directories(self) -> Mapping[str, str]:
         """Where the packages are, by name; none if there are too many directories."""
-        found: dict[str, str] = {}
+        result: dict[str, str] = {}
         for top in self._sources:
             for directory in package_directories(self._workspace.disk, top, most=MOST_DIRECTORIES):
                 name = None if directory in self._own else self._name_of(directory)
                 if name is not None:
-                    found.setdefault(name, directory)
-        return found
+                    result.setdefault(name, directory)
+        return result
 
     def _name_of(self, directory: str) -> str | None:
         from scaffold.files.limits import most_bytes
@@ -59,8 +59,8 @@ class UncheckedPackages:
             data = self._workspace.disk.read(path, most_bytes(MANIFEST))
         except OSError:
             return None
-        found = re.search(_NAME, data)
-        return found[1].decode() if found else None
+        matched = re.search(_NAME, data)
+        return matched[1].decode() if matched else None
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is there."""

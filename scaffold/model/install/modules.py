@@ -13,28 +13,28 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import Import, PythonModule
 
 
-def absolute_name(module: PythonModule, one: Import) -> str:
+def absolute_name(module: PythonModule, node: Import) -> str:
     """Return the full name of what an import means, without the dots in front."""
-    if not one.level:
-        return one.module
-    directory = module.path.split("/")[: -one.level]
-    return ".".join([*directory, *([one.module] if one.module else [])])
+    if not node.level:
+        return node.module
+    directory = module.path.split("/")[: -node.level]
+    return ".".join([*directory, *([node.module] if node.module else [])])
 
 
 def names_imported(package: Package) -> set[str]:
     """Return the full names of what modules of the package import: modules and what is in them."""
-    found: set[str] = set()
+    result: set[str] = set()
     for module in package.modules():
-        for one in module.imports:
-            base = absolute_name(module, one)
-            found |= {base, *(f"{base}.{name.name}" for name in one.names)}
-    return found
+        for item in module.imports:
+            base = absolute_name(module, item)
+            result |= {base, *(f"{base}.{name.name}" for name in item.names)}
+    return result
 
 
 def paths_imported_by(package: Package, files: set[str]) -> list[str]:
     """Return where modules lie that some files import, relative to a directory on Python's path."""
     modules = [package.module(path) for path in sorted(files & set(package.python_files))]
-    names = {one.module for module in modules for one in module.imports}
+    names = {item.module for module in modules for item in module.imports}
     return [f"{name.replace('.', '/')}.py" for name in sorted(names) if name]
 
 
@@ -48,7 +48,7 @@ def own_roots(package: Package) -> set[str]:
 def file_of(package: Package, name: str) -> str:
     """Return the file of a module; empty if the package has none."""
     base = name.replace(".", "/")
-    return next((one for one in (f"{base}.py", f"{base}/__init__.py") if package.has(one)), "")
+    return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
 
 
 def may_be_made(package: Package, name: str) -> bool:
@@ -88,10 +88,10 @@ def meant_module(package: Package, module: PythonModule, name: str) -> str:
         return rest if root == "src" else ""
     if package.build_type == "ament_python":
         return f"{own}.{name}" if _lacks_package(package, module, own, name) else ""
-    installed = {one.path: one.destination for one in programs(package)}
+    installed = {program.path: program.destination for program in programs(package)}
     path = file_of(package, f"{own}.{name}")
     if module.path in installed and path and path not in installed:
-        others = [one for one in package.cmake.installs if one.kind == "FILES"]
+        others = [install for install in package.cmake.installs if install.kind == "FILES"]
         mended = "sys.path" in module.source.text or bool(others)
         return "" if mended else f"{own}.{name}"
     return ""
@@ -101,7 +101,7 @@ def _lacks_package(package: Package, module: PythonModule, own: str, name: str) 
     """Tell whether a module that an entry point starts imports without its package's name."""
     root = name.partition(".")[0]
     setup = package.setup_py
-    started = {one.module for one in setup.console_scripts}
+    started = {script.module for script in setup.console_scripts}
     if module.path.removesuffix(".py").replace("/", ".") not in started:
         return False
     if package.has_directory(root) or package.has(f"{root}.py"):

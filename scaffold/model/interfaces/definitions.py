@@ -175,7 +175,7 @@ class Definitions:
     def _package(self, name: str) -> KnownPackage | None:
         if name not in self._packages:
             known = (source.package(name) for source in self._sources)
-            self._packages[name] = next((one for one in known if one is not None), None)
+            self._packages[name] = next((item for item in known if item is not None), None)
         return self._packages[name]
 
     # -- what users write
@@ -189,13 +189,13 @@ class Definitions:
         wanted = spell(spelling)
         packages = [wanted.package] if wanted.package else self.packages()
         kinds = [wanted.kind] if wanted.kind else KINDS
-        found = [
+        result = [
             f"{package}/{kind}/{wanted.name}"
             for package in packages
             for kind in kinds
             if wanted.name in (self.names(package, kind) or ())
         ]
-        return [name for name in found if not _is_copy(name)] or found
+        return [name for name in result if not _is_copy(name)] or result
 
     def resolve(self, spelling: str) -> Interface:
         """Return the one interface that a spelling means.
@@ -204,19 +204,19 @@ class Definitions:
             InputError: there is none, there are several, or its file cannot be read; the
                 message names what it may be.
         """
-        found = self.matches(spelling)
-        if not found:
+        matches = self.matches(spelling)
+        if not matches:
             near = self.nearest(spelling)
             known = "see `ros2-scaffold interfaces`"
             hint = f"; did you mean {' or '.join(near)}?" if near else f"; {known}"
             raise InputError(f"there is no interface {spelling!r}{hint}")
-        if len(found) > 1:
+        if len(matches) > 1:
             raise InputError(
-                f"{spelling!r} is ambiguous: it may be {', '.join(found[:-1])} or {found[-1]}"
+                f"{spelling!r} is ambiguous: it may be {', '.join(matches[:-1])} or {matches[-1]}"
             )
-        interface = self.find(found[0])
+        interface = self.find(matches[0])
         if interface is None:
-            raise InputError(f"{found[0]}: {self._why_unreadable(found[0])}")
+            raise InputError(f"{matches[0]}: {self._why_unreadable(matches[0])}")
         return interface
 
     def _why_unreadable(self, full_name: str) -> str:
@@ -229,7 +229,7 @@ class Definitions:
     def nearest(self, spelling: str, count: int = 3) -> list[str]:
         """Return the full names that look most like a misspelt one, best first."""
         wanted = spell(spelling)
-        found: list[tuple[float, bool, str]] = []
+        result: list[tuple[float, bool, str]] = []
         for full_name in self.all_names():
             package, kind, name = full_name.split("/")
             likeness = _likeness(wanted.name, name)
@@ -239,9 +239,9 @@ class Definitions:
                 likeness += _likeness(wanted.package, package)
             if wanted.kind == kind:
                 likeness += _SAME_KIND
-            found.append((-likeness, _is_copy(full_name), full_name))
-        best = min(found, default=(0.0, False, ""))[0]
-        return [name for score, _, name in sorted(found)[:count] if score <= best + _FAR]
+            result.append((-likeness, _is_copy(full_name), full_name))
+        best = min(result, default=(0.0, False, ""))[0]
+        return [name for score, _, name in sorted(result)[:count] if score <= best + _FAR]
 
 
 class WatchedDefinitions(Definitions):
@@ -281,10 +281,10 @@ _FAR = 0.5
 """What looks less alike than the best by more than this is not worth naming."""
 
 
-def _likeness(one: str, other: str) -> float:
+def _likeness(text: str, other: str) -> float:
     from difflib import SequenceMatcher
 
-    return SequenceMatcher(None, one.lower(), other.lower()).ratio()
+    return SequenceMatcher(None, text.lower(), other.lower()).ratio()
 
 
 def closest_word(word: str, known: Sequence[str]) -> str:

@@ -56,7 +56,7 @@ def names_used_in_code(package: Package) -> set[str]:
 
 
 def _words_of_users(package: Package) -> set[str]:
-    found: set[str] = set()
+    result: set[str] = set()
     section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
     use = rf"\b{re.escape(package.name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
     own = {file.path for call in generations(package) for file in call.files}
@@ -69,8 +69,8 @@ def _words_of_users(package: Package) -> set[str]:
             except ViewError:
                 continue
             names = [text] if other.name == package.name and path in own else re.findall(use, text)
-            found.update(word for one in names for word in re.findall(r"[A-Z]\w+", one))
-    return found
+            result.update(word for item in names for word in re.findall(r"[A-Z]\w+", item))
+    return result
 
 
 def interface_files(package: Package) -> list[InterfaceFile]:

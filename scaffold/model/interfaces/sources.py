@@ -160,11 +160,11 @@ class PrefixSource:
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of the packages, as registered in the ament index."""
-        found: set[str] = set()
+        result: set[str] = set()
         for prefix in self._prefixes:
             index = os.path.join(prefix, "share", "ament_index", "resource_index")
-            found.update(self._disk.entries(os.path.join(index, "rosidl_interfaces")))
-        return sorted(name for name in found if self.package(name) is not None)
+            result.update(self._disk.entries(os.path.join(index, "rosidl_interfaces")))
+        return sorted(name for name in result if self.package(name) is not None)
 
 
 class _InstalledPackage:

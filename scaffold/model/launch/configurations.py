@@ -52,7 +52,7 @@ def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> boo
     if any(name in text for text in including):
         return True
     return bool(including) and any(
-        name in text and any(other in one for one in including)
+        name in text and any(other in item for item in including)
         for other, text in _others(package, launch)
     )
 

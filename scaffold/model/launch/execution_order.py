@@ -62,12 +62,12 @@ def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
 
 def later_declarations(launch: LaunchFile, known: list[Step]) -> dict[str, int]:
     """Return the positions of the declarations, by name, where all of them are understood."""
-    found: dict[str, int] = {}
+    result: dict[str, int] = {}
     places = {step.action.call: index for index, step in enumerate(known)}
     for name, call in launch.declared.items():
         if "condition" not in call.given:
-            found[name] = places.get(call.call, len(known))
-    return found
+            result[name] = places.get(call.call, len(known))
+    return result
 
 
 def _items(
@@ -102,7 +102,7 @@ def _step(launch: LaunchFile, call: LaunchCall) -> Step:
     if call.kind == "OpaqueFunction":
         return Step(call, tuple(_performed(launch, call)) if "condition" not in call.given else ())
     parts = [call.given["condition"]] if "condition" in call.given else list(call.given.values())
-    read = [one for part in parts for one in _reads(launch, part, 0)]
+    read = [item for part in parts for item in _reads(launch, part, 0)]
     return Step(call, tuple(read))
 
 

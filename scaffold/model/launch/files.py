@@ -36,7 +36,9 @@ def is_named(package: Package, directory: str) -> bool:
     for other in package.workspace:
         wanted = names
         if other.name != package.name:  # which may mean its own of the same name
-            wanted = names.difference(*(_names(data_files(other, one)) for one in DATA_DIRECTORIES))
+            wanted = names.difference(
+                *(_names(data_files(other, item)) for item in DATA_DIRECTORIES)
+            )
         for path in other.files if wanted else ():
             if not path.endswith(_USERS):
                 continue

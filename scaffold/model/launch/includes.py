@@ -45,13 +45,13 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
                 pairs.append((item.elts[0], item.elts[1]))
         case _:
             return None
-    found: list[Given] = []
+    givens: list[Given] = []
     for key, value in pairs:
         name = launch.evaluator.joined_text(key)
         if key is None or not isinstance(name, str):
             return None
-        found.append((name, key, value))
-    return found
+        givens.append((name, key, value))
+    return givens
 
 
 def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:
@@ -77,7 +77,7 @@ def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included
             required.add(name)
     is_open = set_names(package, other) is None or bool(other.find("IncludeLaunchDescription"))
     for read in other.find("LaunchConfiguration", "SetLaunchConfiguration"):
-        text = next((other.evaluator.joined_text(one) for one in read.given.values()), None)
+        text = next((other.evaluator.joined_text(item) for item in read.given.values()), None)
         is_open = is_open or not isinstance(text, str)
         names.add(str(text))
     return Included(other.path, frozenset(names), frozenset(required), is_open)
@@ -87,6 +87,8 @@ def _is_conditional(launch: LaunchFile, call: LaunchCall) -> bool:
     """Tell whether an argument may not be declared: under a condition, or in a group."""
     if "condition" in call.given or launch.is_optional(call.call):
         return True
-    parents = [one for one in launch.module.parents(call.call) if isinstance(one, ast.Call)]
-    found = [launch.call_of(one) for one in parents]
-    return any(one is not None and one.kind == "GroupAction" for one in found)
+    parents = [
+        parent for parent in launch.module.parents(call.call) if isinstance(parent, ast.Call)
+    ]
+    result = [launch.call_of(parent) for parent in parents]
+    return any(item is not None and item.kind == "GroupAction" for item in result)

@@ -60,8 +60,8 @@ def markup_files(package: Package) -> list[MarkupFile]:
 
     def read() -> list[MarkupFile]:
         paths = [path for path in package.files if path.endswith(_ENDINGS)]
-        found = [_read(package, path) for path in paths if not _in_tests(path)]
-        return [file for file in found if file is not None]
+        result = [_read(package, path) for path in paths if not _in_tests(path)]
+        return [file for file in result if file is not None]
 
     return package.remember("launch_markup", read)
 
@@ -87,12 +87,12 @@ def _read(package: Package, path: str) -> MarkupFile | None:
         if tag == "node":
             package_, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
             pairs = [
-                (one["name"], one["value"])
-                for one in parameters
-                if "type" not in one and "name" in one and "value" in one
+                (parameter["name"], parameter["value"])
+                for parameter in parameters
+                if "type" not in parameter and "name" in parameter and "value" in parameter
             ]
             nodes.append(MarkupNode(path, package_, executable, name, at, pairs))
-    paths = [found for attribute in attributes for found in _paths(attribute)]
+    paths = [item for attribute in attributes for item in _paths(attribute)]
     return MarkupFile(path, nodes, paths, attributes)
 
 
@@ -102,14 +102,14 @@ def _elements(package: Package, path: str) -> list[_Element]:
         root = _document(package, path).root
         return [
             (
-                one.tag,
-                one.name_location,
-                one.attributes,
-                [child.attributes for child in one.children if child.tag == "param"],
+                descendant.tag,
+                descendant.name_location,
+                descendant.attributes,
+                [child.attributes for child in descendant.children if child.tag == "param"],
             )
-            for one in root.descendants()
+            for descendant in root.descendants()
         ]
-    found: list[_Element] = []
+    result: list[_Element] = []
     roots = yaml_tree.parse(Source.decode(path, package.data(path)))
     pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
     for tag, node in pending:  # grows on the way
@@ -123,9 +123,9 @@ def _elements(package: Package, path: str) -> list[_Element]:
                 for item in value.items
                 if isinstance(item, Mapping) and _is_plain(item)
             ]
-            found.append((tag, node.location, dict(_scalars(node)), given))
+            result.append((tag, node.location, dict(_scalars(node)), given))
             pending += [(key.text, value) for key, value in node.pairs]
-    return found
+    return result
 
 
 def _is_plain(node: Mapping) -> bool:
@@ -146,10 +146,10 @@ def _document(package: Package, path: str) -> Document:
 
 def _paths(attribute: Attribute) -> Iterator[MarkupPath]:
     at = attribute.location
-    for found in re.finditer(_FIND, attribute.value):
+    for item in re.finditer(_FIND, attribute.value):
         place = at
         if at.end_column - at.column == len(attribute.value):  # no references, on one line
-            start = at.column + found.start()
-            place = Location(at.path, at.line, start, at.line, at.column + found.end(2))
-        path = "" if found[3] else found[2].strip("/")
-        yield MarkupPath(found[1], path, place)
+            start = at.column + item.start()
+            place = Location(at.path, at.line, start, at.line, at.column + item.end(2))
+        path = "" if item[3] else item[2].strip("/")
+        yield MarkupPath(item[1], path, place)

@@ -104,12 +104,12 @@ class StartedNode:
 
         The value that a launch argument has when nobody gives another counts too.
         """
-        found: list[tuple[str, ast.expr]] = []
+        result: list[tuple[str, ast.expr]] = []
         for node in self.parameters:
             path = share_path(self._file_of(node))
             if path is not None and path[0] == self._own.name:
-                found.append((path[1], node))
-        return found
+                result.append((path[1], node))
+        return result
 
     def _file_of(self, node: ast.expr) -> str | Unknown:
         call = self.launch.call_of(node)

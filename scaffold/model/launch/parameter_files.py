@@ -39,16 +39,16 @@ def use_of(package: Package, path: str) -> FileUse:
 
 def _use_of(package: Package, path: str) -> FileUse:
     installed = share_of(package).files
-    found: list[StartedNode] = []
+    result: list[StartedNode] = []
     named_by: list[tuple[StartedNode, ast.expr]] = []
     for node in consumers(package):
         for named, expression in node.parameter_files:
             if installed.get(named, named) == path:
-                found.append(node)
+                result.append(node)
                 named_by.append((node, expression))
-    known = {node.launch.path for node in found}
+    known = {node.launch.path for node in result}
     passed = any(_is_handed_on(node, expression) for node, expression in named_by)
-    return FileUse(found, not passed and not _is_mentioned(package, path, known))
+    return FileUse(result, not passed and not _is_mentioned(package, path, known))
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[NodeDefinition]:
@@ -66,8 +66,8 @@ def nodes_for(package: Package, path: str, section: Section) -> list[NodeDefinit
             renamed = {node.name for node in started_nodes(package) if node.package != package.name}
             owners = [node for node in nodes if node.node_name == name]
             owners = owners if complete and name not in renamed and len(owners) == 1 else []
-    found = [owner for owner in owners if owner is not None]
-    return list(dict.fromkeys(found)) if len(found) == len(owners) else []
+    result = [owner for owner in owners if owner is not None]
+    return list(dict.fromkeys(result)) if len(result) == len(owners) else []
 
 
 def is_loaded(package: Package, path: str) -> bool:

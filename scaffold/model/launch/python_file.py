@@ -198,14 +198,14 @@ class LaunchFile:
     def _replaced(self) -> set[ast.stmt]:
         """The functions of the module that a later one of the same name takes the place of."""
         last: dict[str, ast.stmt] = {}
-        found: set[ast.stmt] = set()
+        result: set[ast.stmt] = set()
         for statement in self.module.tree.body:
             if isinstance(statement, ast.FunctionDef):
                 earlier = last.get(statement.name)
                 if earlier is not None:
-                    found.add(earlier)
+                    result.add(earlier)
                 last[statement.name] = statement
-        return found
+        return result
 
     def find(self, *kinds: str) -> list[LaunchCall]:
         """Return the calls of some kinds, in the order of the text."""
@@ -238,12 +238,12 @@ class LaunchFile:
     @cached_property
     def declared(self) -> Mapping[str, LaunchCall]:
         """The launch arguments that are declared with a known name."""
-        found: dict[str, LaunchCall] = {}
+        result: dict[str, LaunchCall] = {}
         for call in self.find("DeclareLaunchArgument"):
             name = self.text(call, "name")
             if isinstance(name, str):
-                found.setdefault(name, call)
-        return found
+                result.setdefault(name, call)
+        return result
 
     def default_of(self, node: ast.expr | None) -> str | Unknown:
         """Return the text that a LaunchConfiguration has when nobody sets it."""
@@ -260,7 +260,7 @@ class LaunchFile:
     @cached_property
     def package_uses(self) -> Sequence[PackageUse]:
         """The packages that it starts nodes of or looks for files in."""
-        found: list[PackageUse] = []
+        uses: list[PackageUse] = []
         for call in self.calls:
             if call.kind in {*NODES, "ComposableNode"}:
                 node, action = call.given.get("package"), call
@@ -272,8 +272,8 @@ class LaunchFile:
                 continue
             name = self.evaluator.joined_text(node)
             if node is not None and isinstance(name, str) and name:
-                found.append(PackageUse(name, self.location(node), node, action))
-        return found
+                uses.append(PackageUse(name, self.location(node), node, action))
+        return uses
 
     def is_optional(self, node: ast.AST) -> bool:
         """Tell whether an expression is evaluated only if Python decides so, or may fail."""
@@ -283,12 +283,12 @@ class LaunchFile:
     @cached_property
     def share_paths(self) -> Sequence[SharePath]:
         """The paths below share directories, each where it is complete."""
-        found: list[SharePath] = []
+        paths: list[SharePath] = []
         for node in self._path_expressions():
             path = share_path(self.evaluator.joined_text(node))
             if path is not None:
-                found.append(SharePath(*path, self.location(node), node))
-        return found
+                paths.append(SharePath(*path, self.location(node), node))
+        return paths
 
     def _path_expressions(self) -> Iterator[ast.expr]:
         """Yield the outermost expressions that are paths below a share directory."""
@@ -372,15 +372,15 @@ def share_path(value: object) -> tuple[str, str] | None:
 
 def returns(function: FunctionNode) -> tuple[list[ast.Return], bool]:
     """Return the return statements of a function, and whether its end can be reached."""
-    found: list[ast.Return] = []
+    result: list[ast.Return] = []
     pending: list[ast.AST] = list(function.body)
     while pending:
         node = pending.pop()
         if isinstance(node, ast.Return):
-            found.append(node)
+            result.append(node)
         elif not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             pending.extend(ast.iter_child_nodes(node))
-    return sorted(found, key=lambda node: node.lineno), _falls_through(function.body)
+    return sorted(result, key=lambda node: node.lineno), _falls_through(function.body)
 
 
 def _falls_through(body: Sequence[ast.stmt]) -> bool:

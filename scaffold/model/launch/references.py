@@ -44,16 +44,16 @@ def package_uses(package: Package) -> list[Reference]:
 
 def _in_python(package: Package) -> Iterator[Reference]:
     for launch in LaunchFile.of_package(package):
-        for found in launch.package_uses:
-            call = found.action
+        for use in launch.package_uses:
+            call = use.action
             executable: str | Unknown | None = None
-            at = found.location
+            at = use.location
             if call is not None and call.kind != "ComposableNode":
                 executable = launch.text(call, "executable") or UNKNOWN
                 node = call.given.get("executable")
                 at = launch.location(node) if node is not None else at
-            optional = launch.is_optional(found.node)
-            yield Reference(found.name, found.location, executable, at, optional)
+            optional = launch.is_optional(use.node)
+            yield Reference(use.name, use.location, executable, at, optional)
 
 
 def _in_xml(package: Package) -> Iterator[Reference]:

@@ -37,11 +37,11 @@ class NamedPath(NamedTuple):
 def paths_of(package: Package) -> Iterator[NamedPath]:
     """Yield the paths below share directories that launch files of a package name."""
     for launch in LaunchFile.of_package(package):
-        for found in launch.share_paths:
-            if launch.is_optional(found.node) or _is_given_to_unknown(launch, found.node):
+        for share_path in launch.share_paths:
+            if launch.is_optional(share_path.node) or _is_given_to_unknown(launch, share_path.node):
                 continue
-            if not _is_written(launch, found.node):
-                yield NamedPath(found.package, found.path, found.location)
+            if not _is_written(launch, share_path.node):
+                yield NamedPath(share_path.package, share_path.path, share_path.location)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
@@ -54,8 +54,10 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
     if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
         return False
     found = launch.module.index.lookup(call.func.id, call.func)
-    made = [one.value.func for one in found[1] if isinstance(one.value, ast.Call)] if found else []
-    return any(isinstance(one, ast.Name) and one.id == "getattr" for one in made)
+    made = (
+        [item.value.func for item in found[1] if isinstance(item.value, ast.Call)] if found else []
+    )
+    return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
@@ -78,8 +80,8 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
 
 def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
     """Tell whether a launch file raises an error when a file that it asks for is not there."""
-    parents = [one for one in launch.module.parents(call) if isinstance(one, ast.If)]
-    return any(isinstance(node, ast.Raise) for one in parents[:1] for node in ast.walk(one))
+    parents = [parent for parent in launch.module.parents(call) if isinstance(parent, ast.If)]
+    return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:
@@ -95,7 +97,7 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
 
 def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     """Return why a path is not among the installed files of its package."""
-    where = [one for one in owner.files if _name(one) == _name(path)]
+    where = [file for file in owner.files if _name(file) == _name(path)]
     installed = sorted(name for name, source in files.items() if source in where)
     if installed:
         return f"it is installed as share/{owner.name}/{installed[0]}"
@@ -105,7 +107,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
             return None  # another rule says that the whole directory is not installed
         build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
         return f"{build} of {owner.name} does not install {first}"
-    if any(_name(one).startswith(f"{_name(path)}.") for one in owner.files):
+    if any(_name(file).startswith(f"{_name(path)}.") for file in owner.files):
         return None  # made from a template
     if is_untracked(owner, path):
         return None  # made on each machine

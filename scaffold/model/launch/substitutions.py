@@ -61,11 +61,11 @@ def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
 
 def truth_tests(module: PythonModule) -> Iterator[ast.expr]:
     """Yield the expressions whose truth Python looks at, without ``not``, ``and``, ``or``."""
-    pending: list[ast.expr] = [one.test for one in module.walk(ast.If)]
-    pending += [one.test for one in module.walk(ast.IfExp)]
-    pending += [one.operand for one in module.walk(ast.UnaryOp) if isinstance(one.op, ast.Not)]
-    pending += [value for one in module.walk(ast.BoolOp) for value in one.values[:-1]]
-    pending += [test for one in module.walk(ast.comprehension) for test in one.ifs]
+    pending: list[ast.expr] = [item.test for item in module.walk(ast.If)]
+    pending += [item.test for item in module.walk(ast.IfExp)]
+    pending += [item.operand for item in module.walk(ast.UnaryOp) if isinstance(item.op, ast.Not)]
+    pending += [value for item in module.walk(ast.BoolOp) for value in item.values[:-1]]
+    pending += [test for item in module.walk(ast.comprehension) for test in item.ifs]
     seen: set[ast.expr] = set()
     while pending:
         node = pending.pop()
@@ -178,8 +178,8 @@ def failure(launch: LaunchFile, node: ast.expr | None) -> str:
             tree = ast.parse(text.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return f"with the defaults this is {text!r}, which is not a Python expression"
-    own = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name) and _is_set(one)}
-    own |= {one.arg for one in ast.walk(tree) if isinstance(one, ast.arg)}
+    own = {item.id for item in ast.walk(tree) if isinstance(item, ast.Name) and _is_set(item)}
+    own |= {item.arg for item in ast.walk(tree) if isinstance(item, ast.arg)}
     for one in ast.walk(tree):
         if isinstance(one, ast.Name) and one.id not in _NAMES | own:
             return f"with the defaults this is {text!r}: the name {one.id!r} is not defined"

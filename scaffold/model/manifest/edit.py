@@ -154,7 +154,7 @@ def place(manifest: Manifest, tag: str, text: str, markup: str) -> Edit:
     run = _last_run(children, tag)
     if run:
         texts = [element.text for element in run]
-        if all(one <= two for one, two in pairwise(texts)):
+        if all(item <= two for item, two in pairwise(texts)):
             for element in run:
                 if element.text > text:
                     return _before(manifest, element, markup)
@@ -180,12 +180,12 @@ def _last_run(children: Sequence[Element], tag: str) -> list[Element]:
 def _predecessor(children: Sequence[Element], tag: str) -> Element | None:
     """Return the last element that must, or by custom does, stand before a new one."""
     own = _SECTION.get(tag, len(_ORDER))
-    found: Element | None = None
+    result: Element | None = None
     for child in children:
         number = _SECTION.get(child.tag, -1)
         if number < own or (number == own and _custom(child.tag) <= _custom(tag)):
-            found = child
-    return found
+            result = child
+    return result
 
 
 def _custom(tag: str) -> int:

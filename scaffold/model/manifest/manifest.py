@@ -110,10 +110,10 @@ class Manifest:
 
     @cached_property
     def _by_tag(self) -> Mapping[str, list[Element]]:
-        found: dict[str, list[Element]] = {}
+        result: dict[str, list[Element]] = {}
         for child in self.root.children:
-            found.setdefault(child.tag, []).append(child)
-        return found
+            result.setdefault(child.tag, []).append(child)
+        return result
 
     @property
     def comments(self) -> list[Comment]:
@@ -174,11 +174,11 @@ class Manifest:
         Of several on one package it is the first. Conditions are not looked at.
         """
         if kinds not in self._depends:
-            found: dict[str, Dependency] = {}
+            result: dict[str, Dependency] = {}
             for dependency in self.dependencies:
                 if not kinds or dependency.kind in kinds:
-                    found.setdefault(dependency.name, dependency)
-            self._depends[kinds] = found
+                    result.setdefault(dependency.name, dependency)
+            self._depends[kinds] = result
         return self._depends[kinds]
 
     @cached_property
@@ -250,12 +250,12 @@ class Manifest:
     @property
     def build_type(self) -> str | None:
         """The build type on Jazzy; the last one, if there are several."""
-        found = [
+        result = [
             element.text
             for element in self.build_type_elements
             if _is_active(element.get("condition"))
         ]
-        return found[-1] if found else None
+        return result[-1] if result else None
 
     # -- around the root
 

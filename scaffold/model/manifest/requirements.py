@@ -44,20 +44,20 @@ class Declared(NamedTuple):
 
 def required_packages(package: Package) -> list[Requirement]:
     """Return what the package imports from others, once each; what is not known is left out."""
-    found: dict[str, Requirement] = {}
+    result: dict[str, Requirement] = {}
     local = _local_names(package)
     for module in package.modules():
         if not is_shipped(package, module):
             continue
-        for one in module.imports:
-            keys = _keys(package, one, local)
+        for item in module.imports:
+            keys = _keys(package, item, local)
             if not keys:
                 continue
-            known = found.get(one.root)
+            known = result.get(item.root)
             for_tests = module.in_tests or _is_named_for_tests(package, module.path)
             if known is None or (known.for_tests and not for_tests):
-                found[one.root] = Requirement(keys, one.root, one.location, for_tests)
-    return sorted(found.values(), key=lambda need: need.location)
+                result[item.root] = Requirement(keys, item.root, item.location, for_tests)
+    return sorted(result.values(), key=lambda need: need.location)
 
 
 def declared(package: Package, *, for_tests: bool) -> Declared:
@@ -69,8 +69,12 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
     manifest = package.manifest
     direct = set(manifest.run_names)
     # What generates code while the package is built stands among its modules, too.
-    direct |= {one.name for one in manifest.dependencies if one.kind.startswith("buildtool")}
-    direct |= {one.name for one in manifest.dependencies if one.is_optional}
+    direct |= {
+        dependency.name
+        for dependency in manifest.dependencies
+        if dependency.kind.startswith("buildtool")
+    }
+    direct |= {dependency.name for dependency in manifest.dependencies if dependency.is_optional}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
     along = transitive_dependencies(direct)
@@ -122,9 +126,11 @@ def _is_collected(name: str) -> bool:
 
 def _is_imported_by_tests(package: Package, name: str) -> bool:
     def find() -> set[str]:
-        imports = [one for module in package.modules() if module.in_tests for one in module.imports]
-        words = {part for one in imports for part in one.module.split(".")}
-        return words | {name.name for one in imports for name in one.names}
+        imports = [
+            item for module in package.modules() if module.in_tests for item in module.imports
+        ]
+        words = {part for item in imports for part in item.module.split(".")}
+        return words | {name.name for item in imports for name in item.names}
 
     stem = name.removesuffix(".py")
     return stem in package.remember("imported_by_tests", find)
@@ -137,8 +143,8 @@ def _is_named_for_tests(package: Package, path: str) -> bool:
     except ViewError:
         return False
     names = {path, path.rpartition("/")[2], path.rpartition("/")[0]} - {""}
-    using = [one for one in cmake.commands if not names.isdisjoint(one.values)]
-    return bool(using) and all(cmake.guarded_by_testing(one) for one in using)
+    using = [command for command in cmake.commands if not names.isdisjoint(command.values)]
+    return bool(using) and all(cmake.guarded_by_testing(item) for item in using)
 
 
 def _builds(package: Package) -> Iterator[str]:
@@ -149,16 +155,16 @@ def _builds(package: Package) -> Iterator[str]:
             continue
 
 
-def _keys(package: Package, one: Import, local: frozenset[str]) -> tuple[str, ...]:
-    root = one.root
-    if not root or one.guarded or root in local or root == package.name:
+def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, ...]:
+    root = node.root
+    if not root or node.guarded or root in local or root == package.name:
         return ()
     if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
         return ()
     known = keys_of_module(root)
     if known:
         return known
-    names = one.module.split(".")
+    names = node.module.split(".")
     if root in ROS1_PACKAGES:
         return ()
     is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
@@ -185,7 +191,7 @@ def _local_names(package: Package) -> frozenset[str]:
 def _generated_names(package: Package) -> set[str]:
     """Return the modules that CMake generates of interfaces; tests may have some of their own."""
     try:
-        return {one.target for one in generations(package) if one.target}
+        return {generation.target for generation in generations(package) if generation.target}
     except ViewError:
         return set()
 

@@ -54,7 +54,7 @@ def spdx_of(text: str) -> tuple[str, ...]:
     plain = re.sub(r"[,;()\-_]+", " ", text.lower())
     plain = re.sub(r"\bv(?=\d)", "", plain)
     for candidate in (plain, re.sub(_NOISE, " ", plain)):
-        found = _SPELLINGS.get(" ".join(candidate.split()))
-        if found:
-            return found
+        result = _SPELLINGS.get(" ".join(candidate.split()))
+        if result:
+            return result
     return ()

@@ -117,7 +117,7 @@ class Structure:
             return []
         staying = [row[index] for index in kept]
         order = [numbers[index] for index in kept]
-        found: list[Misplaced] = []
+        misplaceds: list[Misplaced] = []
         stays = frozenset(kept)
         # Side by side and of one section: one mistake.
         keyed = groupby(range(len(row)), lambda i: (i in stays, numbers[i]))
@@ -126,8 +126,8 @@ class Structure:
                 at = bisect_right(order, number)
                 after = staying[at - 1] if at else None
                 before = staying[at] if at < len(staying) else None
-                found.append(Misplaced([row[index] for index in indices], after, before))
-        return found
+                misplaceds.append(Misplaced([row[index] for index in indices], after, before))
+        return misplaceds
 
     @cached_property
     def nested(self) -> list[tuple[Element, Element]]:
@@ -185,11 +185,11 @@ class Structure:
     def _attributes(self) -> dict[str, tuple[str, ...]]:
         newest = self.format == FORMATS[-1]
         limits = (*_LIMITS, "condition") if newest else _LIMITS
-        found: dict[str, tuple[str, ...]] = dict.fromkeys(self.dependency_tags, limits)
-        found |= {"maintainer": ("email",), "author": ("email",), "url": ("type",)}
+        result: dict[str, tuple[str, ...]] = dict.fromkeys(self.dependency_tags, limits)
+        result |= {"maintainer": ("email",), "author": ("email",), "url": ("type",)}
         if newest:
-            found |= {"license": ("file",), **dict.fromkeys(GROUPS, ("condition",))}
-        return found
+            result |= {"license": ("file",), **dict.fromkeys(GROUPS, ("condition",))}
+        return result
 
     # -- values
 
@@ -232,9 +232,9 @@ def _longest_run(numbers: list[int]) -> list[int]:
         before.append(ends[at - 1] if at else -1)
         tails[at : at + 1] = [number]
         ends[at : at + 1] = [index]
-    found: list[int] = []
+    result: list[int] = []
     at = ends[-1] if ends else -1
     while at >= 0:
-        found.append(at)
+        result.append(at)
         at = before[at]
-    return found[::-1]
+    return result[::-1]

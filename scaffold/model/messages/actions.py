@@ -69,7 +69,7 @@ class ActionMessages:
 
     def _feedback_arguments(self) -> Iterator[tuple[ast.arg, ActionClient | None]]:
         """Yield the parameters that are given feedback, with the client that gives it."""
-        found: dict[ast.arg, ActionClient | None] = {}
+        result: dict[ast.arg, ActionClient | None] = {}
         for attribute in self._facts.module.index.attributes("send_goal_async"):
             call = self._facts.module.parent(attribute)
             client = self._client(attribute.value)
@@ -85,8 +85,8 @@ class ActionMessages:
                     continue
                 arguments = [*function.args.posonlyargs, *function.args.args]
                 for argument in arguments[int(callback.is_bound) :][:1]:
-                    same = found.get(argument, client)
-                    found[argument] = (
+                    same = result.get(argument, client)
+                    result[argument] = (
                         client if same and same.interface == client.interface else None
                     )
-        yield from found.items()
+        yield from result.items()

@@ -116,9 +116,9 @@ class ValueTypes:
         if self._depth > _DEPTH:
             return None
         self._depth += 1
-        found = self._of_expression(node)
+        result = self._of_expression(node)
         self._depth -= 1
-        return found
+        return result
 
     def _of_expression(self, node: ast.expr) -> str | None:
         kind = _literal_kind(node)
@@ -165,7 +165,7 @@ class ValueTypes:
 
     def _of_name(self, node: ast.Name) -> str | None:
         found = self._module.index.lookup(node.id, node)
-        bindings = [one for one in (found[1] if found else ()) if one.kind != "annotation"]
+        bindings = [item for item in (found[1] if found else ()) if item.kind != "annotation"]
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
         return self._agreed([b.value for b in bindings if b.value is not None])
@@ -286,7 +286,7 @@ class TypeMismatches:
         elif name in {"numpy.zeros", "numpy.ones", "numpy.empty", "numpy.full"}:
             is_table = isinstance(first, tuple | list) and len(first) > 1
         elif name == "numpy.array" and isinstance(first, tuple | list):
-            is_table = any(isinstance(one, tuple | list) for one in first)
+            is_table = any(isinstance(item, tuple | list) for item in first)
         return f"{self._shown(node)} is two-dimensional; append .flatten()" if is_table else None
 
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
@@ -408,7 +408,7 @@ class TypeMismatches:
     def _runs_again(self, node: ast.AST) -> bool:
         """Tell whether a loop or the executor runs a node: nobody presses a button for ever."""
         module, facts = self._types.module, self._types.facts
-        if any(isinstance(one, ast.While) for one in module.parents(node)):
+        if any(isinstance(parent, ast.While) for parent in module.parents(node)):
             return True
         function = facts.function_of(node)
         return any(

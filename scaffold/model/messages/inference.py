@@ -146,12 +146,12 @@ class MessageTypes:
 
     def type_of(self, node: ast.expr) -> MessageClass | None:
         """Return the message that an expression surely is."""
-        found = self._type(node)
-        if isinstance(found, FieldType):
-            if found.is_primitive or found.is_array:
+        result = self._type(node)
+        if isinstance(result, FieldType):
+            if result.is_primitive or result.is_array:
                 return None
-            return self._class_of_type(found)
-        return found
+            return self._class_of_type(result)
+        return result
 
     def field_type_of(self, node: ast.expr) -> FieldType | None:
         """Return the type of the field that an expression surely reads."""
@@ -277,14 +277,14 @@ class MessageTypes:
     @cached_property
     def _parameters(self) -> Mapping[ast.AST, MessageClass | None]:
         """The parameters that rclpy passes messages to; ``None`` where callbacks disagree."""
-        found: dict[ast.AST, MessageClass | None] = {}
+        result: dict[ast.AST, MessageClass | None] = {}
         for endpoint, index, part in self._passed():
             parameter = self._callback_parameter(endpoint, index)
             class_ = self._class_of_endpoint(endpoint, part)
             if parameter is not None:
-                same = found.get(parameter, class_) == class_
-                found[parameter] = class_ if same else None
-        return found
+                same = result.get(parameter, class_) == class_
+                result[parameter] = class_ if same else None
+        return result
 
     def _passed(self) -> Iterator[tuple[Endpoint, int, str]]:
         """Yield endpoints with the index of a parameter and the part that it gets."""
@@ -297,14 +297,14 @@ class MessageTypes:
 
     @cached_property
     def _goal_handles(self) -> Mapping[ast.AST, MessageClass | None]:
-        found: dict[ast.AST, MessageClass | None] = {}
+        result: dict[ast.AST, MessageClass | None] = {}
         for endpoint in self.facts.action_servers:
             parameter = self._callback_parameter(endpoint, 0)
             if parameter is not None and isinstance(endpoint, ActionServer):
                 class_ = self._class_of_endpoint(endpoint, "Goal")
-                same = found.get(parameter, class_) == class_
-                found[parameter] = class_ if same else None
-        return found
+                same = result.get(parameter, class_) == class_
+                result[parameter] = class_ if same else None
+        return result
 
     def _class_of_endpoint(self, endpoint: Endpoint, part: str) -> MessageClass | None:
         if endpoint.interface is None:
@@ -351,7 +351,7 @@ class MessageTypes:
 
     @cached_property
     def _asked(self) -> frozenset[tuple[ast.AST, str]]:
-        found: set[tuple[ast.AST, str]] = set()
+        result: set[tuple[ast.AST, str]] = set()
         for call in self.module.walk(ast.Call):
             if not (isinstance(call.func, ast.Name) and call.func.id in _ASKS_TYPE and call.args):
                 continue
@@ -359,20 +359,20 @@ class MessageTypes:
             if isinstance(asked, ast.Name):
                 bound = self.module.index.lookup(asked.id, asked)
                 if bound:
-                    found.add((bound[0], asked.id))
+                    result.add((bound[0], asked.id))
             elif isinstance(asked, ast.Attribute):
                 class_ = self.facts.evaluator.self_class(asked.value)
                 if class_:
-                    found.add((class_, asked.attr))
-        return frozenset(found)
+                    result.add((class_, asked.attr))
+        return frozenset(result)
 
     # -- values of fields
 
     @cached_property
     def assigned(self) -> Sequence[Assigned]:
         """All values that fields of known messages are given, in the order of the text."""
-        found = [*self._assigned_attributes(), *self._keywords()]
-        return sorted(found, key=lambda item: (item.value.lineno, item.value.col_offset))
+        result = [*self._assigned_attributes(), *self._keywords()]
+        return sorted(result, key=lambda item: (item.value.lineno, item.value.col_offset))
 
     def _assigned_attributes(self) -> Iterator[Assigned]:
         for store in self._stores():

@@ -66,7 +66,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
             names = (
                 types.module.qualified_names(bridge.func) if isinstance(bridge, ast.Call) else ()
             )
-            is_bridge = any(one.endswith("CvBridge") for one in names)
+            is_bridge = any(item.endswith("CvBridge") for item in names)
             return types.class_named(_BRIDGED[name]) if is_bridge else None
     return types.class_of(made.func)
 
@@ -123,14 +123,14 @@ def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.e
         # An attribute of this name may belong to the same object wherever it stands.
         return [node for node in module.index.attributes(sent.attr) if _is_read(node)]
     scope = module.index.lookup(sent.id, sent)
-    found = [
+    result = [
         node
         for node in module.index.names(sent.id)
         if _is_read(node) and module.index.lookup(node.id, node) == scope
     ]
     if scope is None or all(binding.value is not made for binding in scope[1]):
         raise _Doubt
-    return found
+    return result
 
 
 def _is_read(node: ast.Name | ast.Attribute) -> bool:

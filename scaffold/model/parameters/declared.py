@@ -112,7 +112,7 @@ def _declared(
     while owner is not None:
         if owner.declares_automatically or owner.is_lifecycle or len(owner.node.bases) != 1:
             return None
-        if any(not isinstance(one.name, str) for one in owner.parameters):
+        if any(not isinstance(parameter.name, str) for parameter in owner.parameters):
             return None
         if owner.facts not in passed_on:
             passed_on[owner.facts] = _passed_on(owner.facts)
@@ -134,7 +134,7 @@ def _bases(facts: RclpyFile) -> frozenset[ast.ClassDef | None]:
 
 def _declares_on_others(facts: RclpyFile) -> bool:
     """Tell whether the file declares parameters on an object that is not known."""
-    return any(one.owner is None for one in facts.parameters)
+    return any(parameter.owner is None for parameter in facts.parameters)
 
 
 def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
@@ -147,7 +147,7 @@ def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
     found: set[ast.ClassDef] = set()
     for call in facts.module.walk(ast.Call):
         given = [*call.args, *(word.value for word in call.keywords)]
-        classes = {class_ for one in given if (class_ := facts.evaluator.self_class(one))}
+        classes = {class_ for item in given if (class_ := facts.evaluator.self_class(item))}
         if classes:
             name = facts.module.qualified_name(call.func) or ""
             is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
@@ -161,18 +161,18 @@ def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter
     if isinstance(owner, NodeClass):
         for facts in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
             if facts is not owner.facts:
-                yield from (one for one in facts.parameters if one.owner is owner)
+                yield from (parameter for parameter in facts.parameters if parameter.owner is owner)
 
 
 def own_nodes(package: Package) -> tuple[list[NodeDefinition], bool]:
     """Return the nodes in the Python code of a package, and whether there are no others."""
 
     def find() -> tuple[list[NodeDefinition], bool]:
-        found = [node for facts in rclpy_files(package) for node in facts.nodes]
+        result = [node for facts in rclpy_files(package) for node in facts.nodes]
         compiled = any(
             path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
         )
-        return found, not compiled and all(isinstance(node.node_name, str) for node in found)
+        return result, not compiled and all(isinstance(node.node_name, str) for node in result)
 
     return package.remember("own_nodes", find)
 

@@ -121,7 +121,7 @@ class ParameterFile:
                 Refused(key.location, f"no node name above {KEY!r}: rcl rejects the file")
             )
         elif isinstance(value, Mapping):
-            node = "/" + "/".join(one.text.strip("/") for one in above).strip("/")
+            node = "/" + "/".join(item.text.strip("/") for item in above).strip("/")
             section = Section(node, above[-1], list(_entries(value, "")))
             self.sections.append(section)
             for entry in section.entries:

@@ -22,8 +22,8 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
     """
     if name in ALWAYS:
         return "bool", f"{name!r} (declared by rclpy)"
-    nodes = [one for one in known if name in one.types]
-    types = {one.types[name] for one in nodes}
+    nodes = [item for item in known if name in item.types]
+    types = {node.types[name] for node in nodes}
     if len(types) != 1:
         return None, name
     return types.pop(), f"{name!r} ({place_of(nodes[0].places[name], package)})"
@@ -38,8 +38,8 @@ def narrow_default(
     """
     if name in ALWAYS:
         return None
-    for one in known:
-        parameter = one.places.get(name)
+    for item in known:
+        parameter = item.places.get(name)
         default = parameter.default if parameter else None
         owner = parameter.owner if parameter else None
         if owner is None or home_of(owner, package) is not package:

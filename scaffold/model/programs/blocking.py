@@ -134,4 +134,4 @@ def _may_spin(facts: RclpyFile) -> bool:
     names = [name.lower() for name in names if name != "SingleThreadedExecutor"]
     if any(word in name for name in names for word in _OTHER_THREADS):
         return True
-    return any(one.root in {"threading", "asyncio", "_thread"} for one in facts.module.imports)
+    return any(item.root in {"threading", "asyncio", "_thread"} for item in facts.module.imports)

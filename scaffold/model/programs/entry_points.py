@@ -122,11 +122,11 @@ def _functions(
         begin = [found.node] if found else []
     else:
         called = [facts.callback(call.func).function for call in outside]
-        begin = [one for one in called if one is not None and not isinstance(one, ast.Lambda)]
+        begin = [item for item in called if item is not None and not isinstance(item, ast.Lambda)]
     reached: dict[FunctionNode | ast.Lambda, None] = {}
     for one in begin:
         reached.update(dict.fromkeys(facts.reached(one, reached)))
-    return [one for one in reached if not isinstance(one, ast.Lambda)]
+    return [item for item in reached if not isinstance(item, ast.Lambda)]
 
 
 def _calls_outside(facts: RclpyFile) -> list[ast.Call]:
@@ -143,36 +143,36 @@ def _calls_outside(facts: RclpyFile) -> list[ast.Call]:
 
 
 def _files(package: Package, path: str) -> list[RclpyFile]:
-    found: dict[str, RclpyFile] = {}
+    result: dict[str, RclpyFile] = {}
     pending = [path]
-    while pending and len(found) < _MAX_FILES:
+    while pending and len(result) < _MAX_FILES:
         current = pending.pop()
-        if current in found or not package.has(current):
+        if current in result or not package.has(current):
             continue
         try:
-            found[current] = node_facts(package, current)
+            result[current] = node_facts(package, current)
         except ViewError:
             continue
         pending += _imported(package, current)
-    return list(found.values())
+    return list(result.values())
 
 
 def _imported(package: Package, path: str) -> Iterator[str]:
     """Yield the files that the imports of a file may mean."""
     directory = path.rpartition("/")[0]
     yield f"{directory}/__init__.py"
-    for one in package.module(path).imports:
+    for item in package.module(path).imports:
         bases = ["", "src", directory]
-        if one.level:
+        if item.level:
             parts = directory.split("/") if directory else []
-            bases = ["/".join(parts[: len(parts) - one.level + 1])]
-        names = one.module.strip(".").split(".") if one.module.strip(".") else []
+            bases = ["/".join(parts[: len(parts) - item.level + 1])]
+        names = item.module.strip(".").split(".") if item.module.strip(".") else []
         for base in dict.fromkeys(bases):
             at = [part for part in base.split("/") if part]
             for name in names:
                 at.append(name)
                 yield "/".join([*at, "__init__.py"])
             yield "/".join(at) + ".py"
-            for imported in one.names:
+            for imported in item.names:
                 yield "/".join([*at, imported.name]) + ".py"
                 yield "/".join([*at, imported.name, "__init__.py"])

@@ -60,20 +60,20 @@ def nodes_of(package: Package, program: str) -> list[NodeDefinition]:
         facts = node_facts(package, path)
     except ViewError:
         return []
-    found = list(facts.nodes)
+    result = list(facts.nodes)
     for name in _imported(package, path):
-        found.extend(node_facts(package, name).nodes)
-    found.extend(_made_by_others(package, path))
-    return found
+        result.extend(node_facts(package, name).nodes)
+    result.extend(_made_by_others(package, path))
+    return result
 
 
 def _made_by_others(package: Package, path: str) -> Iterator[NodeDefinition]:
     """Yield the nodes that functions of other packages make, as far as a file imports those."""
-    for one in package.module(path).imports:
-        if one.level or one.root == package.name or keys_of_module(one.root):
+    for item in package.module(path).imports:
+        if item.level or item.root == package.name or keys_of_module(item.root):
             continue
-        other = package.workspace.get(one.root)
-        stem = one.module.replace(".", "/")
+        other = package.workspace.get(item.root)
+        stem = item.module.replace(".", "/")
         for name in (f"{stem}.py", f"src/{stem}.py"):
             if other is None or not other.has(name):
                 continue
@@ -89,13 +89,13 @@ def _imported(package: Package, path: str) -> Sequence[str]:
 
 def _find_imported(package: Package, path: str) -> Iterator[str]:
     roots = ("", "src/", f"{path.rpartition('/')[0]}/")
-    for one in package.module(path).imports:
-        if one.level or one.in_function:
-            base = path.rpartition("/")[0] if one.level == 1 else ""
-            stem = "/".join(part for part in (base, *one.module.split(".")) if part)
+    for item in package.module(path).imports:
+        if item.level or item.in_function:
+            base = path.rpartition("/")[0] if item.level == 1 else ""
+            stem = "/".join(part for part in (base, *item.module.split(".")) if part)
             names = [stem] if base else []
         else:
-            names = [root + one.module.replace(".", "/") for root in dict.fromkeys(roots)]
+            names = [root + item.module.replace(".", "/") for root in dict.fromkeys(roots)]
         for stem in names:
             if package.has(f"{stem}.py") and f"{stem}.py" != path:
                 try:

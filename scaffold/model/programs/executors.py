@@ -58,7 +58,7 @@ def used_of_executor(facts: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | N
         return None
     variable = parent.targets[0]
     scope = facts.module.index.lookup(variable.id, variable)
-    found: dict[str, ast.AST] = {}
+    result: dict[str, ast.AST] = {}
     for other in facts.module.index.names(variable.id):
         if other is variable:
             continue
@@ -68,5 +68,5 @@ def used_of_executor(facts: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | N
         looked_up = facts.module.index.lookup(other.id, other)
         if looked_up is None or looked_up[0] is not scope[0]:
             return None
-        found[around.attr] = around
-    return found
+        result[around.attr] = around
+    return result

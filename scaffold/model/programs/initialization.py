@@ -33,9 +33,9 @@ def may_init(facts: RclpyFile) -> bool:
         if index.attributes(name) or index.names(name):
             return True
     return any(
-        name.name in {"init", "Context"} or (name.name == "*" and not _is_standard(one.root))
-        for one in facts.module.imports
-        for name in one.names
+        name.name in {"init", "Context"} or (name.name == "*" and not _is_standard(item.root))
+        for item in facts.module.imports
+        for name in item.names
     )
 
 

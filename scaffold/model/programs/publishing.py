@@ -242,7 +242,7 @@ def _method_references(facts: RclpyFile, function: FunctionNode) -> Iterator[ast
     index, class_ = facts.module.index, facts.module.enclosing_class(function)
     family = facts.related_classes(class_) if class_ else ()
     name = function.name
-    same = [found for member in family for found in index.bindings(member).get(name, ())]
+    same = [binding for member in family for binding in index.bindings(member).get(name, ())]
     if len(same) != 1:
         raise _Doubt
     for node in index.attributes(name):
@@ -327,11 +327,11 @@ class Reach(Enum):
     NEVER = "never"
 
 
-def _most(found: Iterable[Reach]) -> Reach:
+def _most(reaches: Iterable[Reach]) -> Reach:
     """Return the most that is said of several places."""
-    reached = set(found)
+    reached = set(reaches)
     order = (Reach.ALWAYS, Reach.PERHAPS)
-    return next((one for one in order if one in reached), Reach.NEVER)
+    return next((item for item in order if item in reached), Reach.NEVER)
 
 
 class PublishReach:

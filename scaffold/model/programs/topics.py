@@ -41,8 +41,8 @@ def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
     """Return the topics that are published only, and those that are subscribed to only."""
     topics = topics_of(package).values()
     return (
-        [one for one in topics if one.publishers and not one.subscriptions],
-        [one for one in topics if one.subscriptions and not one.publishers],
+        [topic for topic in topics if topic.publishers and not topic.subscriptions],
+        [topic for topic in topics if topic.subscriptions and not topic.publishers],
     )
 
 
@@ -70,37 +70,37 @@ def is_remapped(package: Package, endpoint: Endpoint) -> bool:
 
 
 def _topics(package: Package) -> Mapping[str, Topic]:
-    found: dict[str, Topic] = {}
+    result: dict[str, Topic] = {}
     for name, endpoints in _by_name(package, (Publisher, Subscription)).items():
-        found[name] = Topic(
-            [one for one in endpoints if isinstance(one, Publisher)],
-            [one for one in endpoints if isinstance(one, Subscription)],
+        result[name] = Topic(
+            [endpoint for endpoint in endpoints if isinstance(endpoint, Publisher)],
+            [endpoint for endpoint in endpoints if isinstance(endpoint, Subscription)],
             all(map(_is_plain, endpoints)),
         )
-    return found
+    return result
 
 
 def _services(package: Package) -> Mapping[str, ServiceName]:
-    found: dict[str, ServiceName] = {}
+    result: dict[str, ServiceName] = {}
     for name, endpoints in _by_name(package, (Service, Client)).items():
-        found[name] = ServiceName(
-            [one for one in endpoints if isinstance(one, Service)],
-            [one for one in endpoints if isinstance(one, Client)],
+        result[name] = ServiceName(
+            [endpoint for endpoint in endpoints if isinstance(endpoint, Service)],
+            [endpoint for endpoint in endpoints if isinstance(endpoint, Client)],
             all(map(_is_plain, endpoints)),
         )
-    return found
+    return result
 
 
 def _by_name(package: Package, kinds: tuple[type[Endpoint], ...]) -> Mapping[str, list[Endpoint]]:
-    found: dict[str, list[Endpoint]] = {}
+    result: dict[str, list[Endpoint]] = {}
     for facts in rclpy_files(package):
         for endpoint in facts.endpoints:
             name = endpoint.name
             if not isinstance(endpoint, kinds) or isinstance(name, Unknown):
                 continue
             if not name.startswith("~"):
-                found.setdefault(name.removeprefix("/"), []).append(endpoint)
-    return found
+                result.setdefault(name.removeprefix("/"), []).append(endpoint)
+    return result
 
 
 def _is_plain(endpoint: Endpoint) -> bool:

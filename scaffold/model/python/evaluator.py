@@ -425,19 +425,19 @@ class Evaluator:
         return tuple(values) if isinstance(node, ast.Tuple) else values
 
     def _dict(self, node: ast.Dict) -> object:
-        found: dict[object, object] = {}
+        result: dict[object, object] = {}
         for key, value in zip(node.keys, node.values, strict=True):
             if key is None:
                 inner = self.evaluate(value)
                 if not isinstance(inner, dict):
                     return UNKNOWN
-                found.update(inner)
+                result.update(inner)
                 continue
             known = self.evaluate(key)
             if not isinstance(known, str | int | float):
                 return UNKNOWN
-            found[known] = self.evaluate(value)
-        return found
+            result[known] = self.evaluate(value)
+        return result
 
     def _subscript(self, node: ast.Subscript) -> object:
         holder, key = self.evaluate(node.value), self.evaluate(node.slice)
@@ -459,19 +459,19 @@ class Evaluator:
         values = self.evaluate(generator.iter)
         if not isinstance(values, list | tuple) or not isinstance(generator.target, ast.Name):
             return UNKNOWN
-        found: list[object] = []
+        result: list[object] = []
         for value in values:
             with self._bound(node, {generator.target.id: value}):
                 tests = [self.evaluate(test) for test in generator.ifs]
                 item = self.evaluate(node.elt)
             if isinstance(item, Glob):
                 filtered = item.filtered or bool(tests)
-                found.append(Glob(item.pattern, recursive=item.recursive, filtered=filtered))
+                result.append(Glob(item.pattern, recursive=item.recursive, filtered=filtered))
             elif not all(map(is_known, tests)) or item is UNKNOWN:
                 return UNKNOWN
             elif all(tests):
-                found.append(item)
-        return found
+                result.append(item)
+        return result
 
     @contextmanager
     def _bound(self, scope: ast.AST, values: Mapping[str, object]) -> Iterator[None]:

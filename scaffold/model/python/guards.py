@@ -41,8 +41,8 @@ def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) ->
         case _:
             return False
     return is_annotation and any(
-        one.module == "__future__" and any(name.name == "annotations" for name in one.names)
-        for one in module.imports
+        item.module == "__future__" and any(name.name == "annotations" for name in item.names)
+        for item in module.imports
     )
 
 

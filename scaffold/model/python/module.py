@@ -225,9 +225,9 @@ class PythonModule:
         """Return the names and attributes in a condition, written out: ``self.topic``."""
         if condition not in self._words:
             self._words[condition] = frozenset(
-                ast.unparse(one)
-                for one in ast.walk(condition)
-                if isinstance(one, ast.Name | ast.Attribute)
+                ast.unparse(item)
+                for item in ast.walk(condition)
+                if isinstance(item, ast.Name | ast.Attribute)
             )
         return self._words[condition]
 
@@ -310,22 +310,22 @@ class PythonModule:
     @cached_property
     def functions(self) -> Mapping[str, Function]:
         """The functions defined at the top, the last of a name."""
-        found = {}
+        result = {}
         for name, bindings in self.index.bindings(self.tree).items():
             for binding in bindings:
                 if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
-                    found[name] = Function(name, binding.node, self.name_location(binding.node))
-        return found
+                    result[name] = Function(name, binding.node, self.name_location(binding.node))
+        return result
 
     @cached_property
     def classes(self) -> Mapping[str, Class]:
         """The classes defined at the top, the last of a name."""
-        found = {}
+        result = {}
         for name, bindings in self.index.bindings(self.tree).items():
             for binding in bindings:
                 if isinstance(binding.node, ast.ClassDef):
-                    found[name] = Class(name, binding.node, self.name_location(binding.node))
-        return found
+                    result[name] = Class(name, binding.node, self.name_location(binding.node))
+        return result
 
     def defines(self, name: str) -> bool | None:
         """Tell whether an attribute of this name can be had from the module.
@@ -365,10 +365,10 @@ class PythonModule:
 
         Empty for what the module makes itself and for what cannot be told.
         """
-        found = self._names.get(node)
-        if found is None:
-            found = self._names[node] = self._find_names(node)
-        return found
+        result = self._names.get(node)
+        if result is None:
+            result = self._names[node] = self._find_names(node)
+        return result
 
     def _find_names(self, node: ast.AST) -> frozenset[str]:
         parts = ""
@@ -401,7 +401,7 @@ class PythonModule:
     @cached_property
     def imports(self) -> Sequence[Import]:
         """All imports, in the order of the text."""
-        found: list[Import] = []
+        result: list[Import] = []
         nodes: list[ast.Import | ast.ImportFrom] = [
             *self.walk(ast.Import),
             *self.walk(ast.ImportFrom),
@@ -414,21 +414,23 @@ class PythonModule:
                     for alias in node.names
                 )
                 at = self.location(node)
-                found.append(Import(node.module or "", node.level, names, None, at, node, *context))
+                result.append(
+                    Import(node.module or "", node.level, names, None, at, node, *context)
+                )
                 continue
             for alias in node.names:
                 at = self.location(node if len(node.names) == 1 else alias)
-                found.append(Import(alias.name, 0, (), alias.asname, at, node, *context))
-        return found
+                result.append(Import(alias.name, 0, (), alias.asname, at, node, *context))
+        return result
 
     @cached_property
     def imports_by_root(self) -> Mapping[str, Sequence[Import]]:
         """The absolute imports by top-level package."""
-        found: dict[str, list[Import]] = {}
+        result: dict[str, list[Import]] = {}
         for import_ in self.imports:
             if import_.root:
-                found.setdefault(import_.root, []).append(import_)
-        return found
+                result.setdefault(import_.root, []).append(import_)
+        return result
 
     def _context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool, bool]:
         """Return top_level, in_function, guarded, type_checking, conditional, in_tests."""
@@ -497,10 +499,10 @@ def _suppresses_import_errors(item: ast.withitem) -> bool:
 
 def last_names(node: ast.expr) -> set[str]:
     """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
-    found: set[str] = set()
+    result: set[str] = set()
     for part in ast.walk(node):
         if isinstance(part, ast.Name):
-            found.add(part.id)
+            result.add(part.id)
         elif isinstance(part, ast.Attribute):
-            found.add(part.attr)
-    return found
+            result.add(part.attr)
+    return result

@@ -111,9 +111,9 @@ def _declared_encoding(data: bytes) -> str:
         return "utf-8"
     for line in data[:400].split(b"\n", 2)[:2]:
         text = line.decode("latin-1")
-        found = re.match(_COOKIE, text, re.ASCII)
-        if found:
-            name = found[1].lower().replace("_", "-")
+        matched = re.match(_COOKIE, text, re.ASCII)
+        if matched:
+            name = matched[1].lower().replace("_", "-")
             return "utf-8" if name in {"utf-8", "utf8", "utf-8-sig"} else name
         if not re.match(r"^[ \t\f]*(?:#.*)?\r?$", text):
             break
@@ -176,15 +176,15 @@ def _place(source: Source, positions: Positions, error: SyntaxError) -> Location
         return source.location(start + first, max(end, start + first))
     at = min(start + max((error.offset or 1) - 1, 0), end)
     if error.msg.startswith("f-string"):
-        at = min([*(start + found.start() for found in re.finditer(_F_STRING, line)), at])
+        at = min([*(start + item.start() for item in re.finditer(_F_STRING, line)), at])
     return source.location(at, min(at + 1, end))
 
 
 def _in_our_words(message: str) -> str:
     for pattern, words in _WORDS:
-        found = re.match(pattern, message)
-        if found:
-            return words.format(*found.groups())
+        matched = re.match(pattern, message)
+        if matched:
+            return words.format(*matched.groups())
     return message[:1].lower() + message[1:].rstrip(".?")
 
 
@@ -220,8 +220,8 @@ _DEEPEST_F_STRING = 8
 
 def _has_new_f_string(text: str, start: int, end: int) -> bool:
     """Tell whether a line has an f-string that is right since Python 3.12 only."""
-    for found in re.finditer(_F_STRING, text[start:end]):
-        is_new, after = _scan_f_string(text, start + found.end(), found[1], 0)
+    for item in re.finditer(_F_STRING, text[start:end]):
+        is_new, after = _scan_f_string(text, start + item.end(), item[1], 0)
         if is_new and after > 0:
             return True
     return False

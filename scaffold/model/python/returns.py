@@ -44,7 +44,7 @@ def may_end(function: FunctionNode) -> bool:
 def may_end_with_items(function: FunctionNode) -> bool:
     """Tell whether the end may be reached although the last argument, a list, is not empty."""
     *before, last = function.body
-    names = [one.arg for one in function.args.args[-1:]]
+    names = [arg.arg for arg in function.args.args[-1:]]
     match last:
         case ast.For(iter=ast.Name(id=name), body=body, orelse=[]) if name in names:
             leaves = any(isinstance(node, ast.Break | ast.Continue) for node in ast.walk(last))
@@ -79,11 +79,13 @@ def _passes_one(statement: ast.stmt) -> bool:
             passes = any(isinstance(node, ast.Break) for node in ast.walk(statement))
         case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=final):
             caught = () if _is_safe(body[0]) else handlers
-            runs = _passes([*body, *orelse]) or any(_passes(one.body) for one in caught)
+            runs = _passes([*body, *orelse]) or any(_passes(item.body) for item in caught)
             passes = runs and _passes(final)
         case ast.Match(cases=cases):
-            is_total = any(isinstance(one.pattern, ast.MatchAs) and not one.guard for one in cases)
-            passes = not is_total or any(_passes(one.body) for one in cases)
+            is_total = any(
+                isinstance(item.pattern, ast.MatchAs) and not item.guard for item in cases
+            )
+            passes = not is_total or any(_passes(item.body) for item in cases)
         case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
             passes = False
     return passes

@@ -100,7 +100,7 @@ class ScopeIndex:
         for kind in kinds:
             if kind not in self._numbers_of:
                 nodes = self._by_type.get(kind, [])
-                self._numbers_of[kind] = [self._numbers[one] for one in nodes]
+                self._numbers_of[kind] = [self._numbers[item] for item in nodes]
             numbers = self._numbers_of[kind]
             start, end = bisect_left(numbers, first), bisect_right(numbers, last)
             yield from cast("list[Node]", self._by_type.get(kind, [])[start:end])
@@ -112,7 +112,9 @@ class ScopeIndex:
             for field in _FIELDS[type(node)]:
                 value = getattr(node, field, None)
                 if isinstance(value, list):
-                    last = next((one for one in reversed(value) if isinstance(one, ast.AST)), last)
+                    last = next(
+                        (item for item in reversed(value) if isinstance(item, ast.AST)), last
+                    )
                 elif isinstance(value, ast.AST):
                     last = value
             if last is None:
@@ -334,12 +336,12 @@ class ScopeIndex:
 
 
 def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
-    found: dict[ast.AST, tuple[str, int]] = {}
+    result: dict[ast.AST, tuple[str, int]] = {}
     for field in ("body", "orelse", "finalbody", "handlers"):
         block = getattr(parent, field, None)
         if isinstance(block, list):
-            found.update((one, (field, number)) for number, one in enumerate(block))
-    return found
+            result.update((item, (field, number)) for number, item in enumerate(block))
+    return result
 
 
 def _order(node: ast.AST) -> tuple[int, int]:

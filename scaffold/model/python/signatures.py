@@ -17,21 +17,21 @@ def argument_error(call: ast.Call, takes: ast.arguments, *, bound: int) -> str:
         Words that follow the name of the function; empty if the call fits.
     """
     positional = [*takes.posonlyargs, *takes.args][bound:]
-    names = [one.arg for one in positional]
+    names = [item.arg for item in positional]
     if len(call.args) > len(names) and takes.vararg is None:
         count = len(names)
         noun = "argument" if count == 1 else "arguments"
         return f"takes {count or 'no'} {noun}, but gets {len(call.args)}"
     words = {word.arg for word in call.keywords if word.arg}
-    by_name = {one.arg for one in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
-    by_name |= {one.arg for one in takes.kwonlyargs}
+    by_name = {arg.arg for arg in (*takes.args[max(bound - len(takes.posonlyargs), 0) :],)}
+    by_name |= {kwonlyarg.arg for kwonlyarg in takes.kwonlyargs}
     unknown = sorted(words - by_name)
     if unknown and takes.kwarg is None:
         return f"has no argument {unknown[0]!r}"
     needed = names[len(call.args) : len(names) - len(takes.defaults)]
     needed += [
-        one.arg
-        for one, default in zip(takes.kwonlyargs, takes.kw_defaults, strict=True)
+        item.arg
+        for item, default in zip(takes.kwonlyargs, takes.kw_defaults, strict=True)
         if default is None
     ]
     missing = [name for name in needed if name not in words]
@@ -49,7 +49,7 @@ def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> 
     Returns:
         Words that follow the name of the function; empty if the call fits.
     """
-    given = [one.arg for one in [*arguments.posonlyargs, *arguments.args]]
+    given = [posonlyarg.arg for posonlyarg in [*arguments.posonlyargs, *arguments.args]]
     if not given and arguments.vararg is None:
         return "takes no arguments; it is given the context: TypeError"
     if count > len(given) and arguments.vararg is None:
@@ -57,13 +57,13 @@ def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> 
     optional = len(arguments.defaults)
     needed = [name for name in given[count : len(given) - optional] if name not in words]
     needed += [
-        one.arg
-        for one, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
-        if default is None and one.arg not in words
+        item.arg
+        for item, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
+        if default is None and item.arg not in words
     ]
     if needed:
         return f"takes {needed[0]!r}, which args=[...] does not give: TypeError"
-    names = {*given, *(one.arg for one in arguments.kwonlyargs)}
+    names = {*given, *(kwonlyarg.arg for kwonlyarg in arguments.kwonlyargs)}
     unknown = sorted(words - names)
     if unknown and arguments.kwarg is None:
         return f"takes no {unknown[0]!r}, which kwargs={{...}} gives: TypeError"

@@ -92,13 +92,13 @@ def is_method(owner: str, name: str) -> bool:
 @cache
 def _places() -> Mapping[str, str]:
     """Return where classes stand that a package takes from its modules, by the shorter name."""
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for place in known_names():
         module, _, name = place.rpartition(".")
         package = module.rpartition(".")[0]
         if name[:1].isupper() and name in known_names().get(package, ()):
-            found[f"{package}.{name}"] = place
-    return found
+            result[f"{package}.{name}"] = place
+    return result
 
 
 def first_unknown(dotted: str) -> tuple[str, str] | None:

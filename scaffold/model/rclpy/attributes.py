@@ -25,13 +25,13 @@ def used_by_classes(facts: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]
             read.append(attribute)
         else:
             stored.add(attribute.attr)
-    found: dict[ast.ClassDef, list[ast.Attribute]] = {}
+    result: dict[ast.ClassDef, list[ast.Attribute]] = {}
     for attribute in read:
         if attribute.attr not in stored and not has(NODE, attribute.attr):
             class_ = _owner(facts, attribute)
             if class_ is not None:
-                found.setdefault(class_, []).append(attribute)
-    return found
+                result.setdefault(class_, []).append(attribute)
+    return result
 
 
 def _owner(facts: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
@@ -46,18 +46,18 @@ def _owner(facts: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
 
 def defined_by(node: NodeClass) -> set[str]:
     """Return what a class and its bases define, in methods and on ``self``."""
-    found: set[str] = set()
+    result: set[str] = set()
     owner: NodeClass | None = node
     while owner is not None:
-        found |= set(owner.facts.module.index.bindings(owner.node))
+        result |= set(owner.facts.module.index.bindings(owner.node))
         for attribute in owner.facts.module.below(owner.node, ast.Attribute):
             if isinstance(attribute.ctx, ast.Load):
                 continue
             parent = owner.facts.module.parent(attribute)
             if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
-                found.add(attribute.attr)
+                result.add(attribute.attr)
         owner = owner.base
-    return found
+    return result
 
 
 def is_read_in_full(node: NodeClass) -> bool:

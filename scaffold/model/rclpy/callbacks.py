@@ -76,19 +76,21 @@ def reached(
         function: The function.
         known: Functions that are of no interest any more, nor is what they call.
     """
-    found: dict[FunctionNode | ast.Lambda, None] = {}
+    result: dict[FunctionNode | ast.Lambda, None] = {}
     pending = [function] if function not in known else []
     while pending:
-        found.update(dict.fromkeys(pending))
+        result.update(dict.fromkeys(pending))
         called = [
             facts.callback(call.func).function
             for current in pending
             for call in facts.calls_in(current)
         ]
         pending = [
-            one for one in dict.fromkeys(called) if one and one not in found and one not in known
+            item
+            for item in dict.fromkeys(called)
+            if item and item not in result and item not in known
         ]
-    return [*found]
+    return [*result]
 
 
 def _is_static_method(function: FunctionNode) -> bool:

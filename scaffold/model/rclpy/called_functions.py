@@ -30,7 +30,7 @@ def called_function(package: Package, facts: RclpyFile, call: ast.Call) -> Calle
     """
     if not isinstance(call.func, ast.Name | ast.Attribute):
         return None
-    if any(isinstance(one, ast.Starred) for one in call.args):
+    if any(isinstance(arg, ast.Starred) for arg in call.args):
         return None
     if any(word.arg is None for word in call.keywords):
         return None
@@ -54,7 +54,7 @@ def _is_only_one(
     facts: RclpyFile, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
 ) -> bool:
     """Tell whether no class that inherits, and no assignment, puts another function in place."""
-    others = [one for one in facts.module.function_nodes if one.name == function.name]
+    others = [node for node in facts.module.function_nodes if node.name == function.name]
     if len(others) != 1 or facts.evaluator.stores(function.name):
         return False
     if not isinstance(func, ast.Attribute):

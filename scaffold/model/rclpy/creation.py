@@ -200,8 +200,8 @@ class Creation:
         return self._facts.callback(argument.node) if argument else None
 
     def _declared(self, created: Created, method: str) -> Iterator[Parameter]:
-        for one in self._facts.declarations.declarations_in(created.call, method):
-            yield self._parameter(created, one)
+        for item in self._facts.declarations.declarations_in(created.call, method):
+            yield self._parameter(created, item)
 
     def _parameter(self, created: Created, given: Declaration) -> Parameter:
         name, value = given.name, given.value

@@ -66,11 +66,11 @@ class NodeEvaluator(AttributeEvaluator):
             return self._parameter(node.value)
         if node.attr in _ACCESSORS:
             return self._parameter_field(node, _ACCESSORS[node.attr])
-        found = self.attribute_values(node)
-        if not found:
+        values = self.attribute_values(node)
+        if not values:
             return UNKNOWN
-        value = self.evaluate(found[0])
-        for other in found[1:]:
+        value = self.evaluate(values[0])
+        for other in values[1:]:
             if value is UNKNOWN or not same(self.evaluate(other), value):
                 return UNKNOWN
         # Nobody follows what methods do to a list that belongs to an object.

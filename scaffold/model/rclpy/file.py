@@ -143,7 +143,7 @@ class RclpyFile:
     @cached_property
     def objects(self) -> Sequence[NodeObject]:
         """The nodes without a class of their own, in the order of the text."""
-        found: list[NodeObject] = []
+        node_objects: list[NodeObject] = []
         for call in self.module.walk(ast.Call):
             if not self.is_node_class(call.func):
                 continue
@@ -151,8 +151,8 @@ class RclpyFile:
             name = variable or attribute or ""
             item = NodeObject(self, name, self.module.location(call.func), call)
             item.is_lifecycle = _is_lifecycle(self.module.qualified_names(call.func))
-            found.append(item)
-        return found
+            node_objects.append(item)
+        return node_objects
 
     @property
     def nodes(self) -> Sequence[NodeDefinition]:
@@ -185,10 +185,10 @@ class RclpyFile:
                 base = self._base_class(expression, names)
                 if base is None or base.depth > MAX_BASES:
                     continue
-            found = NodeClass(self, node, base)
-            found.base_index = position
-            found.is_lifecycle = base.is_lifecycle if base else _is_lifecycle(names)
-            return found
+            result = NodeClass(self, node, base)
+            result.base_index = position
+            result.is_lifecycle = base.is_lifecycle if base else _is_lifecycle(names)
+            return result
         return None
 
     def _base_class(self, expression: ast.expr, names: frozenset[str]) -> NodeClass | None:
@@ -239,15 +239,15 @@ class RclpyFile:
 
     @cached_property
     def _local_bases(self) -> Mapping[ast.ClassDef, Sequence[ast.ClassDef]]:
-        found: dict[ast.ClassDef, list[ast.ClassDef]] = {}
+        result: dict[ast.ClassDef, list[ast.ClassDef]] = {}
         for node in self.module.walk(ast.ClassDef):
             for expression in node.bases:
                 if isinstance(expression, ast.Name):
                     bound = self.module.index.lookup(expression.id, expression)
                     for binding in bound[1] if bound else ():
                         if isinstance(binding.node, ast.ClassDef):
-                            found.setdefault(node, []).append(binding.node)
-        return found
+                            result.setdefault(node, []).append(binding.node)
+        return result
 
     def owner_of(self, node: ast.expr) -> NodeDefinition | None:
         """Return the node that an expression such as ``self`` stands for."""
@@ -439,10 +439,10 @@ class RclpyFile:
 
     @cached_property
     def _calls_by_function(self) -> Mapping[ast.AST | None, Sequence[ast.Call]]:
-        found: dict[ast.AST | None, list[ast.Call]] = {}
+        result: dict[ast.AST | None, list[ast.Call]] = {}
         for call in self.module.walk(ast.Call):
-            found.setdefault(self.function_of(call), []).append(call)
-        return found
+            result.setdefault(self.function_of(call), []).append(call)
+        return result
 
     def function_of(self, node: ast.AST) -> FunctionNode | ast.Lambda | None:
         """Return the function whose body a node stands in."""

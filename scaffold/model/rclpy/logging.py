@@ -45,5 +45,5 @@ def is_of_rclpy(facts: RclpyFile, method: ast.expr) -> bool:
     }
     class_ = facts.evaluator.self_class(method.value) if isinstance(method, ast.Attribute) else None
     if class_ is None:
-        return not any(isinstance(one, ast.ClassDef) for one in makers)
+        return not any(isinstance(maker, ast.ClassDef) for maker in makers)
     return makers.isdisjoint(facts.related_classes(class_))

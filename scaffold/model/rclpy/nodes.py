@@ -171,12 +171,12 @@ class NodeClass(NodeDefinition):
     @cached_property
     def methods(self) -> Mapping[str, FunctionNode]:
         """The methods it defines itself, the last of a name."""
-        found: dict[str, FunctionNode] = {}
+        result: dict[str, FunctionNode] = {}
         for name, bindings in self.facts.module.index.bindings(self.node).items():
             for binding in bindings:
                 if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
-                    found[name] = binding.node
-        return found
+                    result[name] = binding.node
+        return result
 
     def method(self, name: str) -> FunctionNode | None:
         """Return a method, also of a base class in the same file."""

@@ -96,30 +96,30 @@ def _policy(evaluator: AttributeEvaluator, node: ast.expr | None, default: str) 
     return policy.upper()
 
 
-def _with_later_changes(evaluator: AttributeEvaluator, found: Qos, node: ast.expr) -> Qos:
+def _with_later_changes(evaluator: AttributeEvaluator, qos: Qos, node: ast.expr) -> Qos:
     """Apply ``qos.depth = 5`` before the use; what may or may not happen is not known."""
     if not isinstance(node, ast.Name | ast.Attribute):
-        return found
+        return qos
     for name in _QOS_PARAMETERS:
         for store in evaluator.stores(name):
             order = _order(evaluator, store.node, node)
             if order != "after" and _is_same_object(evaluator, store.node.value, node):
                 value = store.value if order == "before" else None
-                found = _changed(evaluator, found, name, value)
-    return found
+                qos = _changed(evaluator, qos, name, value)
+    return qos
 
 
-def _changed(evaluator: AttributeEvaluator, found: Qos, name: str, value: ast.expr | None) -> Qos:
+def _changed(evaluator: AttributeEvaluator, qos: Qos, name: str, value: ast.expr | None) -> Qos:
     """Return a quality of service with one field set; ``None`` for nobody knows what."""
     if name == "depth":
         depth = evaluator.evaluate(value)
-        return found._replace(profile=None, depth=depth if type(depth) is int else UNKNOWN)
+        return qos._replace(profile=None, depth=depth if type(depth) is int else UNKNOWN)
     policy = UNKNOWN if value is None else _policy(evaluator, value, "")
     if name == "history":
-        return found._replace(profile=None, history=policy)
+        return qos._replace(profile=None, history=policy)
     if name == "reliability":
-        return found._replace(profile=None, reliability=policy)
-    return found._replace(profile=None, durability=policy)
+        return qos._replace(profile=None, reliability=policy)
+    return qos._replace(profile=None, durability=policy)
 
 
 def _is_same_object(evaluator: AttributeEvaluator, first: ast.expr, second: ast.expr) -> bool:

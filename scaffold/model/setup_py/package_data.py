@@ -28,14 +28,14 @@ def installed_data(package: Package) -> set[str] | None:
     setup = package.setup_py
     if setup.call is None or setup.has_unknown_keywords or not setup.data_files_complete:
         return None
-    found: set[str] = set()
+    result: set[str] = set()
     for data in setup.data_files:
         for source in data.sources:
             if isinstance(source, Glob):
-                found.update(matches(source, package.files))
+                result.update(matches(source, package.files))
             elif isinstance(source, str):
-                found.add(posixpath.normpath(source))
-    return found
+                result.add(posixpath.normpath(source))
+    return result
 
 
 def package_data(package: Package) -> list[Glob] | None:
@@ -55,7 +55,7 @@ def package_data(package: Package) -> list[Glob] | None:
     value = word.value if word else {}
     if elsewhere or not isinstance(value, dict):
         return None
-    found: list[Glob] = []
+    globs: list[Glob] = []
     for name, patterns in value.items():
         if not isinstance(patterns, list | tuple):
             return None
@@ -63,8 +63,8 @@ def package_data(package: Package) -> list[Glob] | None:
         for pattern in patterns:
             if not isinstance(pattern, str):
                 return None
-            found.append(Glob(f"{base}/{pattern}", recursive=True))
-    return found
+            globs.append(Glob(f"{base}/{pattern}", recursive=True))
+    return globs
 
 
 def _mentions(package: Package, path: str, word: str) -> bool:

@@ -123,15 +123,15 @@ class SetupPy:
     @cached_property
     def keywords(self) -> Mapping[str, Keyword]:
         """The keyword arguments by name, those of a known ``**dict`` too."""
-        found: dict[str, Keyword] = {}
+        result: dict[str, Keyword] = {}
         for word in self.call.keywords if self.call else ():
             if word.arg is None:
-                found.update(self._unpacked(word.value))
+                result.update(self._unpacked(word.value))
                 continue
             value = self.evaluator.evaluate(word.value)
             at = self.module.location(word.value)
-            found[word.arg] = Keyword(word.arg, value, word.value, at)
-        return found
+            result[word.arg] = Keyword(word.arg, value, word.value, at)
+        return result
 
     @cached_property
     def has_unknown_keywords(self) -> bool:
@@ -151,14 +151,14 @@ class SetupPy:
         return word.value if isinstance(word.value, str) else UNKNOWN
 
     def _unpacked(self, node: ast.expr) -> dict[str, Keyword]:
-        found: dict[str, Keyword] = {}
+        result: dict[str, Keyword] = {}
         literal = self._dict_of(node)
         for key, value in zip(literal.keys, literal.values, strict=True) if literal else ():
             name = self.evaluator.evaluate(key)
             if isinstance(name, str):
                 at = self.module.location(value)
-                found[name] = Keyword(name, self.evaluator.evaluate(value), value, at)
-        return found
+                result[name] = Keyword(name, self.evaluator.evaluate(value), value, at)
+        return result
 
     def _dict_of(self, node: ast.expr) -> ast.Dict | None:
         """Return the dict literal that an expression is, or the name of one is assigned."""
@@ -367,14 +367,14 @@ class SetupPy:
         literal = self._dict_of(word.node)
         if literal is None:
             return (None,)
-        found: list[EntryPoint | None] = []
+        points: list[EntryPoint | None] = []
         for key, value in zip(literal.keys, literal.values, strict=True):
             group = self.evaluator.evaluate(key)
             if isinstance(group, str):
-                found.extend(self._group(group, value))
+                points.extend(self._group(group, value))
             else:
-                found.append(None)
-        return found
+                points.append(None)
+        return points
 
     def _group(self, group: str, node: ast.expr) -> Iterator[EntryPoint | None]:
         value = self.evaluator.evaluate(node)
@@ -449,10 +449,10 @@ def string_pieces(module: PythonModule, node: ast.expr) -> Iterator[tuple[int, i
     literal = re.compile(_LITERAL)
     at = start
     while at < end:
-        found = literal.match(text, at, end)
-        if found:
-            yield found.span()
-            at = found.end()
+        matched = literal.match(text, at, end)
+        if matched:
+            yield matched.span()
+            at = matched.end()
         elif text[at] == "#":
             newline = text.find("\n", at, end)
             at = end if newline < 0 else newline

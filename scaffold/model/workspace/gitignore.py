@@ -65,11 +65,11 @@ def _parents(package: Package) -> list[str]:
         return []
     disk = package.outside
     directory = disk.real(package.root)
-    found: list[str] = []
+    result: list[str] = []
     while not disk.exists(os.path.join(directory, ".git")):
         parent = os.path.dirname(directory)
         if parent == directory:
             return []  # no checkout
-        found.append(parent)
+        result.append(parent)
         directory = parent
-    return found
+    return result

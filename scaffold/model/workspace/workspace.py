@@ -43,10 +43,10 @@ class Workspace:
     @cached_property
     def by_name(self) -> Mapping[str, Package]:
         """The packages by the name in their manifest; the first of a name wins."""
-        found: dict[str, Package] = {}
+        result: dict[str, Package] = {}
         for package in self._packages:
-            found.setdefault(package.name, package)
-        return found
+            result.setdefault(package.name, package)
+        return result
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
@@ -81,10 +81,10 @@ class WorkspaceView:
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        found = self._workspace.get(name)
-        if found is not None:
-            self.used[id(found)] = found
-        return found
+        result = self._workspace.get(name)
+        if result is not None:
+            self.used[id(result)] = result
+        return result
 
     def __iter__(self) -> Iterator[Package]:
         self.uses_all = True

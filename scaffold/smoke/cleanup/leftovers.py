@@ -158,5 +158,7 @@ def _living(entries: ledger.Entries) -> set[int]:
         for pid, started in entries.processes
         if pid in table and table[pid].started == started and table[pid].is_alive
     }
-    below = {one.pid for pid in recorded for one in process_table.descendants(pid, table)}
+    below = {
+        descendant.pid for pid in recorded for descendant in process_table.descendants(pid, table)
+    }
     return (recorded | below | set(process.marked(entries.mark))) - {os.getpid()}

@@ -52,7 +52,7 @@ def _take(lock: socket.socket) -> int:
 
 def domains_in_use() -> set[int]:
     """Return the domains in whose range of ports somebody listens."""
-    found: set[int] = set()
+    result: set[int] = set()
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         if not os.path.exists(table):
             continue
@@ -60,5 +60,5 @@ def domains_in_use() -> set[int]:
             next(lines, None)
             for line in lines:
                 port = int(line.split()[1].rpartition(":")[2], 16)
-                found.add((port - _FIRST_PORT) // _PORTS)
-    return found
+                result.add((port - _FIRST_PORT) // _PORTS)
+    return result

@@ -70,9 +70,9 @@ def traceback(text: str) -> str | None:
         end = 1
         while end < len(lines) and (not lines[end].strip() or lines[end][0].isspace()):
             end += 1
-        found = "\n".join((TRACEBACK, *lines[1 : end + 1])).rstrip()
-        if PASSED_ON not in exception(found):
-            return found
+        result = "\n".join((TRACEBACK, *lines[1 : end + 1])).rstrip()
+        if PASSED_ON not in exception(result):
+            return result
     return None
 
 
@@ -135,8 +135,8 @@ def warnings(text: str) -> list[str]:
 
 def complaints(text: str, directory: str) -> list[str]:
     """Return what colcon itself says about the package in a directory."""
-    found = [match["text"] for match in _COMPLAINT.finditer(text) if directory in match["text"]]
-    return _limited([line for one in found for line in one.splitlines()])
+    result = [match["text"] for match in _COMPLAINT.finditer(text) if directory in match["text"]]
+    return _limited([line for item in result for line in item.splitlines()])
 
 
 def named_error(text: str) -> str | None:

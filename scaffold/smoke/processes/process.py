@@ -318,11 +318,11 @@ def capture(
             err += f"\nit did not end within {timeout:g} s\n".encode()
         finally:
             ours.close()  # whatever has happened: the supervisor sees to the rest
-    told = {name: value for event in events for name, value in event.items()}
-    if "errno" in told:
-        raise OSError(told["errno"], os.strerror(told["errno"]))
+    reported = {name: value for event in events for name, value in event.items()}
+    if "errno" in reported:
+        raise OSError(reported["errno"], os.strerror(reported["errno"]))
     return Captured(
-        told.get("ended", -signal.SIGKILL),
+        reported.get("ended", -signal.SIGKILL),
         out.decode(errors="surrogateescape"),
         err.decode(errors="replace"),
     )
@@ -373,9 +373,9 @@ async def end(running: Running, number: signal.Signals, grace: float = GRACE) ->
     """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
     begun = time.monotonic()
     sent: list[str] = []
-    for one in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
-        sent.append(one.name)
-        running.signal(one)
+    for item in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
+        sent.append(item.name)
+        running.signal(item)
         if await running.ended_within(grace):
             break
         grace = GRACE_OF_NEXT
@@ -385,7 +385,7 @@ async def end(running: Running, number: signal.Signals, grace: float = GRACE) ->
 def marked(mark: str) -> dict[int, str]:
     """Return the living processes of a mark, or of marks below it, with their command lines."""
     wanted = os.fsencode(f"{MARK}={mark}")
-    found: dict[int, str] = {}
+    result: dict[int, str] = {}
     for name in os.listdir("/proc"):
         if not name.isdigit():
             continue
@@ -394,9 +394,9 @@ def marked(mark: str) -> dict[int, str]:
         except OSError:  # it has ended meanwhile, or belongs to somebody else
             continue
         if any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
-            found[int(name)] = process_table.command_line(int(name))
-    found.pop(os.getpid(), None)
-    return found
+            result[int(name)] = process_table.command_line(int(name))
+    result.pop(os.getpid(), None)
+    return result
 
 
 def sweep(mark: str) -> list[str]:
@@ -430,7 +430,11 @@ def _end_orphans() -> None:
         ]
         if not orphans:
             return
-        below = [one for child in orphans for one in process_table.descendants(child.pid, table)]
+        below = [
+            descendant
+            for child in orphans
+            for descendant in process_table.descendants(child.pid, table)
+        ]
         for process in (*below, *orphans):
             with suppress(OSError):
                 os.kill(process.pid, signal.SIGKILL)

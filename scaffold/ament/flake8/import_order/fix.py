@@ -54,10 +54,10 @@ def _blocks(text: PythonText, tree: ast.Module) -> Iterator[list[_Import]]:
         yield block
 
 
-def _only_blank(text: PythonText, before: Statement, one: _Import | None) -> bool:
-    if one is None:
+def _only_blank(text: PythonText, before: Statement, item: _Import | None) -> bool:
+    if item is None:
         return False
-    between = text.lines[before.end_line : one.statement.line - 1]
+    between = text.lines[before.end_line : item.statement.line - 1]
     return not any(line.strip() for line in between)
 
 
@@ -65,7 +65,7 @@ def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | Non
     """Return a statement that has its lines to itself and no comments; else ``None``."""
     statement = describe(node)
     lines = "".join(text.lines[statement.line - 1 : statement.end_line]).rstrip("\n")
-    if node.col_offset or statement.group == MIXED or any(one in lines for one in "#;\\\f"):
+    if node.col_offset or statement.group == MIXED or any(item in lines for item in "#;\\\f"):
         return None
     if list(statement.names) == sorted(statement.names):
         return _Import(statement, lines)
@@ -77,7 +77,9 @@ def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | Non
         return _Import(ordered, sorted_lines) if sorted_lines else None
     head, keyword, rest = lines.partition(" import ")
     aliases = sorted(node.names, key=lambda alias: fold(alias.name))
-    names = ", ".join(f"{one.name} as {one.asname}" if one.asname else one.name for one in aliases)
+    names = ", ".join(
+        f"{aliase.name} as {aliase.asname}" if aliase.asname else aliase.name for aliase in aliases
+    )
     listed = f"({names})" if rest.strip().startswith("(") else names
     return _Import(ordered, f"{head}{keyword}{listed}")
 
@@ -88,12 +90,12 @@ def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
     starts = text.line_starts
     spans = [
         (
-            starts[one.lineno - 1] + text.column(one.lineno, one.col_offset) - 1,
-            starts[(one.end_lineno or 0) - 1]
-            + text.column(one.end_lineno or 0, one.end_col_offset or 0)
+            starts[name.lineno - 1] + text.column(name.lineno, name.col_offset) - 1,
+            starts[(name.end_lineno or 0) - 1]
+            + text.column(name.end_lineno or 0, name.end_col_offset or 0)
             - 1,
         )
-        for one in node.names
+        for name in node.names
     ]
     order = sorted(range(len(spans)), key=lambda at: fold(node.names[at].name))
     parts: list[str] = []
@@ -108,7 +110,7 @@ def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
 def _sorted(block: Sequence[_Import]) -> str:
     parts: list[str] = []
     group = -1
-    for one in sorted(block, key=lambda one: one.statement.key):
+    for one in sorted(block, key=lambda item: item.statement.key):
         if parts and one.statement.group != group:
             parts.append("")
         parts.append(one.lines)

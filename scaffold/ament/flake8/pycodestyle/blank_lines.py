@@ -94,14 +94,14 @@ class _State:
 
         Blank lines are as wide as can be.
         """
-        found: list[tuple[int, int]] = []
+        result: list[tuple[int, int]] = []
         for number, line in enumerate(self.lines):
             width = expand_indent(line) if line.strip() else sys.maxsize
             above = number - 1
-            while above >= 0 and found[above][0] >= width:
-                above = found[above][1]
-            found.append((width, above))
-        return found
+            while above >= 0 and result[above][0] >= width:
+                above = result[above][1]
+            result.append((width, above))
+        return result
 
     def _is_one_liner(self, logical: LogicalLine) -> bool:
         """Tell whether the definition ends on its own line: such ones may stand together."""

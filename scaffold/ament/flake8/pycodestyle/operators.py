@@ -60,15 +60,15 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
         (_OPERATOR, ("E221", "E222", "E223", "E224"), "operator"),
         (_KEYWORD, ("E272", "E271", "E274", "E273"), "keyword"),
     ):
-        for found in re.finditer(pattern, logical.text):
+        for item in re.finditer(pattern, logical.text):
             for group, side in ((1, "before"), (2, "after")):
-                if "\t" in found[group]:
+                if "\t" in item[group]:
                     code, blanks = codes[group + 1], "a tab"
-                elif len(found[group]) > 1:
+                elif len(item[group]) > 1:
                     code, blanks = codes[group - 1], "several spaces"
                 else:
                     continue
-                row, column = logical.position(found.start(group))
+                row, column = logical.position(item.start(group))
                 yield Finding(code, row, column + 1, f"{blanks} {side} the {what}")
 
 

@@ -29,7 +29,7 @@ def _tabs(text: PythonText) -> Iterator[Finding]:
         if "\t" in indent:
             at = indent.index("\t") + 1
             yield Finding("W191", number, at, "the indentation contains tabs")
-        other = next((at for at, one in enumerate(indent, 1) if one != text.indent_char), 0)
+        other = next((at for at, item in enumerate(indent, 1) if item != text.indent_char), 0)
         if other:
             yield Finding("E101", number, other, "the indentation mixes tabs and spaces")
 

@@ -63,8 +63,8 @@ def check(text: PythonText) -> Iterator[Finding]:
 def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
     """Yield the logical lines that a pattern occurs in."""
     seen = 0
-    for found in re.finditer(pattern, text.text, re.MULTILINE):
-        line = text.line_of(found.end() - 1)
+    for item in re.finditer(pattern, text.text, re.MULTILINE):
+        line = text.line_of(item.end() - 1)
         if line <= seen:
             continue
         logical = text.logical_line_at(line)
@@ -116,12 +116,12 @@ def _without_blanks(
     """Return what takes the blanks at a place out; those around the colon of a slice as well."""
     row, column = place
     line = logical.lines[row - 1].rstrip("\n")
-    found = re.compile(r"[ \t]+").match(line, column)
-    if found is None or not line[:column].strip() or "f" in around:
+    matched = re.compile(r"[ \t]+").match(line, column)
+    if matched is None or not line[:column].strip() or "f" in around:
         # In f'{x = }' the blanks are seen.
         return ()
     start = len(line[:column].rstrip(" \t"))
-    end = found.end()
+    end = matched.end()
     blanks = (row, start + 1, row, end + 1, "")
     behind = re.compile(r"[ \t]+(?=[^ \t\\#])").match(line, end + 1)
     is_slice = line[end : end + 1] == ":" and around[-1:] == ["["]
@@ -158,10 +158,10 @@ class _Brackets:
 
 def spaces(line: str) -> Said:
     """E201, E202, E203: blanks inside brackets and before punctuation."""
-    for found in re.finditer(_SPACE, line):
-        character = found[0].strip()
-        at = found.start()
-        if found[0][-1].isspace():
+    for item in re.finditer(_SPACE, line):
+        character = item[0].strip()
+        at = item.start()
+        if item[0][-1].isspace():
             yield at + 1, "E201", f"whitespace after '{character}'"
         elif line[at - 1] != ",":
             code = "E202" if character in "}])" else "E203"
@@ -170,11 +170,11 @@ def spaces(line: str) -> Said:
 
 def comparisons(line: str) -> Said:
     """E711, E712, E721: equality where identity is meant."""
-    for found in re.finditer(_SINGLETON, line):
-        value = found[1] or found[3]
-        wanted = "is" if found[2] == "==" else "is not"
+    for item in re.finditer(_SINGLETON, line):
+        value = item[1] or item[3]
+        wanted = "is" if item[2] == "==" else "is not"
         code = "E711" if value == "None" else "E712"
-        yield found.start(2), code, f"comparison to {value} with '{found[2]}', not '{wanted}'"
+        yield item.start(2), code, f"comparison to {value} with '{item[2]}', not '{wanted}'"
     types = re.search(_TYPES, line)
     if types:
         inside = (types[1] or "").strip()
@@ -184,10 +184,10 @@ def comparisons(line: str) -> Said:
 
 def negations(line: str) -> Said:
     """E713, E714: ``not`` in front of a test instead of within it."""
-    found = re.search(_NEGATION, line)
-    if found:
-        code, wanted = ("E713", "not in") if found[2] == "in" else ("E714", "is not")
-        yield found.start(1), code, f"'not ... {found[2]} ...' instead of '{wanted}'"
+    matched = re.search(_NEGATION, line)
+    if matched:
+        code, wanted = ("E713", "not in") if matched[2] == "in" else ("E714", "is not")
+        yield matched.start(1), code, f"'not ... {matched[2]} ...' instead of '{wanted}'"
 
 
 def bare_except(line: str) -> Said:
@@ -204,11 +204,11 @@ def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
     before = 0
     found = line.find(":")
     while -1 < found < last:
-        for one in line[before:found]:
-            if one in depth:
-                depth[one] += 1
-            elif one in pairs:
-                depth[pairs[one]] -= 1
+        for item in line[before:found]:
+            if item in depth:
+                depth[item] += 1
+            elif item in pairs:
+                depth[pairs[item]] -= 1
         if max(depth.values()) <= 0 and line[found + 1] != "=":
             keyword = re.compile(r"\blambda\b").search(line, 0, found)
             if keyword:

@@ -12,17 +12,17 @@ from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.ruff import RuffDiagnostic
 
 
-def translate(text: PythonText, said: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
+def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
     """Yield what pyflakes would say, given what ruff says."""
-    stricter = _Stricter(text, said)
-    imports = _import_lines(text) if any(one.code == "F401" for one in said) else {}
-    codes = {one.code for one in said}
+    stricter = _Stricter(text, diagnostics)
+    imports = _import_lines(text) if any(item.code == "F401" for item in diagnostics) else {}
+    codes = {item.code for item in diagnostics}
     exports = _export_lines(text) if codes & {"F405", "F822"} else {}
     handlers = _handler_lines(text) if "F841" in codes else {}
-    has_star_use = any(one.code == "F405" for one in said)
+    has_star_use = any(item.code == "F405" for item in diagnostics)
     # A second import of the same names takes the place of the first.
-    last_stars = {one.message: one.line for one in said if one.code == "F403"}
-    for one in said:
+    last_stars = {item.message: item.line for item in diagnostics if item.code == "F403"}
+    for one in diagnostics:
         finding = plain(one)
         if one.code == "F401":
             node = imports.get(finding.line)
@@ -43,18 +43,18 @@ def translate(text: PythonText, said: Sequence[RuffDiagnostic]) -> Iterator[Find
     yield from local_names.deleted_unused(text)
 
 
-def plain(said: RuffDiagnostic) -> Finding:
+def plain(diagnostic: RuffDiagnostic) -> Finding:
     """Return a finding of ruff as it stands."""
     return Finding(
-        said.code,
-        said.line,
-        said.column,
-        worded(said.message),
-        said.end_line,
-        said.end_column,
-        said.fix,
-        said.fix_title,
-        fix_is_unsafe=said.fix_is_unsafe,
+        diagnostic.code,
+        diagnostic.line,
+        diagnostic.column,
+        worded(diagnostic.message),
+        diagnostic.end_line,
+        diagnostic.end_column,
+        diagnostic.fix,
+        diagnostic.fix_title,
+        fix_is_unsafe=diagnostic.fix_is_unsafe,
     )
 
 
@@ -71,22 +71,31 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 class _Stricter:
     """Knows where ruff goes further than pyflakes does."""
 
-    def __init__(self, text: PythonText, said: Sequence[RuffDiagnostic]) -> None:
+    def __init__(self, text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> None:
         self._text = text
-        self._codes = {(one.line, one.code) for one in said}
+        self._codes = {(item.line, item.code) for item in diagnostics}
 
-    def is_alone(self, said: RuffDiagnostic) -> bool:
+    def is_alone(self, diagnostic: RuffDiagnostic) -> bool:
         """Tell whether only ruff says this."""
-        if said.code == "F507":
-            return said.line not in self._tuple_formats
-        if said.code == "F821" and (said.line, said.column) in self._conditional_deletions:
+        if diagnostic.code == "F507":
+            return diagnostic.line not in self._tuple_formats
+        if (
+            diagnostic.code == "F821"
+            and (diagnostic.line, diagnostic.column) in self._conditional_deletions
+        ):
             return True
-        if said.code == "F401":
-            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._by_alias
-        if said.code == "F841":
-            return (said.line, said.message.partition("`")[2].partition("`")[0]) in self._rebound
-        rival = {"F502": "F506", "F523": "F525"}.get(said.code)
-        return (said.line, rival) in self._codes
+        if diagnostic.code == "F401":
+            return (
+                diagnostic.line,
+                diagnostic.message.partition("`")[2].partition("`")[0],
+            ) in self._by_alias
+        if diagnostic.code == "F841":
+            return (
+                diagnostic.line,
+                diagnostic.message.partition("`")[2].partition("`")[0],
+            ) in self._rebound
+        rival = {"F502": "F506", "F523": "F525"}.get(diagnostic.code)
+        return (diagnostic.line, rival) in self._codes
 
     @cached_property
     def _tuple_formats(self) -> set[int]:
@@ -126,21 +135,21 @@ def _at(
 
 def _handler_lines(text: PythonText) -> dict[int, ast.ExceptHandler]:
     """Return each ``except ... as name`` by the lines between its first and its body."""
-    found: dict[int, ast.ExceptHandler] = {}
+    result: dict[int, ast.ExceptHandler] = {}
     for node in text.nodes(ast.ExceptHandler):
         if node.name:
             for line in range(node.lineno + 1, node.body[0].lineno):
-                found.setdefault(line, node)
-    return found
+                result.setdefault(line, node)
+    return result
 
 
 def _import_lines(text: PythonText) -> dict[int, ast.stmt]:
     """Return the import statement that covers a line; the first of several."""
-    found: dict[int, ast.stmt] = {}
+    result: dict[int, ast.stmt] = {}
     for node in sorted(text.imports, key=lambda node: (node.lineno, node.col_offset)):
         for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
-            found.setdefault(line, node)
-    return found
+            result.setdefault(line, node)
+    return result
 
 
 def _export_lines(text: PythonText) -> dict[int, ast.stmt]:
@@ -160,7 +169,7 @@ def _sets_exports(node: ast.stmt) -> bool:
         targets = [node.target]
     else:
         return False
-    return any(isinstance(one, ast.Name) and one.id == "__all__" for one in targets)
+    return any(isinstance(target, ast.Name) and target.id == "__all__" for target in targets)
 
 
 def _moved(text: PythonText, finding: Finding, node: ast.stmt | ast.ExceptHandler) -> Finding:

@@ -13,7 +13,7 @@ from scaffold.ament.python_text.text import PythonText
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield what is wrong with f-strings and dict literals."""
     for node in text.nodes(ast.JoinedStr):
-        has_placeholder = any(isinstance(one, ast.FormattedValue) for one in node.values)
+        has_placeholder = any(isinstance(value, ast.FormattedValue) for value in node.values)
         # Formats within an f-string are f-strings to ``ast``.
         if not has_placeholder and not any(
             isinstance(parent, ast.JoinedStr) for parent in text.parents(node)
@@ -31,7 +31,7 @@ def _repeated(text: PythonText, node: ast.Dict) -> Iterator[Finding]:
     for key, count in counts.items():
         if count == 1:
             continue
-        places = [at for at, one in enumerate(keys) if one == key]
+        places = [at for at, item in enumerate(keys) if item == key]
         values = Counter(_value(node.values[at]) for at in places)
         if 1 not in values.values():
             continue
@@ -49,7 +49,7 @@ def _value(node: ast.expr | None) -> Hashable:
         # 1, 1.0 and True are the same key; b'' and '' are not.
         return ("constant", isinstance(node.value, bytes), node.value)
     if isinstance(node, ast.Tuple):
-        return ("tuple", *(_value(one) for one in node.elts))
+        return ("tuple", *(_value(elt) for elt in node.elts))
     if isinstance(node, ast.Name):
         return ("name", node.id)
     return ("other", id(node))

@@ -34,7 +34,7 @@ def used_by_alias(text: PythonText) -> set[tuple[int, str]]:
         for node in text.nodes(ast.Name)
         if node.id in aliases and isinstance(node.ctx, ast.Load)
     }
-    return {(line, one.name) for line, one in imports if not one.asname and one.name in used}
+    return {(line, item.name) for line, item in imports if not item.asname and item.name in used}
 
 
 def at_last_use(text: PythonText, finding: Finding) -> Finding:
@@ -63,7 +63,7 @@ def read_after_rebinding(text: PythonText) -> set[tuple[int, str]]:
 
     To pyflakes that is one variable, to ruff the exception itself is not used.
     """
-    found: set[tuple[int, str]] = set()
+    result: set[tuple[int, str]] = set()
     for handler in text.nodes(ast.ExceptHandler):
         if handler.name is None:
             continue
@@ -76,8 +76,8 @@ def read_after_rebinding(text: PythonText) -> set[tuple[int, str]]:
             if not isinstance(node, (*Function, ast.Lambda)):
                 pending.extend(ast.iter_child_nodes(node))
         if {ast.Store, ast.Load} <= uses:
-            found.add((handler.lineno, handler.name))
-    return found
+            result.add((handler.lineno, handler.name))
+    return result
 
 
 def deleted_unused(text: PythonText) -> Iterator[Finding]:

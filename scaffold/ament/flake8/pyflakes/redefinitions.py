@@ -157,7 +157,7 @@ class _Walk:
         if node.returns:
             self.annotation(node.returns)
         binding = _Binding(DEFINED, node)
-        binding.is_overload = any(_last_name(one) == "overload" for one in node.decorator_list)
+        binding.is_overload = any(_last_name(item) == "overload" for item in node.decorator_list)
         self.bind(node.name, binding)
         self.defer(lambda: self.function_body(node))
 
@@ -425,7 +425,7 @@ class _Walk:
 def _unpacks_literal(node: ast.AST | None) -> bool:
     """Tell whether a tuple is assigned to a tuple, element by element."""
     return isinstance(node, ast.Assign) and all(
-        isinstance(one, (ast.Tuple, ast.List, ast.Set)) for one in (*node.targets, node.value)
+        isinstance(target, (ast.Tuple, ast.List, ast.Set)) for target in (*node.targets, node.value)
     )
 
 
@@ -454,7 +454,7 @@ def _branches(node: ast.AST | None) -> list[Sequence[ast.AST]]:
 
 def _all_arguments(arguments: ast.arguments) -> list[ast.arg]:
     plain = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
-    return plain + [one for one in (arguments.vararg, arguments.kwarg) if one]
+    return plain + [item for item in (arguments.vararg, arguments.kwarg) if item]
 
 
 def _last_name(node: ast.expr) -> str:
@@ -478,7 +478,7 @@ def _is_worth_a_walk(text: PythonText) -> bool:
     defined = Counter(function.name for function in text.functions)
     defined.update(class_.name for class_ in text.nodes(ast.ClassDef))
     for imported in text.imports:
-        defined.update(one.asname or one.name.partition(".")[0] for one in imported.names)
+        defined.update(item.asname or item.name.partition(".")[0] for item in imported.names)
     others = {node.id for node in text.nodes(ast.Name) if isinstance(node.ctx, ast.Store)}
     others |= {node.arg for node in text.nodes(ast.arg)}
     others |= {node.name for node in text.nodes(ast.ExceptHandler) if node.name}

@@ -6,7 +6,9 @@ from scaffold.generate.payload.recipe import ActionRecipe, Recipe, ServiceRecipe
 from scaffold.generate.payload.recipes import std_msgs, std_srvs
 
 RECIPES: dict[str, Recipe] = {
-    **{name: one for name, one in std_msgs.RECIPES.items() if name not in {"ColorRGBA", "Header"}},
+    **{
+        name: item for name, item in std_msgs.RECIPES.items() if name not in {"ColorRGBA", "Header"}
+    },
     "WString": std_msgs.RECIPES["String"],
 }
 

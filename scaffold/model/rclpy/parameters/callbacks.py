@@ -52,7 +52,7 @@ def _one_of_constants(facts: RclpyFile, value: ast.expr) -> ast.Constant | None:
     """Return one of the constants that a variable is set to, if it is set to nothing else."""
     found = facts.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
     values = [binding.value for binding in found[1]] if found else []
-    constants = [one for one in values if isinstance(one, ast.Constant)]
+    constants = [item for item in values if isinstance(item, ast.Constant)]
     return constants[0] if constants and len(constants) == len(values) else None
 
 
@@ -74,4 +74,4 @@ def _gives_nothing(facts: RclpyFile, call: ast.Call) -> bool:
         return False
     class_ = facts.module.enclosing_class(function)
     is_replaced = class_ is not None and len(facts.related_classes(class_)) > 1
-    return not is_replaced and not any(one.value is not None for one in returned(function))
+    return not is_replaced and not any(item.value is not None for item in returned(function))

@@ -92,12 +92,12 @@ class Declarations:
         """Return the items of a list, or of the pairs of a dictionary; none if more is possible."""
         match node:
             case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):
-                found = [
+                result = [
                     ast.copy_location(ast.Tuple(elts=[key, value], ctx=ast.Load()), key)
                     for key, value in zip(pairs.keys, pairs.values, strict=True)
                     if key is not None
                 ]
-                return found if len(found) == len(pairs.keys) else ()
+                return result if len(result) == len(pairs.keys) else ()
         items, is_complete = self._facts.evaluator.elements(node)
         parent = self._facts.module.index.parent
         is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
@@ -136,17 +136,17 @@ class Declarations:
     @cached_property
     def _index(self) -> Mapping[str, Sequence[_Declaration]]:
         self._is_indexing = True
-        found: dict[str, list[_Declaration]] = {}
+        result: dict[str, list[_Declaration]] = {}
         for call in self._facts.module.walk(ast.Call):
             func = self._facts.method_of(call)
             if func is not None and func.attr in SIGNATURES:
                 owner = self._facts.owner_of(func.value)
-                for one in self.declarations_in(call, func.attr):
-                    text = self.full_name(one.prefix, one.name)
+                for item in self.declarations_in(call, func.attr):
+                    text = self.full_name(item.prefix, item.name)
                     if isinstance(text, str):
-                        found.setdefault(text, []).append((owner, one.value))
+                        result.setdefault(text, []).append((owner, item.value))
         self._is_indexing = False
-        return found
+        return result
 
 
 def _in_row(node: ast.expr | None, row: Mapping[str, ast.expr]) -> ast.expr | None:

@@ -106,7 +106,7 @@ def message_made(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.e
     for use in facts.module.index.names(node.id):
         if isinstance(use.ctx, ast.Load) and _is_between(use, first.node, node):
             same = facts.module.index.lookup(use.id, use)
-            if same is None or all(one is not first for one in same[1]):
+            if same is None or all(item is not first for item in same[1]):
                 continue
             if not _take(facts, use, first, fields):
                 return None

@@ -110,8 +110,8 @@ def callback_arguments(facts: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lam
     known = facts.parameter_callbacks
     if known is not None:
         return known
-    found: dict[ast.arg, FunctionNode | ast.Lambda] = {}
-    facts.parameter_callbacks = found
+    result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
+    facts.parameter_callbacks = result
     for method in CALLBACKS:
         for attribute in facts.module.index.attributes(method):
             call = facts.module.parent(attribute)
@@ -123,8 +123,8 @@ def callback_arguments(facts: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lam
             arguments = callback.function.args
             names = [*arguments.posonlyargs, *arguments.args][int(callback.is_bound) :]
             if names:
-                found[names[0]] = callback.function
-    return found
+                result[names[0]] = callback.function
+    return result
 
 
 def name_asked(facts: RclpyFile, node: ast.AST, variable: str) -> str | None:
@@ -133,7 +133,7 @@ def name_asked(facts: RclpyFile, node: ast.AST, variable: str) -> str | None:
     for parent in facts.module.parents(node):
         tests: list[ast.expr] = []
         if isinstance(parent, ast.BoolOp) and isinstance(parent.op, ast.And):
-            tests = [one for one in parent.values if one is not child]
+            tests = [item for item in parent.values if item is not child]
         elif isinstance(parent, ast.If) and facts.module.index.place(child)[0] == "body":
             tests = [parent.test]
             if isinstance(parent.test, ast.BoolOp) and isinstance(parent.test.op, ast.And):
@@ -229,10 +229,10 @@ def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]
     """Return what `names_used` says of one node; a file is looked at once for all of its nodes."""
 
     def by_owner() -> dict[NodeDefinition, list[NameUsed]]:
-        found: dict[NodeDefinition, list[NameUsed]] = {}
+        result: dict[NodeDefinition, list[NameUsed]] = {}
         for used in names_used(owner.facts):
-            found.setdefault(used.owner, []).append(used)
-        return found
+            result.setdefault(used.owner, []).append(used)
+        return result
 
     return package.remember(("names_used", owner.facts), by_owner).get(owner, ())
 
@@ -249,7 +249,7 @@ def _texts(
 def _looped(facts: RclpyFile, node: ast.expr) -> list[ast.expr]:
     """Return what a name stands for in a loop over a list that is written there."""
     found = facts.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-    loops = [facts.module.parent(one.node) for one in found[1]] if found else []
+    loops = [facts.module.parent(item.node) for item in found[1]] if found else []
     if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
         return []
     loop = loops[0]
@@ -260,7 +260,7 @@ def _looped(facts: RclpyFile, node: ast.expr) -> list[ast.expr]:
 def types_compared(facts: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
     """Return the types that a function compares the type of one parameter with."""
     function = facts.module.enclosing_function(attribute)
-    found: set[str] = set()
+    result: set[str] = set()
     for other in facts.module.index.attributes("type_"):
         if not isinstance(other.value, ast.Name):
             continue
@@ -269,8 +269,8 @@ def types_compared(facts: RclpyFile, attribute: ast.Attribute, name: str) -> set
         is_same = is_same and name_asked(facts, other, other.value.id) == name
         if is_same and isinstance(compared, ast.Compare):
             full = facts.module.qualified_name(compared.comparators[0]) or ""
-            found.add(full.rpartition(".")[2].lower())
-    return found
+            result.add(full.rpartition(".")[2].lower())
+    return result
 
 
 def names_compared(facts: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
@@ -285,6 +285,6 @@ def names_compared(facts: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]
         ) if left is attribute:
             return items
         case ast.Match(cases=cases):
-            patterns = [one.pattern for one in cases]
-            return [one.value for one in patterns if isinstance(one, ast.MatchValue)]
+            patterns = [item.pattern for item in cases]
+            return [pattern.value for pattern in patterns if isinstance(pattern, ast.MatchValue)]
     return []

@@ -32,10 +32,10 @@ _MOST_USES = 200
 
 def objects_used(facts: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that give a Parameter whose value is meant, and the first such place."""
-    for one in _objects(facts):
-        use = _use(facts, one.call, one.variable, one.attribute)
+    for item in _objects(facts):
+        use = _use(facts, item.call, item.variable, item.attribute)
         if use is not None:
-            yield one, use
+            yield item, use
 
 
 def _use(
@@ -64,15 +64,15 @@ def _uses(
     class_ = module.enclosing_class(call) if attribute is not None else None
     if attribute is not None and class_ is not None:
         return [
-            one
-            for one in module.index.attributes(attribute)
-            if isinstance(one.value, ast.Name)
-            and one.value.id == "self"
-            and module.enclosing_class(one) is class_
+            item
+            for item in module.index.attributes(attribute)
+            if isinstance(item.value, ast.Name)
+            and item.value.id == "self"
+            and module.enclosing_class(item) is class_
         ]
     function = module.enclosing_function(call)
     names = module.index.names(variable) if variable is not None else ()
-    return [one for one in names if function is None or function in module.parents(one)]
+    return [name for name in names if function is None or function in module.parents(name)]
 
 
 def _objects(facts: RclpyFile) -> Iterator[Entity]:
@@ -80,9 +80,9 @@ def _objects(facts: RclpyFile) -> Iterator[Entity]:
     for read in facts.parameter_reads:
         if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
             yield read
-    for one in facts.parameters:
-        if one.owner is not None and "name" in one.arguments:
-            yield one
+    for parameter in facts.parameters:
+        if parameter.owner is not None and "name" in parameter.arguments:
+            yield parameter
 
 
 def stands_for_value(facts: RclpyFile, node: ast.AST) -> bool:
