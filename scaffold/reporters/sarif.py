@@ -76,19 +76,18 @@ def _rule(page: RulePage) -> Data:
 
 def _results(results: Sequence[Result], numbers: dict[str, int]) -> list[Data]:
     fingerprints = Fingerprints()
-    results: list[Data] = []
+    written: list[Data] = []
     for result in results:
-        repetitions = Repetitions()
+        package, repetitions = result.package, Repetitions()
         for diagnostic in result.diagnostics:
-            data = _result(result.package, diagnostic, numbers[diagnostic.code])
-            data["partialFingerprints"]["finding/v1"] = fingerprints.of(result.package, diagnostic)
-            if diagnostic.fix is not None and repetitions.first(diagnostic.fix, len(results)) == len(
-                results
-            ):
-                fix = _fix(result.package, diagnostic.fix)
-                data |= {"fixes": [fix]} if fix else {}
-            results.append(data)
-    return results
+            data = _result(package, diagnostic, numbers[diagnostic.code])
+            data["partialFingerprints"]["finding/v1"] = fingerprints.of(package, diagnostic)
+            fix, number = diagnostic.fix, len(written)
+            if fix is not None and repetitions.first(fix, number) == number:
+                change = _fix(package, fix)
+                data |= {"fixes": [change]} if change else {}
+            written.append(data)
+    return written
 
 
 def _result(package: Package, diagnostic: Diagnostic, number: int) -> Data:
