@@ -29,7 +29,7 @@ help:
 	@echo 'make lint        ruff, mypy and the direction of imports, on the whole repository'
 	@echo 'make format      let ruff format the code'
 	@echo 'make examples    write what rules report now into their examples; CODES=... for some'
-	@echo 'make docs        write docs/rules and docs/api.md from the code'
+	@echo 'make docs        write the pages below docs/ that are made from the code'
 	@echo 'make benchmark   how fast the tool is, as ratios'
 	@echo 'make clean       remove what all of these have made'
 
@@ -81,6 +81,7 @@ examples: $(VENV)/rules.stamp
 docs: $(VENV)/rules.stamp
 	$(SCAFFOLD) rules --write-docs docs/rules
 	$(BIN)/python scripts/document_api.py
+	$(BIN)/python scripts/document_configuration.py
 
 # Packages to measure: as many as the argument of seq says.
 build/benchmark: $(VENV)/test.stamp

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression
+from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
     INTERNAL_RULES,
@@ -46,8 +47,14 @@ def _do_nothing() -> None:
 class Session:
     """Rules and a selection, ready to run over packages."""
 
-    def __init__(self, rules: Sequence[type[Rule]], selection: Selection) -> None:
+    def __init__(
+        self,
+        rules: Sequence[type[Rule]],
+        selection: Selection,
+        adjustments: Adjustments | None = None,
+    ) -> None:
         self.selection = selection
+        self.adjustments = adjustments or Adjustments()
         self._areas = {rule.code[:2] for rule in all_rules(rules)}
         wanted = [*rules, *AMENT_RULES]
         self._rules = [rule() for rule in wanted if selection.wants(rule.code)]
@@ -150,6 +157,8 @@ class Session:
             known = (earlier or {}).get(package.directory)
             if known is not None and path in known.verdict.style:
                 return False
+            if self.adjustments.excludes(package, path):
+                return False
             return paths is None or path in paths
 
         return StyleCheck(packages, is_wanted)
@@ -166,24 +175,23 @@ class Session:
         verdict = None
         if len(package.python_files) >= WORTH_PARTS:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
-        return Ruled(len(package.files), said, verdict)
+        count = sum(not self.adjustments.excludes(package, path) for path in package.files)
+        return Ruled(count, said, verdict)
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""
         # flake8 has its own code for a Python file that does not parse.
         reported = {d.location.path for d in diagnostics if d.code.startswith("E9")}
         unreadable = (UnparsableFile.code, FileTooLarge.code)
-        return sorted(
-            (
-                d
-                for d in _bounded([*dict.fromkeys(diagnostics)])
-                if not (d.code in unreadable and d.location.path in reported)
-                and (target.only is None or d.location.path in target.only)
-                and (d.code == RuleCrashed.code or self.selection.wants(d.code))
-                and self.selection.wants_at(d.code, d.location.path)
-            ),
-            key=lambda d: d.sort_key,
-        )
+        wanted = [
+            d
+            for d in _bounded([*dict.fromkeys(diagnostics)])
+            if not (d.code in unreadable and d.location.path in reported)
+            and (target.only is None or d.location.path in target.only)
+            and (d.code == RuleCrashed.code or self.selection.wants(d.code))
+            and self.selection.wants_at(d.code, d.location.path)
+        ]
+        return sorted(self.adjustments.apply(target.package, wanted), key=lambda d: d.sort_key)
 
 
 def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:

@@ -37,6 +37,7 @@ VERBS = {
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
     "smoke": "build packages, run their executables and observe them",
+    "config": "show the configuration and where each value comes from",
     "cache": "show or clean what runs remember",
     "trust": "let the configuration of a directory load rules and templates",
     "completion": "print the tab completion script of a shell",

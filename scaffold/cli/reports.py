@@ -65,9 +65,13 @@ def write(
     text = output.getvalue()
     if options.format == "github":
         _add_job_summary(results)
+    is_noted = options.format == "text" and path is None
+    for note in () if is_noted or shown.quiet else shown.notes:
+        terminal.say(note)
     if path is None:
         terminal.write_report(text)
-        return None if options.format == "github" else text
+        is_all = options.format != "github" and (is_noted or not shown.notes)
+        return text if is_all else None
     _write_file(path, text.encode("utf-8", "backslashreplace"))
     if not shown.quiet:
         terminal.say(f"{summary.summary(results, unsafe=shown.unsafe)}; the report is in {path}")

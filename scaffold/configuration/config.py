@@ -1,9 +1,9 @@
 """The configuration file, and where each value came from.
 
-``ros2-scaffold.toml`` is the project's: `check` looks for it where everything that it checks is,
-other verbs in the current directory, and both above that.
-``$XDG_CONFIG_HOME/ros2-scaffold/config.toml`` is the user's. A table ``[check]`` of the project
-wins over the user's key by key; flags win over both.
+``ros2-scaffold.toml``, or ``[tool.ros2-scaffold]`` in ``pyproject.toml``, is the project's: `check`
+looks for it where everything that it checks is, other verbs in the current directory, and both
+above that. ``$XDG_CONFIG_HOME/ros2-scaffold/config.toml`` is the user's. A table ``[check]`` of the
+project wins over the user's key by key; flags win over both. `keys` says what there is.
 
 The project's file is data of strangers. What is code, the content directories, it may name only if
 the user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
@@ -12,22 +12,27 @@ the user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from scaffold.configuration import trust
+from scaffold.configuration import keys, trust
 from scaffold.errors import ConfigError
 from scaffold.files import home
 from scaffold.files.disk import Disk
 from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"
+PYPROJECT_FILE = "pyproject.toml"
+PROJECT_FILES = (PROJECT_FILE, PYPROJECT_FILE)
+TOOL = "ros2-scaffold"
+"""The table of ``[tool]`` in ``pyproject.toml``."""
 MAX_BYTES = 100_000
 """Of a configuration file, which has some lines."""
+MAX_BYTES_OF_PYPROJECT = 1_000_000
+"""It may also hold what other tools need."""
 USER_FILE = "config.toml"
-
-_CHECK_KEYS = frozenset({"select", "ignore", "per-path-ignores"})
-_TABLES = ("check", "new")
+FLAG = "--content"
+"""Where a directory comes from that the user typed."""
 
 
 class Value(NamedTuple):
@@ -41,54 +46,43 @@ class Config(NamedTuple):
     """The merged tables: values by ``table.key``."""
 
     values: Mapping[str, Value]
-    content: tuple[str, ...] = ()
+    directories: tuple[Value, ...] = ()
     """Content directories, relative ones resolved against their file."""
     warnings: tuple[str, ...] = ()
     """What the project's files say and was ignored, a line each."""
 
+    @property
+    def content(self) -> tuple[str, ...]:
+        """The content directories alone."""
+        return tuple(directory.value for directory in self.directories)
+
+    def value(self, key: str) -> Any:  # noqa: ANN401  of any type in TOML
+        """Return a value of the type that `keys` gives it, by default its default."""
+        set_value = self.values.get(key)
+        if set_value is not None:
+            return set_value.value
+        return next(one.default for one in keys.KEYS if one.path == key)
+
     def strings(self, key: str) -> tuple[str, ...]:
-        """Return a list of strings, empty when not set.
-
-        Raises:
-            ConfigError: the value is something else.
-        """
-        found = self.values.get(key)
-        if found is None:
-            return ()
-        if not isinstance(found.value, list) or not all(isinstance(v, str) for v in found.value):
-            raise ConfigError(f"{found.origin}: {key} must be a list of strings")
-        return tuple(found.value)
-
-    def string(self, key: str) -> str | None:
-        """Return a string, ``None`` when not set.
-
-        Raises:
-            ConfigError: the value is something else.
-        """
-        found = self.values.get(key)
-        if found is not None and not isinstance(found.value, str):
-            raise ConfigError(f"{found.origin}: {key} must be a string")
-        return None if found is None else found.value
-
-    def per_path_ignores(self) -> dict[str, tuple[str, ...]]:
-        """Return code prefixes to ignore by path pattern.
-
-        Raises:
-            ConfigError: the table has another form.
-        """
-        found = self.values.get("check.per-path-ignores")
-        if found is None:
-            return {}
-        if not isinstance(found.value, dict) or not all(
-            isinstance(codes, list) and all(isinstance(code, str) for code in codes)
-            for codes in found.value.values()
-        ):
-            raise ConfigError(f"{found.origin}: per-path-ignores maps patterns to lists of codes")
-        return {pattern: tuple(codes) for pattern, codes in found.value.items()}
+        """Return a list of strings, empty when not set."""
+        return tuple(self.value(key))
 
     def origin(self, key: str) -> str:
         """Return the file that a value stands in."""
         return self.values[key].origin
+
+
+class _File(NamedTuple):
+    """A configuration file: its tables, without ``[tool.ros2-scaffold]`` around them."""
+
+    path: str
+    tables: Mapping[str, Any]
+    is_projects: bool
+
+    @property
+    def prefix(self) -> str:
+        """What is in front of the names of its tables."""
+        return f"tool.{TOOL}." if os.path.basename(self.path) == PYPROJECT_FILE else ""
 
 
 def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None) -> Config:
@@ -104,56 +98,78 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
         disk: Notes which files were looked for and what they hold.
 
     Raises:
-        ConfigError: a file cannot be read, is not TOML, or has an unknown key.
+        ConfigError: a file cannot be read, is not TOML, or has an unknown key or a wrong value.
     """
     disk = disk or Disk()
     values: dict[str, Value] = {}
-    directories: list[str] = []
+    directories: list[Value] = []
     warnings: list[str] = []
-    project = _project_file(disk, directory, warnings)
-    for path in filter(None, (user_file(disk), project)):
-        for table, entries in _read(disk, path).items():
+    for file in _files(disk, directory, warnings):
+        for table, entries in file.tables.items():
             if table == "content":
-                given = {disk.real(item) for item in content}
-                listed = _content(disk, entries, path)
-                named = [item for item in listed if disk.real(item) not in given]
-                refused = _refused(disk, path) if named and path == project else None
+                given = {disk.real(path) for path in content}
+                listed = _content(disk, entries, file.path)
+                named = [path for path in listed if disk.real(path) not in given]
+                refused = _refused(disk, file.path) if named and file.is_projects else None
                 warnings += [refused] if refused else []
-                directories += [] if refused else named
+                directories += [] if refused else [Value(path, file.path) for path in named]
                 continue
-            if not isinstance(entries, dict):
-                raise ConfigError(f"{path}: {table!r} is outside of a table such as [check]")
-            if table not in _TABLES:
-                raise ConfigError(f"{path}: unknown table [{table}]{_table_hint(table)}")
+            _validate(file, table, entries)
             for key, value in entries.items():
-                if table == "check" and key not in _CHECK_KEYS:
-                    hint = _nearest(key, sorted(_CHECK_KEYS))
-                    raise ConfigError(f"{path}: [check] has no key {key!r}; {hint}")
-                values[f"{table}.{key}"] = Value(value, path)
-    return Config(values, (*directories, *content), tuple(warnings))
+                values[f"{table}.{key}"] = Value(value, file.path)
+    flags = [Value(path, FLAG) for path in content]
+    return Config(values, (*directories, *flags), tuple(warnings))
+
+
+def _files(disk: Disk, directory: str, warnings: list[str]) -> Iterator[_File]:
+    user = user_file(disk)
+    if user is not None:
+        yield _File(user, _read(disk, user), is_projects=False)
+    project = _project_file(disk, directory, warnings)
+    if project is not None:
+        yield project
+
+
+def _validate(file: _File, table: str, entries: object) -> None:
+    """Raise if the configuration has no such table or key, or the value is of another type."""
+    if not isinstance(entries, dict):
+        raise ConfigError(
+            f"{file.path}: {table!r} is outside of a table such as [{file.prefix}check]"
+        )
+    if table not in keys.TABLES:
+        raise ConfigError(f"{file.path}: unknown table [{file.prefix}{table}]{_table_hint(table)}")
+    if table == keys.ANSWERS:
+        return
+    known = keys.of_table(table)
+    for name, value in entries.items():
+        if name not in known:
+            hint = keys.nearest(name, sorted(known))
+            raise ConfigError(f"{file.path}: [{file.prefix}{table}] has no key {name!r}; {hint}")
+        key = known[name]
+        wrong = key.kind.refuse(value)
+        if wrong:
+            raise ConfigError(f"{file.path}: {key.path} {wrong}")
+        if key.is_projects and not file.is_projects:
+            raise ConfigError(
+                f"{file.path}: {key.path} belongs in the file of a project: its paths are "
+                "relative to that file"
+            )
 
 
 def _table_hint(table: str) -> str:
     if table == "tool":
         return ": write [check] instead of [tool.ros2-scaffold.check]"
-    return f"; {_nearest(table, _TABLES)}"
-
-
-def _nearest(word: str, known: Sequence[str]) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(word, known, n=1)
-    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+    return f"; {keys.nearest(table, keys.TABLES)}"
 
 
 def named_content(directory: str) -> list[str]:
     """Return the content directories that the project's file in a directory names.
 
     Raises:
-        ConfigError: there is no such file, or it cannot be read.
+        ConfigError: the file cannot be used.
     """
-    path = os.path.join(directory, PROJECT_FILE)
-    return _content(Disk(), _read(Disk(), path).get("content", []), path)
+    file = file_in(Disk(), directory)
+    return [] if file is None else _content(Disk(), file.tables.get("content", []), file.path)
 
 
 def user_file(disk: Disk) -> str | None:
@@ -163,19 +179,78 @@ def user_file(disk: Disk) -> str | None:
     return path if path is not None and disk.is_file(path) else None
 
 
-def _project_file(disk: Disk, directory: str, warnings: list[str]) -> str | None:
+def _project_file(disk: Disk, directory: str, warnings: list[str]) -> _File | None:
     start = os.path.abspath(directory)
     for current in _upwards(start):
-        path = os.path.join(current, PROJECT_FILE)
-        if disk.is_file(path):
-            top = None if disk.is_own(path) else _top(disk, start)
-            if top is None or (_is_within(current, top) and not disk.is_shared(current)):
-                return path
-            warnings.append(
-                f"{path}: ignored: it is not in {top} and belongs to another user; copy it there "
-                "if it is yours to use"
-            )
+        path = _path_in(disk, current)
+        if path is None:
+            continue
+        top = None if disk.is_own(path) else _top(disk, start)
+        if top is None or (_is_within(current, top) and not disk.is_shared(current)):
+            file = file_in(disk, current)
+            if file is not None:
+                return file
+            continue
+        warnings.append(
+            f"{path}: ignored: it is not in {top} and belongs to another user; copy it there "
+            "if it is yours to use"
+        )
     return None
+
+
+def file_in(disk: Disk, directory: str) -> _File | None:
+    """Return the project's file in a directory, ``None`` without one.
+
+    Raises:
+        ConfigError: there are two, or it cannot be read.
+    """
+    path = _path_in(disk, directory)
+    if path is None:
+        return None
+    if os.path.basename(path) == PROJECT_FILE:
+        if _tool_table(disk, os.path.join(directory, PYPROJECT_FILE)) is not None:
+            raise ConfigError(
+                f"{directory}: both {PROJECT_FILE} and [tool.{TOOL}] in {PYPROJECT_FILE}; keep one"
+            )
+        return _File(path, _read(disk, path), is_projects=True)
+    table = _tool_table(disk, path)
+    return None if table is None else _File(path, table, is_projects=True)
+
+
+def _path_in(disk: Disk, directory: str) -> str | None:
+    """Return the path of what may be the project's file in a directory; it is not parsed."""
+    path = os.path.join(directory, PROJECT_FILE)
+    if disk.is_file(path):
+        return path
+    path = os.path.join(directory, PYPROJECT_FILE)
+    return path if _names_tool(disk, path) else None
+
+
+def _names_tool(disk: Disk, path: str) -> bool:
+    """Tell whether a ``pyproject.toml`` may have a table of ours; others need not be valid."""
+    import re
+
+    if not disk.is_file(path):
+        return False
+    try:
+        data = disk.read(path)
+    except OSError:
+        return False
+    return re.search(_TABLE_IN_PYPROJECT, data) is not None
+
+
+_TABLE_IN_PYPROJECT = (
+    rb"""(?m)^[ \t]*(?:\[[^\n]*|["']?tool["']?[ \t]*\.[ \t]*)?["']?ros2-scaffold["']?[ \t]*[].=]"""
+)
+
+
+def _tool_table(disk: Disk, path: str) -> Mapping[str, Any] | None:
+    if not _names_tool(disk, path):
+        return None
+    table = _read(disk, path, MAX_BYTES_OF_PYPROJECT).get("tool", {}).get(TOOL)
+    if table is not None and not isinstance(table, dict):
+        raise ConfigError(f"{path}: tool.{TOOL} must be a table")
+    return table
 
 
 def _top(disk: Disk, start: str) -> str:
@@ -213,7 +288,7 @@ def _refused(disk: Disk, path: str) -> str | None:
     )
 
 
-def _read(disk: Disk, path: str) -> dict[str, Any]:
+def _read(disk: Disk, path: str, most: int = MAX_BYTES) -> dict[str, Any]:
     import sys
 
     if sys.version_info >= (3, 11):
@@ -221,7 +296,7 @@ def _read(disk: Disk, path: str) -> dict[str, Any]:
     else:
         import tomli as tomllib
     try:
-        data = disk.read(path, MAX_BYTES).decode()
+        data = disk.read(path, most).decode()
     except OSError as error:
         raise ConfigError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:

@@ -30,6 +30,8 @@ class ReportOptions(NamedTuple):
     """Whether counts are shown instead of findings."""
     quiet: bool = False
     """Whether the summary is left out."""
+    notes: tuple[str, ...] = ()
+    """Lines above the summary: what is not in the report, and why."""
 
 
 class Reporter(Protocol):

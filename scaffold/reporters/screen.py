@@ -10,7 +10,7 @@ from typing import TextIO
 from rich.console import Console
 from rich.text import Text
 
-from scaffold.ament.use import linter_use
+from scaffold.check.adjustments import runs_linter
 from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
@@ -96,18 +96,13 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
             [
                 diagnostic
                 for diagnostic in result.diagnostics
-                if is_style(diagnostic) and (has_errors or not _runs(result, diagnostic))
+                if is_style(diagnostic)
+                and (has_errors or not runs_linter(result.package, diagnostic))
             ],
         )
         for result in results
     ]
     return _Folded([result for result in found if result.diagnostics])
-
-
-def _runs(result: Result, diagnostic: Diagnostic) -> bool:
-    """Tell whether a test of the package itself would report a style finding."""
-    linter = "pep257" if diagnostic.code.startswith("D") else "flake8"
-    return linter_use(result.package, linter).covers(diagnostic.location.path)
 
 
 def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
@@ -206,7 +201,8 @@ def _footer(results: Sequence[Result], folded: _Folded, options: ReportOptions) 
                 _fixable(style),
             )
         ]
-    return [*lines, Text(summary(results, unsafe=options.unsafe), style="bold")]
+    notes = [Text(printable(note)) for note in options.notes]
+    return [*lines, *notes, Text(summary(results, unsafe=options.unsafe), style="bold")]
 
 
 def _style_line(result: Result) -> Text:

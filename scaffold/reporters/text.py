@@ -36,6 +36,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
             if options.source:
                 out.writelines(f"    {text}\n" for text in excerpt(package, one.location))
     if not options.quiet:
+        out.writelines(f"{printable(note)}\n" for note in options.notes)
         out.write(summary(results, unsafe=options.unsafe) + "\n")
 
 

@@ -14,10 +14,7 @@ if TYPE_CHECKING:
     from scaffold.check.cache.runs import CacheEntry
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
-    from scaffold.check.rule import Rule
-    from scaffold.check.selection import Selection
     from scaffold.check.session import Session
-    from scaffold.configuration.config import Config
     from scaffold.files.disk import Disk
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
@@ -130,12 +127,13 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check.cache.results import ResultCache
     from scaffold.check.session import Session
     from scaffold.cli import reports, standard_input
+    from scaffold.cli.choices import Choices
     from scaffold.cli.interactive import progress
     from scaffold.cli.settings import warn
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
-    from scaffold.model.discovery import targets as discovery
 
+    options.notes = ()
     reports.validate(options)
     is_unsaved = standard_input.validate(options)
     disk = Disk()
@@ -143,11 +141,13 @@ def run(options: argparse.Namespace) -> int:
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
-    selection = _selection(options, settings, rules)
-    session = Session(rules, selection)
+    choices = Choices(settings, rules)
+    session = Session(
+        rules, choices.selection(options.select, options.ignore), choices.adjustments()
+    )
     if is_unsaved:
         return _check_unsaved(options, session, disk)
-    targets = discovery.find(options.paths, disk, whole_packages=options.whole_packages)
+    targets = _targets(options, session, disk)
     if options.fix or options.diff:
         return _fix(options, session, targets)
     if options.reference:
@@ -162,6 +162,32 @@ def run(options: argparse.Namespace) -> int:
     if slot is not None:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
+
+
+def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
+    """Find the packages; note for the report what the configuration leaves out."""
+    from scaffold.model.discovery import targets as discovery
+    from scaffold.reporters.summary import count
+
+    adjustments = session.adjustments
+    left_out: set[str] = set()
+    targets = discovery.find(
+        options.paths,
+        disk,
+        whole_packages=options.whole_packages,
+        exclusion=adjustments.exclusion,
+        left_out=left_out,
+    )
+    if adjustments.exclusion.patterns:
+        packages = sum(map(os.path.isdir, left_out))
+        files = len(left_out) - packages
+        for target in targets:
+            files += sum(adjustments.excludes(target.package, one) for one in target.package.files)
+        parts = [count(packages, "package")] if packages else []
+        parts += [count(files, "file")] if files or not packages else []
+        origin = adjustments.exclusion.origin
+        options.notes = (f"excluded by {os.path.relpath(origin)}: {', '.join(parts)}",)
+    return targets
 
 
 def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:
@@ -203,6 +229,7 @@ def _report_options(options: argparse.Namespace) -> ReportOptions:
         source=options.show_source,
         statistics=options.statistics,
         quiet=options.quiet,
+        notes=options.notes,
     )
 
 
@@ -232,12 +259,11 @@ def _write_fixes(
     from scaffold.cli import writing
     from scaffold.cli.interactive.progress import Bar
     from scaffold.errors import ScaffoldError
-    from scaffold.model.discovery import targets as discovery
 
     with ExitStack() as stack:
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
         if held.has_waited:  # what was found before may have changed
-            targets = discovery.find(options.paths, whole_packages=options.whole_packages)
+            targets = _targets(options, session, None)
         targets = [item for item in targets if item.package.root in held.roots]
         trees = [target.package.tree for target in targets]
         with Bar() as bar:
@@ -375,42 +401,6 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
         return INTERNAL_ERROR
     has_findings = any(item.severity is not Severity.INFO for item in found)
     return FINDINGS if has_findings and not is_zero else CLEAN
-
-
-def _selection(options: argparse.Namespace, settings: Config, rules: list[type[Rule]]) -> Selection:
-    from scaffold.check import selection
-
-    names: dict[str, str] = {}
-
-    def prefixes(words: Sequence[str], origin: str) -> tuple[str, ...]:
-        if words and not names:
-            names.update(_names(rules))
-        return selection.resolve(words, names, origin)
-
-    chosen: dict[str, tuple[str, ...]] = {}
-    for key in ("select", "ignore"):
-        words = selection.split(getattr(options, key))
-        origin = f"--{key}"
-        if not words and f"check.{key}" in settings.values:
-            words = selection.split(settings.strings(f"check.{key}"))
-            origin = f"{settings.origin(f'check.{key}')}: {key}"
-        chosen[key] = prefixes(words, origin)
-    per_path = {
-        pattern: prefixes(words, f"{settings.origin('check.per-path-ignores')}: {pattern!r}")
-        for pattern, words in settings.per_path_ignores().items()
-    }
-    return selection.Selection(chosen["select"], chosen["ignore"], per_path)
-
-
-def _names(rules: list[type[Rule]]) -> dict[str, str]:
-    """Return the names of everything that is reported, by code."""
-    from scaffold.ament.codes import CODES
-    from scaffold.check.session import all_rules
-
-    return {
-        **{code: style.name for code, style in CODES.items()},
-        **{rule.code: rule.name for rule in all_rules(rules)},
-    }
 
 
 def _directory(paths: Sequence[str], disk: Disk) -> str:

@@ -11,12 +11,12 @@ from scaffold.cli import terminal
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
     parser.description = (
-        "Let the ros2-scaffold.toml in a directory name rules and templates of its own: rules are "
-        "Python that every later run there executes. Trust is for this directory, not for those "
-        "below it, and lasts until it is removed."
+        "Let the configuration in a directory (ros2-scaffold.toml or pyproject.toml) name rules "
+        "and templates of its own: rules are Python that every later run there executes. Trust is "
+        "for this directory, not for those below it, and lasts until it is removed."
     )
     parser.add_argument(
-        "directory", nargs="?", metavar="DIR", help="the directory that has the ros2-scaffold.toml"
+        "directory", nargs="?", metavar="DIR", help="the directory that has the configuration"
     )
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--list", action="store_true", help="list the trusted directories")
@@ -44,10 +44,11 @@ def run(options: argparse.Namespace) -> int:
 
 def _add(directory: str) -> None:
     from scaffold.configuration import config, trust
+    from scaffold.files.disk import Disk
 
-    has_file = os.path.isfile(os.path.join(directory, config.PROJECT_FILE))
     # Before anything is trusted: the file may be broken.
-    names = config.named_content(os.path.realpath(directory)) if has_file else []
+    has_file = config.file_in(Disk(), os.path.realpath(directory)) is not None
+    names = config.named_content(os.path.realpath(directory))
     real = trust.add(directory)
     terminal.show(f"trusted: {real}")
     for name in names:

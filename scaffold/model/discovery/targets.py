@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
+from scaffold.configuration.exclusion import Exclusion
 from scaffold.errors import InputError
 from scaffold.files.disk import Disk
 from scaffold.files.tree import MANIFEST, DiskTree
@@ -44,6 +45,8 @@ def find(
     *,
     are_saved: bool = True,
     whole_packages: bool = False,
+    exclusion: Exclusion | None = None,
+    left_out: set[str] | None = None,
 ) -> list[Target]:
     """Return the packages at or below the paths, and those of single files and directories.
 
@@ -53,6 +56,8 @@ def find(
         are_saved: Whether files must be there; those of an editor may be new.
         whole_packages: A file stands for its package, if colcon finds that around or below the
             current directory; other files are skipped.
+        exclusion: Packages and files to leave out; other packages still see these packages.
+        left_out: Gets the packages that are left out, and the files of ``paths``.
 
     Raises:
         InputError: a path does not exist, or holds no package.
@@ -63,12 +68,20 @@ def find(
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
     whole: dict[str, Target] = {}
+    excluded: dict[str, Package] = {}
     for path in directories:
         for directory in _package_directories(disk, path):
-            package = Package.at(directory, workspace)
-            whole.setdefault(disk.real(directory), Target(package))
+            real = disk.real(directory)
+            if exclusion is not None and exclusion.covers(disk, directory):
+                excluded.setdefault(real, Package.at(directory, workspace, disk))
+            else:
+                whole.setdefault(real, Target(Package.at(directory, workspace)))
+    files = [path for path in paths if path not in directories]
+    excluded_files = {path for path in files if exclusion and exclusion.covers(disk, path)}
+    if left_out is not None:
+        left_out |= {*excluded, *excluded_files}
     partial, loose = _sort_files(
-        disk, [path for path in paths if path not in directories], are_saved=are_saved
+        disk, [path for path in files if path not in excluded_files], are_saved=are_saved
     )
     targets = list(whole.values())
     for root, names in partial.items():
@@ -77,8 +90,8 @@ def find(
     for directory, names in loose.items():
         package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
         targets.append(Target(package, frozenset(names)))
-    for target in targets:
-        workspace.add(target.package)
+    for package in (*(target.package for target in targets), *excluded.values()):
+        workspace.add(package)
     top = [disk.real(os.curdir)] if whole_packages else []
     workspace.around = _surroundings(disk, workspace, directories, top)
     return sorted(targets, key=lambda target: target.package.directory)

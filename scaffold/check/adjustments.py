@@ -1,0 +1,55 @@
+"""What the configuration makes of findings: other severities, and less style."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from scaffold.ament.codes import STYLE
+from scaffold.ament.use import linter_use
+from scaffold.check.engine_rules import RuleCrashed
+from scaffold.configuration.exclusion import Exclusion
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+
+
+class Adjustments(NamedTuple):
+    """Applied to all that is found, before anything is reported or fixed."""
+
+    severities: Mapping[str, Severity] = {}
+    """By beginnings of codes; the longest one decides."""
+    has_own_style_only: bool = False
+    """Whether style counts only where a test of the package itself would report it."""
+    exclusion: Exclusion = Exclusion()
+
+    def apply(self, package: Package, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+        """Yield what is to be reported of a package, with its severity."""
+        for one in found:
+            if self.excludes(package, one.location.path) and one.code != RuleCrashed.code:
+                continue
+            if self.has_own_style_only and one.code in STYLE and not runs_linter(package, one):
+                continue
+            severity = self._severity(one.code)
+            yield one if severity is None else one._replace(severity=severity)
+
+    def excludes(self, package: Package, path: str) -> bool:
+        """Tell whether a file of a package is left out."""
+        if not self.exclusion.patterns:
+            return False
+        place = package.remember(
+            "relative to the configuration",
+            lambda: self.exclusion.relative(package.outside, package.directory),
+        )
+        if place is None:
+            return False
+        return self.exclusion.covers_relative(f"{place}/{path}" if place else path)
+
+    def _severity(self, code: str) -> Severity | None:
+        fitting = [prefix for prefix in self.severities if code.startswith(prefix)]
+        return self.severities[max(fitting, key=len)] if fitting else None
+
+
+def runs_linter(package: Package, style: Diagnostic) -> bool:
+    """Tell whether a test of the package itself would report a style finding."""
+    linter = "pep257" if style.code.startswith("D") else "flake8"
+    return linter_use(package, linter).covers(style.location.path)

@@ -1,0 +1,98 @@
+"""What the configuration and the flags of `check` make of the rules."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from scaffold.check.adjustments import Adjustments
+    from scaffold.check.rule import Rule
+    from scaffold.check.selection import Selection
+    from scaffold.configuration.config import Config
+
+
+class Choices:
+    """Understands the words of the configuration and of flags as rules.
+
+    Args:
+        settings: The configuration.
+        rules: Those of content directories.
+    """
+
+    def __init__(self, settings: Config, rules: Sequence[type[Rule]]) -> None:
+        self._settings = settings
+        self._rules = rules
+        self._names: dict[str, str] = {}
+
+    def selection(
+        self, select: Sequence[str] | None = None, ignore: Sequence[str] | None = None
+    ) -> Selection:
+        """Return which codes are asked for.
+
+        Args:
+            select: The values of the flag; they win over the configuration.
+            ignore: Likewise.
+
+        Raises:
+            ConfigError: a word means no rule.
+        """
+        from scaffold.check.selection import Selection, split
+
+        chosen: dict[str, tuple[str, ...]] = {}
+        for name, flag in (("select", select), ("ignore", ignore)):
+            words, origin = split(flag), f"--{name}"
+            key = f"check.{name}"
+            if not words and key in self._settings.values:
+                words, origin = split(self._settings.strings(key)), self._origin(key)
+            chosen[name] = self._prefixes(words, origin)
+        key = "check.per-path-ignores"
+        per_path = {
+            pattern: self._prefixes(words, f"{self._settings.origin(key)}: {pattern!r}")
+            for pattern, words in self._settings.value(key).items()
+        }
+        return Selection(chosen["select"], chosen["ignore"], per_path)
+
+    def adjustments(self) -> Adjustments:
+        """Return what else the configuration makes of findings.
+
+        Raises:
+            ConfigError: a word means no rule.
+        """
+        from scaffold.check.adjustments import Adjustments
+        from scaffold.configuration.exclusion import Exclusion
+        from scaffold.diagnostic import Severity
+
+        key = "check.severity"
+        severities = {
+            prefix: Severity(severity)
+            for word, severity in self._settings.value(key).items()
+            for prefix in self._prefixes([word], self._origin(key))
+        }
+        key = "check.exclude"
+        patterns = self._settings.strings(key)
+        exclusion = Exclusion(patterns, self._settings.origin(key)) if patterns else Exclusion()
+        is_own = self._settings.value("check.style") == "own"
+        return Adjustments(severities, is_own, exclusion)
+
+    def _origin(self, key: str) -> str:
+        return f"{self._settings.origin(key)}: {key.partition('.')[2]}"
+
+    def _prefixes(self, words: Sequence[str], origin: str) -> tuple[str, ...]:
+        from scaffold.check import selection
+
+        if words and not self._names:
+            self._names = _names(self._rules)
+        return selection.resolve(words, self._names, origin)
+
+
+def _names(rules: Sequence[type[Rule]]) -> dict[str, str]:
+    """Return the names of everything that is reported, by code."""
+    from scaffold.ament.codes import CODES
+    from scaffold.check.session import all_rules
+
+    return {
+        **{code: style.name for code, style in CODES.items()},
+        **{rule.code: rule.name for rule in all_rules(rules)},
+    }

@@ -1,0 +1,57 @@
+"""What `exclude` leaves out of a check, by patterns of paths relative to the configuration."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
+
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.files.disk import Disk
+
+
+class Exclusion(NamedTuple):
+    """Patterns, and where they count from."""
+
+    patterns: tuple[str, ...] = ()
+    origin: str = ""
+    """The file that they are in."""
+
+    def covers(self, disk: Disk, path: str) -> bool:
+        """Tell whether a path, or a directory above it, is left out.
+
+        Args:
+            disk: Notes what was looked at.
+            path: As the user wrote it.
+        """
+        relative = self.relative(disk, path)
+        return relative is not None and self.covers_relative(relative)
+
+    def relative(self, disk: Disk, path: str) -> str | None:
+        """Return a path relative to the directory of the configuration; ``None`` outside of it."""
+        if not self.patterns:
+            return None
+        base = os.path.join(disk.real(os.path.dirname(self.origin)), "")
+        real = disk.real(path)
+        if os.path.join(real, "") == base:
+            return ""
+        return real[len(base) :] if real.startswith(base) else None
+
+    def covers_relative(self, path: str) -> bool:
+        """Tell the same of a path relative to the directory of the configuration."""
+        return any(
+            fnmatchcase(above, pattern) for above in _upwards(path) for pattern in self._normal
+        )
+
+    @property
+    def _normal(self) -> list[str]:
+        return [pattern.removeprefix("./").rstrip("/") for pattern in self.patterns]
+
+
+def _upwards(path: str) -> Iterator[str]:
+    while path:
+        yield path
+        path = path.rpartition("/")[0]

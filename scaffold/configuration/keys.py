@@ -1,0 +1,215 @@
+"""Every key of the configuration: its type, its default and its documentation, in one table.
+
+What is refused, the table in docs/configuration.md, the JSON schema and `ros2-scaffold config` all
+come from here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from scaffold.record import NamedTuple
+
+SEVERITIES = ("error", "warning", "info")
+STYLES = ("all", "own")
+
+
+class Kind(NamedTuple):
+    """What a value may be."""
+
+    noun: str
+    """With its article."""
+    refuse: Callable[[Any], str]
+    """Returns what is wrong with a value, after its key; empty if nothing is."""
+    schema: dict[str, Any]
+    """The same as JSON schema."""
+
+
+class Key(NamedTuple):
+    """A key of the configuration."""
+
+    table: str
+    """Empty for the top level."""
+    name: str
+    kind: Kind
+    default: Any
+    summary: str
+    """Markdown, for the documentation and the schema."""
+    is_projects: bool = False
+    """Whether only the file of a project may have it: its paths are relative to that file."""
+
+    @property
+    def path(self) -> str:
+        """``table.name``, as `ros2-scaffold config` shows it."""
+        return f"{self.table}.{self.name}" if self.table else self.name
+
+
+def _must_be(noun: str) -> str:
+    return f"must be {noun}"
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str) and "\0" not in value
+
+
+def _is_list_of_strings(value: object) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+def _refuse_strings(value: Any) -> str:  # noqa: ANN401  of any type in TOML
+    return "" if _is_list_of_strings(value) else _must_be(_STRINGS_NOUN)
+
+
+def _refuse_directories(value: Any) -> str:  # noqa: ANN401  likewise
+    is_valid = _is_list_of_strings(value) and all(value)
+    return "" if is_valid else _must_be(_DIRECTORIES_NOUN)
+
+
+def _refuse_patterns(value: Any) -> str:  # noqa: ANN401  likewise
+    if not _is_list_of_strings(value):
+        return _must_be(_STRINGS_NOUN)
+    for pattern in value:
+        if pattern.startswith("/") or ".." in pattern.split("/") or not pattern.strip("./"):
+            return f"has {pattern!r}: a pattern is a path below the directory of this file"
+    return ""
+
+
+def _refuse_lists_by_pattern(value: Any) -> str:  # noqa: ANN401  likewise
+    is_valid = isinstance(value, dict) and all(map(_is_list_of_strings, value.values()))
+    return "" if is_valid else _must_be(_LISTS_BY_PATTERN_NOUN)
+
+
+def _refuse_severities(value: Any) -> str:  # noqa: ANN401  likewise
+    if not isinstance(value, dict):
+        return _must_be(_SEVERITIES_NOUN)
+    for rule, severity in value.items():
+        if severity not in SEVERITIES:
+            hint = nearest(severity, SEVERITIES)
+            return f"has {severity!r} for {rule!r}, which is no severity; {hint}"
+    return ""
+
+
+def _refuse_style(value: Any) -> str:  # noqa: ANN401  likewise
+    if value in STYLES:
+        return ""
+    return f"has {value!r}, which is no choice; {nearest(value, STYLES)}"
+
+
+_STRINGS_NOUN = "a list of strings"
+_DIRECTORIES_NOUN = "a list of directories"
+_LISTS_BY_PATTERN_NOUN = "a table of patterns with lists of strings"
+_SEVERITIES_NOUN = "a table of rules with severities"
+_STRINGS = {"type": "array", "items": {"type": "string"}}
+
+STRINGS = Kind(_STRINGS_NOUN, _refuse_strings, _STRINGS)
+DIRECTORIES = Kind(
+    _DIRECTORIES_NOUN,
+    _refuse_directories,
+    {"type": "array", "items": {"type": "string", "minLength": 1}},
+)
+PATTERNS = Kind("a list of patterns", _refuse_patterns, _STRINGS)
+LISTS_BY_PATTERN = Kind(
+    _LISTS_BY_PATTERN_NOUN,
+    _refuse_lists_by_pattern,
+    {"type": "object", "additionalProperties": _STRINGS},
+)
+SEVERITIES_BY_RULE = Kind(
+    _SEVERITIES_NOUN,
+    _refuse_severities,
+    {"type": "object", "additionalProperties": {"enum": [*SEVERITIES]}},
+)
+STYLE = Kind('`"all"` or `"own"`', _refuse_style, {"enum": [*STYLES]})
+
+KEYS = (
+    Key(
+        "",
+        "content",
+        DIRECTORIES,
+        [],
+        "Directories with `rules/` and `templates/` of your own, relative to the file. They are "
+        "code: in a project's file they count only if you trust its directory.",
+    ),
+    Key("check", "select", STRINGS, [], "Report these rules only; empty for all."),
+    Key("check", "ignore", STRINGS, [], "Do not report these rules."),
+    Key(
+        "check",
+        "per-path-ignores",
+        LISTS_BY_PATTERN,
+        {},
+        "Do not report these rules in files whose path in their package matches.",
+    ),
+    Key(
+        "check",
+        "severity",
+        SEVERITIES_BY_RULE,
+        {},
+        "Report these rules as `error`, `warning` or `info`; of two beginnings of a code the "
+        "longer one decides.",
+    ),
+    Key(
+        "check",
+        "exclude",
+        PATTERNS,
+        [],
+        "Leave out the packages and files whose path, or a directory above, matches; relative to "
+        "the file.",
+        is_projects=True,
+    ),
+    Key(
+        "check",
+        "style",
+        STYLE,
+        "all",
+        "`own` reports style and docstrings only in files on which the tests of their package run "
+        "that linter.",
+    ),
+)
+"""In the order of the documentation."""
+
+ANSWERS = "new"
+"""The table with answers to questions: which keys it may have, the templates say."""
+ANSWERS_SUMMARY = "Answers to the questions of `new` and `add`, by their names."
+TABLES = (*dict.fromkeys(key.table for key in KEYS if key.table), ANSWERS)
+
+
+def of_table(table: str) -> dict[str, Key]:
+    """Return the keys of a table by name; of the top level for an empty name."""
+    return {key.name: key for key in KEYS if key.table == table}
+
+
+def nearest(word: object, known: Sequence[str]) -> str:
+    """Return a hint: the known word nearest to a wrong one, or all known ones."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(str(word), known, n=1)
+    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of ``ros2-scaffold.toml``."""
+
+    def properties(table: str) -> dict[str, Any]:
+        return {
+            name: {"description": key.summary, "default": key.default, **key.kind.schema}
+            for name, key in of_table(table).items()
+        }
+
+    tables = {
+        table: {
+            "type": "object",
+            "additionalProperties": False,
+            "properties": properties(table),
+        }
+        for table in TABLES
+        if table != ANSWERS
+    }
+    answers = {"type": "object", "description": ANSWERS_SUMMARY}
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "ros2-scaffold.toml",
+        "description": "Configuration of ros2-scaffold",
+        "type": "object",
+        "additionalProperties": False,
+        "properties": {**properties(""), **tables, ANSWERS: answers},
+    }

@@ -1,0 +1,298 @@
+"""The configuration of a project: where it is found, what it may say, and what comes of it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from scaffold.cli.main import main
+from scaffold.configuration import config, keys
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+ROOT = Path(__file__).parents[2]
+FLAWED = "import os\nx = 1;\n"
+
+
+@pytest.fixture(scope="module")
+def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a directory with two generated packages."""
+    top = tmp_path_factory.mktemp("generated")
+    for name in ("talker", "listener"):
+        assert main(["new", name, "--destination-directory", str(top)]) == 0
+    return top
+
+
+@pytest.fixture
+def workspace(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the current directory, with two packages without findings."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    top = tmp_path / "workspace"
+    shutil.copytree(generated, top)
+    monkeypatch.chdir(top)
+    return top
+
+
+def check(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
+    capsys.readouterr()
+    code = main(["check", *words])
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    return code, captured.out
+
+
+def depend_on(package: Path, name: str) -> None:
+    manifest = package / "package.xml"
+    dependency = f"  <exec_depend>{name}</exec_depend>\n  <test_depend"
+    manifest.write_text(manifest.read_text().replace("  <test_depend", dependency, 1))
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    capsys.readouterr()
+    assert main([*(words or ("check",))]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    return line
+
+
+def test_pyproject_configures_like_a_file_of_its_own(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
+    assert check(capsys, "talker")[0] == 1
+    (workspace / "pyproject.toml").write_text('[tool.ros2-scaffold.check]\nselect = ["CM"]\n')
+    assert check(capsys, "talker") == (0, "1 package, 12 files: no findings\n")
+    (workspace / "talker" / "pyproject.toml").write_text("[tool.black]\nline-length = 99\n")
+    assert check(capsys, "talker")[0] == 0, "a pyproject.toml without the table does not count"
+    (workspace / "talker" / "ros2-scaffold.toml").write_text('[check]\nselect = ["F"]\n')
+    assert check(capsys, "talker")[0] == 1, "the nearest one counts"
+
+
+def test_two_files_in_a_directory_are_refused(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "pyproject.toml").write_text("[tool.ros2-scaffold]\n")
+    (workspace / "ros2-scaffold.toml").write_text("")
+    assert f"{workspace}: both ros2-scaffold.toml and [tool.ros2-scaffold] in " in refused(capsys)
+
+
+def test_a_pyproject_of_others_need_not_be_valid(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "pyproject.toml").write_text("this is not TOML")
+    assert check(capsys)[0] == 0
+    (workspace / "pyproject.toml").write_text('[project.scripts]\nros2-scaffold = "a:b"\n')
+    (workspace.parent / "ros2-scaffold.toml").write_text("[check\n")
+    assert "invalid TOML" in refused(capsys), "the search goes on above it"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[checks]\n", "unknown table [tool.ros2-scaffold.checks]; did you mean 'check'?"),
+        ("[check]\nexlude = []\n", "[tool.ros2-scaffold.check] has no key 'exlude'; did you mean"),
+        ("[check]\nexclude = 'a'\n", "check.exclude must be a list of strings"),
+        ("[check]\nexclude = ['../a']\n", "check.exclude has '../a': a pattern is a path below"),
+        ("[check]\nexclude = ['/a']\n", "check.exclude has '/a': a pattern is a path below"),
+        (
+            "[check]\nstyle = 'onw'\n",
+            "check.style has 'onw', which is no choice; did you mean 'own'?",
+        ),
+        ("[check]\nstyle = ['own']\n", "check.style has ['own'], which is no choice; "),
+        (
+            "[check]\nseverity = 'error'\n",
+            "check.severity must be a table of rules with severities",
+        ),
+        (
+            "[check.severity]\nPX020 = 'warn'\n",
+            "check.severity has 'warn' for 'PX020', which is no severity; did you mean 'warning'?",
+        ),
+        ("[check.severity]\nPX020 = 1\n", "check.severity has 1 for 'PX020', which is no severity"),
+        ("[check.severity]\nPX999 = 'info'\n", "severity: no rule has the code 'PX999'; did you "),
+    ],
+)
+def test_mistakes_are_refused_in_one_line(
+    workspace: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
+) -> None:
+    path = workspace / "pyproject.toml"
+    path.write_text(text.replace("[check", "[tool.ros2-scaffold.check"))
+    for words in (("check",), ("config",)):
+        line = refused(capsys, *words)
+        assert line.startswith(f"ros2-scaffold: error: {path}: ")
+        assert message in line
+    if "PX999" not in text:
+        assert message in refused(capsys, "rules"), "every verb reads the configuration"
+
+
+def test_the_file_of_the_user_excludes_nothing(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = workspace.parent / "config" / "ros2-scaffold" / "config.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text('[check]\nexclude = ["talker"]\n')
+    assert "check.exclude belongs in the file of a project" in refused(capsys)
+
+
+def test_severity_decides_the_exit_code(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "talker" / "talker" / "extra.py").write_text("import numpy\n\nnumpy.zeros(1)\n")
+    words = ("--select", "PX020", "--format", "json")
+    configuration = workspace / "ros2-scaffold.toml"
+    for text, severity, code in (
+        ("", "error", 1),
+        ('PX020 = "warning"\n', "warning", 1),
+        ('import-undeclared = "info"\n', "info", 0),
+        ('PX = "info"\nPX02 = "warning"\n', "warning", 1),
+    ):
+        configuration.write_text(f"[check.severity]\n{text}")
+        for _ in range(2):  # the second one is remembered
+            got, output = check(capsys, *words)
+            (finding,) = json.loads(output)["diagnostics"]
+            assert (finding["severity"], got) == (severity, code)
+
+
+def test_excluded_packages_and_files_are_left_out_and_counted(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("talker", "listener"):
+        (workspace / name / name / "extra.py").write_text(FLAWED)
+    depend_on(workspace / "listener", "talker")
+    shutil.move(workspace / "talker", workspace / "third_party" / "talker")
+    configuration = workspace / "ros2-scaffold.toml"
+    words = ("--select", "F,PX")
+    configuration.write_text('[check]\nexclude = ["third_party/*"]\n')
+    code, output = check(capsys, *words)
+    *findings, note, summary = output.splitlines()
+    assert code == 1
+    assert [line.split()[0] for line in findings] == ["listener/listener/extra.py:1:1:"]
+    assert note == "excluded by ros2-scaffold.toml: 1 package"
+    assert summary.startswith("1 package, 12 files: ")
+    configuration.write_text('[check]\nexclude = ["./third_party/", "listener/*/extra.py"]\n')
+    for _ in range(2):
+        assert check(capsys, *words) == (
+            0,
+            "excluded by ros2-scaffold.toml: 1 package, 1 file\n1 package, 11 files: no findings\n",
+        )
+    code, output = check(capsys, *words, "third_party/talker", "listener/listener/extra.py")
+    assert (code, output.splitlines()[0]) == (
+        0,
+        "excluded by ros2-scaffold.toml: 1 package, 1 file",
+    )
+    assert main(["check", "--fix", *words]) == 0
+    assert (workspace / "listener" / "listener" / "extra.py").read_text() == FLAWED
+
+
+def test_a_change_in_an_excluded_package_is_seen(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    depend_on(workspace / "listener", "talker")
+    (workspace / "ros2-scaffold.toml").write_text('[check]\nexclude = ["talker"]\n')
+    before = check(capsys)
+    depend_on(workspace / "talker", "listener")
+    after = check(capsys)
+    shutil.rmtree(workspace.parent / "cache")
+    assert check(capsys) == after
+    assert (before[0], after[0]) == (0, 1), "the two depend on each other now"
+
+
+def test_own_style_is_that_of_the_linters_that_the_package_runs(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
+    (workspace / "ros2-scaffold.toml").write_text('[check]\nstyle = "own"\n')
+    runs_linters = check(capsys, "talker")
+    assert "F401" in runs_linters[1]
+    cmake = workspace / "talker" / "CMakeLists.txt"
+    manifest = workspace / "talker" / "package.xml"
+    for path, word in ((cmake, "ament_lint_auto"), (manifest, "ament_lint_")):
+        lines = path.read_text().splitlines(keepends=True)
+        path.write_text("".join(line for line in lines if word not in line))
+    assert "F401" not in check(capsys, "talker")[1]
+    (workspace / "ros2-scaffold.toml").unlink()
+    assert "F401" in check(capsys, "talker")[1]
+
+
+def test_config_shows_each_value_and_its_file(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    user = workspace.parent / "config" / "ros2-scaffold" / "config.toml"
+    user.parent.mkdir(parents=True)
+    user.write_text('content = ["own"]\n[check]\nselect = ["CM"]\nignore = ["PX"]\n')
+    (user.parent / "own" / "rules").mkdir(parents=True)
+    project = workspace / "talker" / "pyproject.toml"
+    project.write_text(
+        '[tool.ros2-scaffold.check]\nselect = ["F"]\n'
+        '[tool.ros2-scaffold.check.severity]\nF401 = "info"\n[tool.ros2-scaffold.new]\nrate = 2.5\n'
+    )
+    capsys.readouterr()
+    assert main(["config", "talker/package.xml", "--format", "json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [(row["key"], row["value"], row["origin"]) for row in rows] == [
+        ("content", [str(user.parent / "own")], str(user)),
+        ("check.select", ["F"], str(project)),
+        ("check.ignore", ["PX"], str(user)),
+        ("check.per-path-ignores", {}, None),
+        ("check.severity", {"F401": "info"}, str(project)),
+        ("check.exclude", [], None),
+        ("check.style", "all", None),
+        ("new.rate", 2.5, str(project)),
+    ]
+    assert main(["config", "talker"]) == 0
+    shown = capsys.readouterr().out.splitlines()
+    assert [line.rpartition("  # ")[2] for line in shown] == [
+        row["origin"] or "default" for row in rows
+    ]
+    assert shown[4].startswith('check.severity = { "F401" = "info" }  ')
+    assert "nowhere: no such file or directory" in refused(capsys, "config", "nowhere")
+
+
+def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
+    shutil.copy(ROOT / "docs" / "configuration.md", tmp_path)
+    script = ROOT / "scripts" / "document_configuration.py"
+    subprocess.run([sys.executable, str(script), str(tmp_path)], check=True, cwd=ROOT)
+    for name in ("configuration.md", "ros2-scaffold.schema.json"):
+        assert (ROOT / "docs" / name).read_text() == (tmp_path / name).read_text(), "`make docs`"
+    assert all(f"`{key.path}`" in (tmp_path / "configuration.md").read_text() for key in keys.KEYS)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_valid"),
+    [
+        (
+            (ROOT / "docs" / "configuration.md").read_text().split("```")[1].removeprefix("toml\n"),
+            True,
+        ),
+        ("", True),
+        ("[checks]\n", False),
+        ("[check]\nstyle = 'onw'\n", False),
+        ("[check]\nselect = 'PX'\n", False),
+        ("[check]\nexlude = []\n", False),
+        ("[check.severity]\nPX020 = 'warn'\n", False),
+        ("[check.per-path-ignores]\na = 'PX'\n", False),
+        ("content = ['']\n", False),
+        ("contnet = []\n", False),
+    ],
+)
+def test_the_schema_agrees_with_the_tool(
+    workspace: Path, capsys: pytest.CaptureFixture[str], text: str, *, is_valid: bool
+) -> None:
+    (workspace / "ros2-scaffold.toml").write_text(text)
+    validator = jsonschema.Draft7Validator(keys.schema())
+    jsonschema.Draft7Validator.check_schema(keys.schema())
+    assert validator.is_valid(tomllib.loads(text)) is is_valid
+    assert main(["config"]) == (0 if is_valid else 2)
+    capsys.readouterr()
+
+
+def test_a_value_that_is_not_set_is_the_default() -> None:
+    assert config.Config({}).value("check.style") == "all"
