@@ -13,6 +13,8 @@ from scaffold.cli.main import main
 
 pexpect = pytest.importorskip("pexpect")
 
+SIZES = ("COLUMNS", "LINES")
+"""Variables that are believed more than the terminal."""
 _NODE = '''"""A node."""
 
 import rclpy
@@ -56,6 +58,7 @@ def check(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, lis
 
 def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int, list[str]]:
     """Return the exit code and the lines that a terminal shows."""
+    variables = {name: value for name, value in os.environ.items() if name not in SIZES}
     command = os.path.join(os.path.dirname(sys.executable), "ros2-scaffold")
     child = pexpect.spawn(
         "/bin/sh",  # the progress bar, for which a slow machine has time, goes elsewhere
@@ -64,7 +67,7 @@ def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int,
         dimensions=(lines, 120),
         encoding="utf-8",
         timeout=300,
-        env={**os.environ, "TERM": "xterm-256color"},
+        env={**variables, "TERM": "xterm-256color"},
     )
     shown = child.read()
     child.close()
