@@ -72,7 +72,7 @@ def write(
         terminal.write_report(text)
         is_all = options.format != "github" and (is_noted or not shown.notes)
         return text if is_all else None
-    _write_file(path, text.encode("utf-8", "backslashreplace"))
+    write_file(path, text.encode("utf-8", "backslashreplace"), "--output-file")
     if not shown.quiet:
         terminal.say(f"{summary.summary(results, unsafe=shown.unsafe)}; the report is in {path}")
     return None
@@ -113,8 +113,13 @@ def _add_job_summary(results: Sequence[Result]) -> None:
         terminal.warn(f"the summary of the job is not written: {path}: {error.strerror}")
 
 
-def _write_file(path: str, content: bytes) -> None:
+def write_file(path: str, content: bytes, flag: str) -> None:
     """Write aside and rename, so that nobody reads half a report; but straight to a device.
+
+    Args:
+        path: The file.
+        content: What is written.
+        flag: What names the file, for messages.
 
     Raises:
         InputError: the system refuses.
@@ -137,4 +142,4 @@ def _write_file(path: str, content: bytes) -> None:
                 os.unlink(aside)
             raise
     except OSError as error:
-        raise InputError(f"--output-file {path}: {error.strerror or error}") from error
+        raise InputError(f"{flag} {path}: {error.strerror or error}") from error

@@ -7,6 +7,7 @@ from collections import Counter
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
+from scaffold.ament.codes import STYLE
 from scaffold.reporters.paths import in_repository
 from scaffold.source import ViewError
 
@@ -18,14 +19,17 @@ _BLOCK = 100
 """Characters that a line's hash covers, without spaces and tabs, from the start of the line."""
 _FACTOR = 37
 _END_OF_FILE = "\uffff"
+_STYLE_OF_FILES = frozenset({"D100", "D104"})
+"""Codes about a whole file, which any line may begin; other style codes may be about line 1."""
 _NUMBERS = re.compile(r"\d+")
 
 
 class Fingerprints:
     """Gives each finding of a report a fingerprint that no other one has.
 
-    It depends on the file, the code, the text of the line, and the message without its numbers:
-    these may be those of other lines. Findings that agree in all of it are counted.
+    It depends on the file, the code, the text of the line unless the finding is about the whole
+    file, and the message without its numbers: these may be those of other lines. Findings that
+    agree in all of it are counted.
     """
 
     def __init__(self) -> None:
@@ -35,7 +39,9 @@ class Fingerprints:
         """Return the fingerprint of the next finding."""
         at = diagnostic.location
         lines = _text(package, at.path).split("\n")
-        line = lines[at.line - 1].strip() if at.line <= len(lines) else ""
+        is_of_file = diagnostic.code not in STYLE or diagnostic.code in _STYLE_OF_FILES
+        is_of_file &= (at.line, at.column, at.end_line, at.end_column) == (1, 1, 1, 1)
+        line = lines[at.line - 1].strip() if at.line <= len(lines) and not is_of_file else ""
         message = _NUMBERS.sub("", diagnostic.message)
         key = (in_repository(package, at.path), diagnostic.code, line, message)
         self._counts[key] += 1

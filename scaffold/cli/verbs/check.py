@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import flags, terminal
+from scaffold.cli import baselines, flags, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -70,6 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="check and fix the whole packages of single files, and skip files of no package",
     )
     _add_report_arguments(parser)
+    baselines.add_arguments(parser)
     parser.add_argument(
         "--stdin-filename",
         metavar="FILE",
@@ -137,6 +138,7 @@ def run(options: argparse.Namespace) -> int:
     reports.validate(options)
     is_unsaved = standard_input.validate(options)
     disk = Disk()
+    baselines.validate(options, disk)
     directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
@@ -154,11 +156,15 @@ def run(options: argparse.Namespace) -> int:
         return _reference(targets)
     is_unfinished = _note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
-    slot = None if settings.content or is_unfinished else _slot(options, targets)
+    is_forgotten = settings.content or is_unfinished or options.write_baseline
+    slot = None if is_forgotten else _slot(options, targets)
     memory = ResultCache(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
-    output = reports.write(options, results, _report_options(options))
-    code = exit_code(results, is_zero=options.exit_zero)
+    if options.write_baseline:
+        return baselines.write(options, results)
+    reported = baselines.hide(options, results, targets, session)
+    output = reports.write(options, reported, _report_options(options))
+    code = exit_code(reported, is_zero=options.exit_zero)
     if slot is not None:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
@@ -197,9 +203,10 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     target = standard_input.read(options.stdin_filename, disk)
     if options.fix:
         result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
+        (result,) = baselines.hide(options, [result], [target], session)
         terminal.write_error(reports.text([result], _report_options(options)))
     else:
-        (result,) = session.run_batch([target])
+        (result,) = baselines.hide(options, session.run_batch([target]), [target], session)
         reports.write(options, [result], _report_options(options))
     return exit_code([result], is_zero=options.exit_zero)
 
@@ -237,11 +244,15 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     """Fix, or show what would be fixed; report what remains."""
     from scaffold.check.result import Result
     from scaffold.cli.exit_codes import USAGE_ERROR
+    from scaffold.model.discovery.targets import Target
 
     written, has_failed = _write_fixes(options, session, targets)
     for one in written:
         _note_links(one)
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
+    limits = {target.package.directory: target.only for target in targets}
+    checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
+    results = baselines.hide(options, results, checked, session)
     code = _report_fixes(options, results, written)
     return USAGE_ERROR if has_failed else code
 

@@ -1,0 +1,91 @@
+"""``check --baseline`` and ``check --write-baseline``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
+from scaffold.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+    from scaffold.check.result import Result
+    from scaffold.check.session import Session
+    from scaffold.files.disk import Disk
+    from scaffold.model.discovery.targets import Target
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags."""
+    group = parser.add_argument_group("findings that are accepted")
+    group.add_argument(
+        "--write-baseline",
+        metavar="FILE",
+        help="write all findings into a file instead of reporting them",
+    )
+    group.add_argument(
+        "--baseline",
+        metavar="FILE",
+        help="report only findings that this file does not have; only these count for the exit "
+        "code, and --fix fixes the others as well",
+    )
+
+
+def validate(options: argparse.Namespace, disk: Disk) -> None:
+    """Refuse flags that do not go together, and read the baseline before the work is done.
+
+    Args:
+        options: The flags of `check`; get the entries.
+        disk: Notes what the baseline holds.
+
+    Raises:
+        InputError: flags contradict each other, or there is no such baseline.
+    """
+    from scaffold.reporters import baseline
+
+    options.accepted = None
+    if options.write_baseline is not None:
+        for flag in ("baseline", "fix", "diff", "reference", "stdin_filename", "output_file"):
+            if getattr(options, flag):
+                name = flag.replace("_", "-")
+                raise InputError(f"--write-baseline writes all findings: leave out --{name}")
+    elif options.baseline is not None:
+        options.accepted = baseline.read(options.baseline, disk)
+
+
+def write(options: argparse.Namespace, results: Sequence[Result]) -> int:
+    """Write the baseline; return the exit code.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    from scaffold.check.engine_rules import RuleCrashed
+    from scaffold.cli import reports
+    from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
+    from scaffold.reporters import baseline
+    from scaffold.reporters.summary import count
+
+    path = options.write_baseline
+    reports.write_file(path, baseline.text(results).encode("utf-8", "replace"), "--write-baseline")
+    diagnostics = [item for result in results for item in result.diagnostics]
+    crashes = sum(item.code == RuleCrashed.code for item in diagnostics)
+    terminal.show(f"{count(len(diagnostics) - crashes, 'finding')} written to {path}")
+    return INTERNAL_ERROR if crashes else CLEAN
+
+
+def hide(
+    options: argparse.Namespace,
+    results: Sequence[Result],
+    targets: Sequence[Target],
+    session: Session,
+) -> list[Result]:
+    """Return results without what the baseline has; note for the report how many that are."""
+    from scaffold.reporters import baseline
+
+    if options.accepted is None:
+        return [*results]
+    kept, note = baseline.hide(options.accepted, results, targets, session, options.baseline)
+    options.notes += (note,)
+    return kept

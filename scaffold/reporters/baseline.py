@@ -1,0 +1,149 @@
+"""A baseline: findings that a project has accepted, so that only new ones are reported.
+
+A file in JSON with an entry for each finding, sorted, one per line: git merges what two branches
+add. An entry holds no line number, so it fits after the lines around it have moved.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Iterator, Sequence
+
+from scaffold.check.engine_rules import RuleCrashed
+from scaffold.check.result import Result
+from scaffold.check.session import Session
+from scaffold.errors import InputError
+from scaffold.files.disk import Disk
+from scaffold.model.discovery.targets import Target
+from scaffold.record import NamedTuple
+from scaffold.reporters.fingerprints import Fingerprints
+from scaffold.reporters.paths import in_repository
+from scaffold.reporters.summary import count
+
+VERSION = 1
+_HOW = "write it with `check --write-baseline`"
+
+
+class Entry(NamedTuple):
+    """A finding that is accepted."""
+
+    path: str
+    code: str
+    message: str
+    fingerprint: str
+
+
+class Filtered(NamedTuple):
+    """Results without what a baseline has, and what is to be said of it."""
+
+    results: list[Result]
+    note: str
+
+
+def text(results: Sequence[Result]) -> str:
+    """Return the baseline of what a run found."""
+    lines = [json.dumps(entry._asdict(), ensure_ascii=False) for entry in sorted(_entries(results))]
+    body = ",\n".join(lines)
+    return f'{{"version": {VERSION}, "findings": [\n{body}\n]}}\n'
+
+
+def _entries(results: Sequence[Result]) -> Iterator[Entry]:
+    fingerprints = Fingerprints()
+    for result in results:
+        for one in result.diagnostics:
+            if one.code != RuleCrashed.code:
+                path = in_repository(result.package, one.location.path)
+                fingerprint = fingerprints.of(result.package, one)
+                yield Entry(path, one.code, one.message, fingerprint)
+
+
+def read(path: str, disk: Disk) -> list[Entry]:
+    """Return the entries of a baseline.
+
+    Args:
+        path: The file.
+        disk: Notes what it holds, so that no remembered result outlives a change of it.
+
+    Raises:
+        InputError: there is no such file, or it is no baseline.
+    """
+    try:
+        data = json.loads(disk.read(path))
+        return [Entry(**entry) for entry in _findings(data)]
+    except OSError as error:
+        raise InputError(f"--baseline {path}: {error.strerror}; {_HOW}") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"--baseline {path}: not a baseline: {error}; {_HOW}") from error
+
+
+def _findings(data: object) -> list[dict[str, str]]:
+    """Return the entries of a file; raise ValueError if it has another form."""
+    version = data.get("version") if isinstance(data, dict) else None
+    if not isinstance(data, dict) or version != VERSION:
+        raise ValueError(f"version is {version!r} instead of {VERSION}")
+    findings = data.get("findings")
+    if not isinstance(findings, list):
+        raise ValueError("'findings' is no list")  # noqa: TRY004  `read` names the file for all
+    for at, entry in enumerate(findings, 1):
+        is_entry = isinstance(entry, dict) and {*entry} == {*Entry._fields}
+        if not is_entry or not all(isinstance(value, str) for value in entry.values()):
+            raise ValueError(f"entry {at} is not one of {', '.join(Entry._fields)}")
+    return findings
+
+
+def hide(
+    entries: Collection[Entry],
+    results: Sequence[Result],
+    targets: Sequence[Target],
+    session: Session,
+    name: str,
+) -> Filtered:
+    """Take out of results what a baseline has.
+
+    Args:
+        entries: The baseline.
+        results: What was found.
+        targets: What was checked, in the same order.
+        session: What checked it: entries of codes that it does not report are not missed.
+        name: The baseline, for people.
+    """
+    known = {entry.fingerprint for entry in entries}
+    seen: set[str] = set()
+    fingerprints = Fingerprints()
+    kept: list[Result] = []
+    hidden = 0
+    for result in results:
+        new = []
+        for one in result.diagnostics:
+            fingerprint = fingerprints.of(result.package, one)
+            if fingerprint in known and one.code != RuleCrashed.code:
+                hidden += 1
+                seen.add(fingerprint)
+            else:
+                new.append(one)
+        kept.append(Result(result.package, result.files, new, result.verdict))
+    covered = _covered(targets)
+    gone = sum(
+        entry.fingerprint not in seen
+        and session.selection.wants(entry.code)
+        and entry.path.startswith(covered)
+        for entry in {*entries}
+    )
+    note = f"baseline {name}: {count(hidden, 'finding')} hidden"
+    if gone:
+        verb = "occurs" if gone == 1 else "occur"
+        noun = "entry" if gone == 1 else "entries"
+        note += f", {gone:,} {noun} no longer {verb}"
+    return Filtered(kept, note)
+
+
+def _covered(targets: Sequence[Target]) -> tuple[str, ...]:
+    """Return how the paths of entries begin that concern what was checked."""
+    found: list[str] = []
+    for package, only in targets:
+        if only is not None:
+            found += [in_repository(package, path) for path in only]
+        else:
+            place = in_repository(package, ".")
+            found.append("" if place == "." else f"{place}/")
+    return tuple(found)
