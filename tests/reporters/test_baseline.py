@@ -59,8 +59,8 @@ def test_only_what_is_new_is_reported(talker: Path, capsys: pytest.CaptureFixtur
     extra.write_text(f"{FLAWS}\n\ndef more(a):\n    x = 1;\n    return a\n")
     code, lines = check(capsys, *known, "--select", "F841,E703")
     assert [line.split(": ")[0] for line in lines[:-2]] == [
-        "talker/talker/extra.py:11:5",
-        "talker/talker/extra.py:11:10",
+        "talker/talker/extra.py:10:5",
+        "talker/talker/extra.py:10:10",
     ], "the same fault once more is new"
 
 
