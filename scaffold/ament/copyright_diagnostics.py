@@ -1,4 +1,4 @@
-"""What is wrong with notices, licence headers and repository files: codes and messages."""
+"""What is wrong with notices, license headers and repository files: codes and messages."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def _reason(text: str) -> str:
     if "SPDX-License-Identifier" in text:
         return "an SPDX line below the notice is not the header of a license"
     start = " ".join(text.split()[:5])
-    return f'"{start} …" begins the header of no licence that is known'
+    return f'"{start} …" begins the header of no license that is known'
 
 
 def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
@@ -105,5 +105,5 @@ def _wrong(package: Package, name: str) -> str:
     if not data:
         return f"{name} is empty"
     if identify_file(name, data) is None:
-        return f"{name} is not, word for word, the text that goes with a known licence"
+        return f"{name} is not, word for word, the text that goes with a known license"
     return ""

@@ -22,7 +22,7 @@ _SHORT = 5
 _SHORTEST = 3
 _MOST_HINTS = 3
 
-_RULES = frozenset({"dependency-misspelt", "dependency-of-ros1", "dependency-unresolvable"})
+_RULES = frozenset({"dependency-misspelled", "dependency-of-ros1", "dependency-unresolvable"})
 """What the checker says of names; it does not see the workspace that a package is made for."""
 
 

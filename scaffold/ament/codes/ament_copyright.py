@@ -19,7 +19,7 @@ ROWS = (
 or skips it as ``ros2 pkg create`` writes it, this is one piece of advice for the package.
 
 **Fix.** Begin each C, C++, CMake and Python file with a line such as
-``# Copyright 2026 Example Robotics`` and the header of the licence. No automatic fix: the
+``# Copyright 2026 Example Robotics`` and the header of the license. No automatic fix: the
 tool does not know who holds the copyright.
 
 **Source.** ``ament_copyright/main.py``; ROS 2 developer guide, "Licensing".
@@ -27,13 +27,13 @@ tool does not know who holds the copyright.
     ),
     AmentCode(
         "LY021",
-        "licence-header-unknown",
+        "license-header-unknown",
         "The text after the copyright notice of a source file is not a known license header",
         COPYRIGHT,
         Severity.ERROR,
         other_severities={Severity.INFO: "no test of the package runs ament_copyright on the file"},
         message=(
-            '"Use of this source code …" begins the header of no licence that '
+            '"Use of this source code …" begins the header of no license that '
             "is known: ament_copyright fails"
         ),
         documentation="""\
@@ -41,7 +41,7 @@ tool does not know who holds the copyright.
 no ``SPDX-License-Identifier`` lines. Where the package does not run it, this is one piece of
 advice for the package.
 
-**Fix.** Use the header of the licence as it was published; ``ament_copyright --list-licenses``
+**Fix.** Use the header of the license as it was published; ``ament_copyright --list-licenses``
 shows which are known.
 
 **Source.** ``ament_copyright/parser.py``; ament/ament_lint#462.

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
-HEADER_RULES = frozenset({"copyright-notice-missing", "licence-header-unknown"})
+HEADER_RULES = frozenset({"copyright-notice-missing", "license-header-unknown"})
 """What the checker finds in files without a header; where the license is not known that is so."""
 
 

@@ -487,17 +487,17 @@ def test_without_a_holder_there_is_no_header(
     assert notice(demo) == ["Ada"]
 
 
-@pytest.mark.parametrize("licence", ["TODO: License declaration", "TODO", "Your License"])
+@pytest.mark.parametrize("license", ["TODO: License declaration", "TODO", "Your License"])
 def test_an_undecided_licence_gives_no_header(
-    licence: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    license: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    manifest = PYTHON["package.xml"].replace("Apache License 2.0", licence)
+    manifest = PYTHON["package.xml"].replace("Apache License 2.0", license)
     own = {"demo/hello.py": LINTER_TEST.replace("Open Source Robotics Foundation, Inc.", "Acme")}
     demo = write(tmp_path / "demo", {**PYTHON, **OF_OTHERS, **own, "package.xml": manifest})
     assert add(demo, "publisher", "talker") == 0
     assert notice(demo) == []
     assert "Licensed" not in (demo / "demo" / "talker.py").read_text()
-    assert f"the license of demo is {licence!r}" in capsys.readouterr().err
+    assert f"the license of demo is {license!r}" in capsys.readouterr().err
 
 
 def test_without_any_licence_there_is_no_header(
@@ -639,7 +639,7 @@ def test_what_was_found_before_may_name_what_is_new(
     assert add(demo, "publisher", "talker") == 0
     assert "SP001" not in capsys.readouterr().err
     main(["check", str(demo)])
-    assert "there is no demo/hallo.py; demo/talker.py is near" in capsys.readouterr().out
+    assert "there is no demo/hallo.py; closest: demo/talker.py" in capsys.readouterr().out
 
 
 def test_a_node_name_that_is_taken_is_said(
