@@ -117,7 +117,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
             Report(
                 "a/talker.py:1:3",
-                '"Use of this source code …" begins the header of no licence that '
+                '"Use of this source code …" begins the header of no license that '
                 "is known: ament_copyright fails",
             ),
         ),
@@ -185,7 +185,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CONTRIBUTING.md:1:1",
                 "CONTRIBUTING.md is not, word for word, the text that goes with a "
-                "known licence: ament_copyright fails",
+                "known license: ament_copyright fails",
             ),
         ),
     ),

@@ -487,11 +487,11 @@ def test_without_a_holder_there_is_no_header(
     assert notice(demo) == ["Ada"]
 
 
-@pytest.mark.parametrize("license", ["TODO: License declaration", "TODO", "Your License"])
+@pytest.mark.parametrize("license_", ["TODO: License declaration", "TODO", "Your License"])
 def test_an_undecided_licence_gives_no_header(
-    license: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    license_: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    manifest = PYTHON["package.xml"].replace("Apache License 2.0", license)
+    manifest = PYTHON["package.xml"].replace("Apache License 2.0", license_)
     own = {"demo/hello.py": LINTER_TEST.replace("Open Source Robotics Foundation, Inc.", "Acme")}
     demo = write(tmp_path / "demo", {**PYTHON, **OF_OTHERS, **own, "package.xml": manifest})
     assert add(demo, "publisher", "talker") == 0
