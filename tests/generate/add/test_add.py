@@ -497,7 +497,7 @@ def test_an_undecided_licence_gives_no_header(
     assert add(demo, "publisher", "talker") == 0
     assert notice(demo) == []
     assert "Licensed" not in (demo / "demo" / "talker.py").read_text()
-    assert f"the license of demo is {license!r}" in capsys.readouterr().err
+    assert f"the license of demo is {license_!r}" in capsys.readouterr().err
 
 
 def test_without_any_licence_there_is_no_header(
