@@ -67,8 +67,8 @@ class PrivateTopicDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         sent, awaited = one_sided(package)
-        for facts in rclpy_files(package):
-            for private in (*facts.publishers, *facts.subscriptions):
+        for file in rclpy_files(package):
+            for private in (*file.publishers, *file.subscriptions):
                 if not is_private(private) or is_remapped(package, private):
                     continue
                 is_sent = isinstance(private, Publisher)

@@ -38,8 +38,8 @@ class NameWithDoubleUnderscore(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for entity in facts.endpoints:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.endpoints:
             argument = entity.name_argument
             name = entity.name
             if argument is None or not isinstance(name, str) or topic_problem(name):

@@ -42,10 +42,10 @@ class NodeNameInvalid(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node in facts.nodes:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.nodes:
             at = node.node_name_location
-            if isinstance(node.node_name, str) and at.path == facts.module.path:
+            if isinstance(node.node_name, str) and at.path == file.module.path:
                 problem = node_problem(node.node_name)
                 if problem:
                     message = f"ROS 2 refuses the node name {node.node_name!r}: {problem}"

@@ -62,15 +62,15 @@ class TopicNameInvalid(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for entity in facts.endpoints:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.endpoints:
             argument = entity.name_argument
             if argument is None or not isinstance(entity.name, str):
                 continue
             # An empty default is there to be replaced.
             if entity.from_parameter and _has_gap(entity.name):
                 continue
-            if not entity.name and is_guarded_by(facts.module, entity.call, argument.node):
+            if not entity.name and is_guarded_by(file.module, entity.call, argument.node):
                 continue
             problem = topic_problem(entity.name)
             if problem:

@@ -116,16 +116,16 @@ class ActionTypeWrong(MessageRule):
                     yield self.report(types.module.location(call.args[0]), message)
 
 
-def _problem(facts: RclpyFile, node: ast.expr, name: str) -> str:
+def _problem(file: RclpyFile, node: ast.expr, name: str) -> str:
     """Return the message for a wrong first or second argument of an action server."""
-    full = facts.module.qualified_name(node) or ""
+    full = file.module.qualified_name(node) or ""
     if name == "node":
         kind = full.rpartition(".")[2]
-        is_type = re.fullmatch(_WHOLE, full) and facts.interface(node) is not None
+        is_type = re.fullmatch(_WHOLE, full) and file.interface(node) is not None
         return f"'{kind}' is not a node; pass the node first, then the type" if is_type else ""
     if re.fullmatch(_WHOLE + r"\.(Goal|Result|Feedback)", full):
         return f"this is only a part of an action; pass {full.split('.')[2]}"
-    if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and facts.interface(node):
+    if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and file.interface(node):
         return f"{full.rpartition('.')[2]!r} is not an action type"
     return ""
 

@@ -76,30 +76,30 @@ class ArgumentMissing(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            needed = _needed(facts, call)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            needed = _needed(file, call)
             if not needed or any(isinstance(argument, ast.Starred) for argument in call.args):
                 continue
             words = {word.arg for word in call.keywords}
             missing = [key for key in needed[len(call.args) :] if key not in words]
             if None in words or not missing or set(missing) <= _LEFT_TO_ND010:
                 continue
-            name = facts.module.text(call.func).rpartition(".")[2]
+            name = file.module.text(call.func).rpartition(".")[2]
             message = f"{name}() is missing {', '.join(map(repr, missing))}: TypeError"
-            yield self.report(facts.module.location(call), message)
+            yield self.report(file.module.location(call), message)
 
 
-def _needed(facts: RclpyFile, call: ast.Call) -> tuple[str, ...]:
+def _needed(file: RclpyFile, call: ast.Call) -> tuple[str, ...]:
     """Return the required parameters of the called function."""
     func = call.func
-    name = facts.module.qualified_name(func) or ""
+    name = file.module.qualified_name(func) or ""
     if name in _FUNCTIONS or not isinstance(func, ast.Attribute):
         return _FUNCTIONS.get(name, ())
-    owner = facts.owner_of(func.value) if func.attr in _OF_NODE else None
+    owner = file.owner_of(func.value) if func.attr in _OF_NODE else None
     if owner is not None:
         is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
         return () if is_own or owner.is_lifecycle else _OF_NODE[func.attr]
     if any(func.attr == method for _, method in _OF_OBJECTS):
-        return _OF_OBJECTS.get((class_of(facts, func.value) or "", func.attr), ())
+        return _OF_OBJECTS.get((class_of(file, func.value) or "", func.attr), ())
     return ()

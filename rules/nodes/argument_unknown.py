@@ -87,10 +87,10 @@ class ArgumentUnknown(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for excess in excess_arguments(facts):
-            fix = _fix(facts, excess)
-            yield self.report(facts.module.location(excess.node), _message(excess), fix)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for excess in excess_arguments(file):
+            fix = _fix(file, excess)
+            yield self.report(file.module.location(excess.node), _message(excess), fix)
 
 
 def _message(excess: Excess) -> str:
@@ -108,23 +108,23 @@ def _message(excess: Excess) -> str:
     return f"{excess.function}() takes {most} positional argument{plural}: TypeError{hint}"
 
 
-def _fix(facts: RclpyFile, excess: Excess) -> Fix | None:
+def _fix(file: RclpyFile, excess: Excess) -> Fix | None:
     """Return the fix that names an argument, where the name is obvious."""
     if excess.keyword or excess.node is not excess.call.args[-1]:
         return None
     name = ""
-    if excess.function == "rclpy.init" and _is_command_line(facts, excess.node):
+    if excess.function == "rclpy.init" and _is_command_line(file, excess.node):
         name = "args"
     elif excess.function == "rclpy.spin_once":
-        value = facts.evaluator.evaluate(excess.node)
+        value = file.evaluator.evaluate(excess.node)
         name = "timeout_sec" if type(value) in {int, float} else ""
     if not name or any(word.arg in {name, None} for word in excess.call.keywords):
         return None
-    start, _ = facts.module.span(excess.node)
-    return Fix(f"pass it as {name}=", (Edit(facts.module.path, start, start, f"{name}="),))
+    start, _ = file.module.span(excess.node)
+    return Fix(f"pass it as {name}=", (Edit(file.module.path, start, start, f"{name}="),))
 
 
-def _is_command_line(facts: RclpyFile, node: ast.expr) -> bool:
+def _is_command_line(file: RclpyFile, node: ast.expr) -> bool:
     if isinstance(node, ast.Name) and node.id in {"args", "argv"}:
         return True
-    return facts.module.qualified_name(node) == "sys.argv"
+    return file.module.qualified_name(node) == "sys.argv"

@@ -92,26 +92,26 @@ class ArgumentUnusable(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for entity in facts.entities:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.entities:
             for argument in entity.arguments.values():
-                problem = _problem(facts, entity, argument)
+                problem = _problem(file, entity, argument)
                 if problem:
                     yield self.report(argument, problem)
 
 
-def _problem(facts: RclpyFile, entity: Entity, argument: Argument) -> str:
+def _problem(file: RclpyFile, entity: Entity, argument: Argument) -> str:
     name, node, value = argument.name, argument.node, argument.value
     problem = ""
     if isinstance(entity, Parameter):
         return _default_problem(value) if name == "value" else ""
     if isinstance(entity, Endpoint) and name in _TYPES and isinstance(node, ast.Call):
-        is_made = facts.interface(node.func) is not None
+        is_made = file.interface(node.func) is not None
         problem = (
             "this is an instance, not the message type; remove the parentheses" if is_made else ""
         )
     elif isinstance(entity, Service | Client) and name == "srv_type":
-        problem = _service_problem(facts, node)
+        problem = _service_problem(file, node)
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
         problem = f"the name must be a str, but this is {kind_of(value)}: TypeError"
     elif name in _CALLBACKS and isinstance(value, str):
@@ -119,15 +119,15 @@ def _problem(facts: RclpyFile, entity: Entity, argument: Argument) -> str:
     elif name == "callback_group" and isinstance(value, str):
         problem = "the callback group must be a CallbackGroup, but this is a str: AttributeError"
     elif name == "callback_group":
-        full = facts.module.qualified_name(node) or ""
+        full = file.module.qualified_name(node) or ""
         is_class = full.startswith("rclpy.callback_groups.")
         problem = "this is a class, not a callback group; instantiate it" if is_class else ""
     return problem
 
 
-def _service_problem(facts: RclpyFile, node: ast.expr) -> str:
+def _service_problem(file: RclpyFile, node: ast.expr) -> str:
     """Return the message for a type that is not a service."""
-    full = facts.module.qualified_name(node) or ""
+    full = file.module.qualified_name(node) or ""
     if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
         return f"this is only a part of a service: RuntimeError; pass {full.split('.')[2]}"
     if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):

@@ -52,25 +52,25 @@ class ArgumentsSwapped(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for entity in facts.entities:
-            wanted = self._wanted(facts, entity)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.entities:
+            wanted = self._wanted(file, entity)
             if wanted:
                 first, second = entity.call.args[:2]
-                path = facts.module.path
+                path = file.module.path
                 edits = (
-                    Edit(path, *facts.module.span(first), facts.module.text(second)),
-                    Edit(path, *facts.module.span(second), facts.module.text(first)),
+                    Edit(path, *file.module.span(first), file.module.text(second)),
+                    Edit(path, *file.module.span(second), file.module.text(first)),
                 )
-                at = facts.module.location(first)
+                at = file.module.location(first)
                 yield self.report(at, wanted, Fix("swap the arguments", edits))
 
-    def _wanted(self, facts: RclpyFile, entity: Entity) -> str | None:
+    def _wanted(self, file: RclpyFile, entity: Entity) -> str | None:
         """Return the message if the first two arguments are certainly swapped."""
         if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
             return None
         first, second = entity.call.args[:2]
-        evaluate = facts.evaluator.evaluate
+        evaluate = file.evaluator.evaluate
         if isinstance(entity, Timer):
             is_callable = isinstance(first, ast.Lambda | ast.Attribute) and not isinstance(
                 evaluate(first), int | float
@@ -80,7 +80,7 @@ class ArgumentsSwapped(RclpyRule):
         elif (
             isinstance(entity, Endpoint)
             and isinstance(evaluate(first), str)
-            and facts.interface(second) is not None
+            and file.interface(second) is not None
         ):
             return f"swapped arguments: the type comes first, then the name {evaluate(first)!r}"
         return None

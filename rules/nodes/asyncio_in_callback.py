@@ -47,19 +47,19 @@ class AsyncioInCallback(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        functions = {id(callback.function) for _, callback in facts.callbacks}
-        if "asyncio.run" in facts.module.source.text or "run_until" in facts.module.source.text:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        functions = {id(callback.function) for _, callback in file.callbacks}
+        if "asyncio.run" in file.module.source.text or "run_until" in file.module.source.text:
             return
-        for node in facts.module.walk(ast.Await):
-            function = facts.module.enclosing_function(node)
+        for node in file.module.walk(ast.Await):
+            function = file.module.enclosing_function(node)
             if id(function) not in functions or not isinstance(node.value, ast.Call):
                 continue
-            name = facts.module.qualified_name(node.value.func)
+            name = file.module.qualified_name(node.value.func)
             # sleep(0) only yields, which works in any event loop.
             waits = ast.unparse(node.value) != "asyncio.sleep(0)"
             if name in AWAITED and waits:
                 message = (
                     f"{name}() needs an asyncio event loop, which rclpy does not run: RuntimeError"
                 )
-                yield self.report(facts.module.location(node), message)
+                yield self.report(file.module.location(node), message)

@@ -62,15 +62,15 @@ class AttributeOfNodeReplaced(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node in facts.classes:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
             for target in _targets(node):
-                at = facts.module.location(target)
+                at = file.module.location(target)
                 message = f"{target.attr!r} is an attribute of rclpy's Node; choose another name"
                 yield self.report(at, message)
             for name, method in node.methods.items():
                 if _breaks(name, method):
-                    at = facts.module.name_location(method)
+                    at = file.module.name_location(method)
                     message = (
                         f"{name!r} overrides an attribute of rclpy's Node; choose another name"
                     )

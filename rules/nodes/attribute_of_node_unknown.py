@@ -80,9 +80,9 @@ class AttributeOfNodeUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         bases, given = names_of_bases(package), given_from_outside(package)
-        for facts in rclpy_files(package):
-            used = used_by_classes(facts) if facts.classes else {}
-            for node in facts.classes:
+        for file in rclpy_files(package):
+            used = used_by_classes(file) if file.classes else {}
+            for node in file.classes:
                 if node.node in used and node.name not in bases and is_read_in_full(node):
                     yield from self._check(package, node, given, used[node.node])
 
@@ -112,10 +112,10 @@ def _near(package: Package, name: str, names: set[str]) -> str:
     return closest_name(package, name, [x for x in names if not x.startswith(hidden)], 0.7)
 
 
-def _may_fail(facts: RclpyFile, node: ast.Attribute) -> bool:
+def _may_fail(file: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether the code handles a missing attribute."""
-    if is_handled(facts.module, node, "AttributeError"):
+    if is_handled(file.module, node, "AttributeError"):
         return True
-    return f"'{node.attr}'" in facts.module.source.text or (
-        f'"{node.attr}"' in facts.module.source.text
+    return f"'{node.attr}'" in file.module.source.text or (
+        f'"{node.attr}"' in file.module.source.text
     )

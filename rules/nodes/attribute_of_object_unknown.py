@@ -49,21 +49,21 @@ class AttributeOfObjectUnknown(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
-        for node in facts.module.walk(ast.Attribute):
+        for node in file.module.walk(ast.Attribute):
             if isinstance(node.ctx, ast.Load):
-                yield from self._check(facts, node)
+                yield from self._check(file, node)
 
-    def _check(self, facts: RclpyFile, node: ast.Attribute) -> Iterator[Diagnostic]:
-        owner = class_of(facts, node.value)
-        if owner is None or has(owner, node.attr) or facts.evaluator.stores(node.attr):
+    def _check(self, file: RclpyFile, node: ast.Attribute) -> Iterator[Diagnostic]:
+        owner = class_of(file, node.value)
+        if owner is None or has(owner, node.attr) or file.evaluator.stores(node.attr):
             return
-        if is_handled(facts.module, node, "AttributeError"):
+        if is_handled(file.module, node, "AttributeError"):
             return
         known = [name.removesuffix("()") for name in known_names()[owner] if name[0] != "_"]
         near = _ELSEWHERE.get(node.attr) or next(iter(get_close_matches(node.attr, known, 1)), "")
         hint = f"; did you mean {near!r}?" if near else ""
         message = f"rclpy's {owner.rpartition('.')[2]} has no {node.attr!r}: AttributeError{hint}"
-        yield self.report(facts.module.location(node), message)
+        yield self.report(file.module.location(node), message)

@@ -41,47 +41,47 @@ class AttributeUsedBeforeSet(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node in facts.classes:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
             if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
                 continue
-            for used, line in _used_early(facts, node):
+            for used, line in _used_early(file, node):
                 message = (
                     f"self.{used.attr} is used before it is set in line {line}: AttributeError"
                 )
-                yield self.report(facts.module.location(used), message)
+                yield self.report(file.module.location(used), message)
 
 
-def _used_early(facts: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
+def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
     """Yield the first use of each attribute that is set only in later lines."""
-    bound = facts.module.index.bindings(node.node)
+    bound = file.module.index.bindings(node.node)
     reported: set[str] = set()
     first_lines: dict[str, int] = {}
     if node.constructor is None:
         return
-    for used in facts.module.below(node.constructor, ast.Attribute):
+    for used in file.module.below(node.constructor, ast.Attribute):
         if not isinstance(used.ctx, ast.Load):
             continue
         if used.attr in reported or used.attr in bound or has(NODE, used.attr):
             continue
-        if facts.evaluator.self_class(used.value) is not node.node:
+        if file.evaluator.self_class(used.value) is not node.node:
             continue
         if used.attr not in first_lines:
-            first_lines[used.attr] = _first_line(facts, node, used.attr)
+            first_lines[used.attr] = _first_line(file, node, used.attr)
         line = first_lines[used.attr]
-        if used.lineno >= line or facts.function_of(used) is not node.constructor:
+        if used.lineno >= line or file.function_of(used) is not node.constructor:
             continue
         in_loop = any(
-            isinstance(parent, ast.For | ast.While) for parent in facts.module.parents(used)
+            isinstance(parent, ast.For | ast.While) for parent in file.module.parents(used)
         )
-        if not in_loop and not is_handled(facts.module, used, "AttributeError"):
+        if not in_loop and not is_handled(file.module, used, "AttributeError"):
             reported.add(used.attr)
             yield used, line
 
 
-def _first_line(facts: RclpyFile, node: NodeClass, name: str) -> int:
+def _first_line(file: RclpyFile, node: NodeClass, name: str) -> int:
     """Return the first line that sets an attribute; 0 unless only the constructor sets it."""
-    stores = facts.evaluator.stores(name)
-    if {facts.function_of(store.node) for store in stores} != {node.constructor}:
+    stores = file.evaluator.stores(name)
+    if {file.function_of(store.node) for store in stores} != {node.constructor}:
         return 0
     return min(store.node.lineno for store in stores)

@@ -88,33 +88,33 @@ class CallInCallback(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if has_more_threads(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if has_more_threads(file):
             return
         seen: set[ast.AST] = set()
-        for executed in (*in_callbacks(facts), *in_constructors(facts)):
-            for node, what in _waits(facts, executed.function):
+        for executed in (*in_callbacks(file), *in_constructors(file)):
+            for node, what in _waits(file, executed.function):
                 if node not in seen:
                     seen.add(node)
                     message = (
                         f"{what} in {executed.origin}: deadlock, no response is processed meanwhile"
                     )
-                    yield self.report(facts.module.location(node), message)
+                    yield self.report(file.module.location(node), message)
 
 
-def _waits(facts: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
-    for node in facts.module.below(function, ast.Call, ast.While):
+def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
+    for node in file.module.below(function, ast.Call, ast.While):
         match node:
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
                 class_, what = _BLOCKING[method]
-                if class_of(facts, asked) == class_:
+                if class_of(file, asked) == class_:
                     yield node, f"waits for {what}"
             case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
-                if isinstance(func, ast.Attribute) and _loops_until_done(facts, func, node):
+                if isinstance(func, ast.Attribute) and _loops_until_done(file, func, node):
                     yield node, "busy-waits for a future"
 
 
-def _loops_until_done(facts: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:
+def _loops_until_done(file: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:
     if func.attr != "done" or "spin" in ast.unparse(loop):
         return False
-    return class_of(facts, func.value) == "rclpy.task.Future"
+    return class_of(file, func.value) == "rclpy.task.Future"

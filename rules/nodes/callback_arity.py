@@ -109,8 +109,8 @@ class CallbackArity(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for given, callback in _given_callbacks(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for given, callback in _given_callbacks(file):
             takes = numbers_taken(callback)
             if takes is None or any(n in takes for n in given[0]):
                 continue
@@ -125,17 +125,17 @@ def _shown(callback: Callback) -> str:
     return f"callback {callback.name!r}" if callback.name else "this callback"
 
 
-def _given_callbacks(facts: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
+def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
     """Yield the callbacks of a file, each with the arguments it gets."""
-    for entity, callback in facts.callbacks:
+    for entity, callback in file.callbacks:
         given = _given(entity)
         if given is not None:
             yield given, callback
-    for attribute in facts.module.index.attributes("add_done_callback"):
-        match facts.module.parent(attribute):
+    for attribute in file.module.index.attributes("add_done_callback"):
+        match file.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
-                if class_of(facts, attribute.value) == "rclpy.task.Future":
-                    yield ((1,), "a future passes itself: TypeError"), facts.callback(passed)
+                if class_of(file, attribute.value) == "rclpy.task.Future":
+                    yield ((1,), "a future passes itself: TypeError"), file.callback(passed)
 
 
 def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:

@@ -94,40 +94,40 @@ class CallbackBlocks(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        yield from self._check_server_waits(facts)
-        if has_more_threads(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_server_waits(file)
+        if has_more_threads(file):
             return
-        for function, origin in in_callbacks(facts):
-            for call in facts.calls_in(function):
-                name = _blocking(facts, call)
+        for function, origin in in_callbacks(file):
+            for call in file.calls_in(function):
+                name = _blocking(file, call)
                 if name:
                     message = f"{name} blocks {origin}, and with it all other callbacks of the node"
-                    yield self.report(facts.module.location(call), message)
+                    yield self.report(file.module.location(call), message)
 
-    def _check_server_waits(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def _check_server_waits(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        for function, origin in (*in_constructors(facts), *in_callbacks(facts)):
-            for call in facts.calls_in(function):
+        for function, origin in (*in_constructors(file), *in_callbacks(file)):
+            for call in file.calls_in(function):
                 match call:
                     case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):
                         if name in WAITS and call not in seen:
                             seen.add(call)
                             message = f"{name}() without timeout_sec blocks {origin} until the"
-                            at = facts.module.location(call)
+                            at = file.module.location(call)
                             yield self.report(at, f"{message} server is available")
 
 
-def _blocking(facts: RclpyFile, call: ast.Call) -> str:
+def _blocking(file: RclpyFile, call: ast.Call) -> str:
     """Return the name of a call that certainly blocks; empty for others."""
-    name = facts.module.qualified_name(call.func)
+    name = file.module.qualified_name(call.func)
     if name == "time.sleep" and call.args:
-        seconds = facts.evaluator.evaluate(call.args[0])
+        seconds = file.evaluator.evaluate(call.args[0])
         if isinstance(seconds, int | float) and seconds >= SHORT:
             return f"time.sleep({seconds:g})"
     if name in WAITING:
         return f"{name}()"
     is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
-    if is_builtin and facts.module.index.lookup("input", call.func) is None:
+    if is_builtin and file.module.index.lookup("input", call.func) is None:
         return "input()"
     return ""

@@ -45,15 +45,15 @@ class CallbackCalled(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for _, callback in facts.callbacks:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for _, callback in file.callbacks:
             if not callback.is_called:
                 continue
-            text = facts.module.text(callback.node)
+            text = file.module.text(callback.node)
             fix = None
             if text.endswith("()"):
-                _, end = facts.module.span(callback.node)
-                edit = Edit(facts.module.path, end - 2, end, "")
+                _, end = file.module.span(callback.node)
+                edit = Edit(file.module.path, end - 2, end, "")
                 fix = Fix("remove the parentheses", (edit,))
             message = f"{text} is called here: its return value becomes the callback"
             yield self.report(callback, message, fix)

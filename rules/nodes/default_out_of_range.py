@@ -65,14 +65,14 @@ class DefaultOutOfRange(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for parameter in (p for p in file.parameters if is_of_node(file, p)):
             message = _problem(parameter) if parameter.default_node is not None else ""
             if message and not is_handled(
-                facts.module, parameter.call, "InvalidParameterValueException"
+                file.module, parameter.call, "InvalidParameterValueException"
             ):
                 at = parameter.default_node or parameter.call
-                yield self.report(facts.module.location(at), message)
+                yield self.report(file.module.location(at), message)
 
 
 def _problem(parameter: Parameter) -> str:

@@ -47,30 +47,30 @@ class EndlessLoop(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if has_more_threads(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if has_more_threads(file):
             return
         seen: set[ast.AST] = set()
-        for executed in (*in_constructors(facts), *in_callbacks(facts)):
-            for loop in _endless(facts, executed):
+        for executed in (*in_constructors(file), *in_callbacks(file)):
+            for loop in _endless(file, executed):
                 if loop not in seen:
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
-                    yield self.report(facts.module.location(loop), message)
+                    yield self.report(file.module.location(loop), message)
 
 
-def _endless(facts: RclpyFile, executed: Executed) -> Iterator[ast.While]:
-    for loop in facts.module.below(executed.function, ast.While):
-        if facts.function_of(loop) is not executed.function:
+def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:
+    for loop in file.module.below(executed.function, ast.While):
+        if file.function_of(loop) is not executed.function:
             continue
-        if _is_endless(facts, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
+        if _is_endless(file, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
             yield loop
 
 
-def _is_endless(facts: RclpyFile, test: ast.expr) -> bool:
+def _is_endless(file: RclpyFile, test: ast.expr) -> bool:
     if isinstance(test, ast.Constant):
         return bool(test.value)
-    return isinstance(test, ast.Call) and facts.module.qualified_name(test.func) == "rclpy.ok"
+    return isinstance(test, ast.Call) and file.module.qualified_name(test.func) == "rclpy.ok"
 
 
 def _leaves(node: ast.AST) -> bool:

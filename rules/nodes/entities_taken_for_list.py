@@ -65,19 +65,19 @@ class EntitiesTakenForList(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for name in _PROPERTIES:
-            for attribute in facts.module.index.attributes(name):
-                error = _error(facts, attribute)
-                is_flaw = error and not is_handled(facts.module, attribute, error)
-                if is_flaw and _is_of_node(facts, attribute):
+            for attribute in file.module.index.attributes(name):
+                error = _error(file, attribute)
+                is_flaw = error and not is_handled(file.module, attribute, error)
+                if is_flaw and _is_of_node(file, attribute):
                     message = f"{name!r} is a property of Node that returns a generator: {error}"
-                    yield self.report(facts.module.location(attribute), message)
+                    yield self.report(file.module.location(attribute), message)
 
 
-def _error(facts: RclpyFile, attribute: ast.Attribute) -> str:
+def _error(file: RclpyFile, attribute: ast.Attribute) -> str:
     """Return the error that a use of a generator raises."""
-    match facts.module.parent(attribute):
+    match file.module.parent(attribute):
         case ast.Attribute(attr=name) if name in _METHODS:
             return "AttributeError"
         case ast.Subscript(value=value) if value is attribute:
@@ -87,9 +87,9 @@ def _error(facts: RclpyFile, attribute: ast.Attribute) -> str:
     return ""
 
 
-def _is_of_node(facts: RclpyFile, attribute: ast.Attribute) -> bool:
+def _is_of_node(file: RclpyFile, attribute: ast.Attribute) -> bool:
     """Return whether only Node has the attribute: no class sets or defines it."""
-    owner = facts.owner_of(attribute.value)
+    owner = file.owner_of(attribute.value)
     while isinstance(owner, NodeClass):
         bindings = owner.facts.module.index.bindings(owner.node)
         if len(owner.node.bases) != 1 or attribute.attr in bindings:

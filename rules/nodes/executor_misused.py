@@ -56,30 +56,30 @@ class ExecutorMisused(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            added = _added_class(facts, call)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            added = _added_class(file, call)
             if added:
                 message = f"'{added}' is a class, not a node: TypeError; write {added}()"
-                yield self.report(facts.module.location(call.args[0]), message)
-            used = used_of_executor(facts, call)
+                yield self.report(file.module.location(call.args[0]), message)
+            used = used_of_executor(file, call)
             if used is None:
                 continue
             is_spun = any(name.startswith("spin") for name in used)
             if is_spun and "add_node" not in used:
                 spin = used["spin"] if "spin" in used else next(iter(used.values()))
                 message = "executor without nodes: no callback ever runs; call add_node() first"
-                yield self.report(facts.module.location(spin), message)
-            elif "add_node" in used and not is_spun and not facts.spin_calls:
+                yield self.report(file.module.location(spin), message)
+            elif "add_node" in used and not is_spun and not file.spin_calls:
                 message = "executor is never spun: the callbacks of its nodes never run"
-                yield self.report(facts.module.location(call), message)
+                yield self.report(file.module.location(call), message)
 
 
-def _added_class(facts: RclpyFile, call: ast.Call) -> str:
+def _added_class(file: RclpyFile, call: ast.Call) -> str:
     """Return the name of a node class that is passed to ``add_node`` instead of a node."""
     match call:
         case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):
-            class_ = facts.evaluator.named_class(node)
-            if class_ is not None and facts.node_class(class_) is not None:
+            class_ = file.evaluator.named_class(node)
+            if class_ is not None and file.node_class(class_) is not None:
                 return class_.name
     return ""

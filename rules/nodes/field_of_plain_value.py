@@ -38,14 +38,14 @@ class FieldOfPlainValue(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for field in FIELDS:
-            for attribute in facts.module.index.attributes(field):
-                match facts.evaluator.single_value(attribute.value):
+            for attribute in file.module.index.attributes(field):
+                match file.evaluator.single_value(attribute.value):
                     case ast.Attribute(attr="value", value=parameter):
-                        is_parameter = class_of(facts, parameter) == PARAMETER
+                        is_parameter = class_of(file, parameter) == PARAMETER
                     case _:
                         continue
-                if is_parameter and not is_handled(facts.module, attribute, "AttributeError"):
+                if is_parameter and not is_handled(file.module, attribute, "AttributeError"):
                     message = f"'.value' is the value itself, without {field!r}: AttributeError"
-                    yield self.report(facts.module.location(attribute), message)
+                    yield self.report(file.module.location(attribute), message)

@@ -63,13 +63,13 @@ class FileOfAuthor(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        module = facts.module
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        module = file.module
         for call in module.walk(ast.Call):
             name = module.qualified_name(call.func)
             if name not in _READERS or not call.args:
                 continue
-            value = facts.evaluator.evaluate(call.args[0])
+            value = file.evaluator.evaluate(call.args[0])
             text = value.text if isinstance(value, PathValue) else value
             if not isinstance(text, str):
                 continue

@@ -56,41 +56,41 @@ class FutureReadTooEarly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for function in facts.module.function_nodes:
-            for name in _futures(facts.module, function):
-                if _waits(facts.module, function):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for function in file.module.function_nodes:
+            for name in _futures(file.module, function):
+                if _waits(file.module, function):
                     continue
-                for call in facts.calls_in(function):
-                    if self._reads(facts, call, name) and not _is_asked(facts, call, name):
-                        at = facts.module.location(call)
+                for call in file.calls_in(function):
+                    if self._reads(file, call, name) and not _is_asked(file, call, name):
+                        at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
                         message += "use add_done_callback()"
                         yield self.report(at, message)
 
-    def _reads(self, facts: RclpyFile, call: ast.Call, name: str) -> bool:
+    def _reads(self, file: RclpyFile, call: ast.Call, name: str) -> bool:
         match call.func:
             case ast.Attribute(value=ast.Name(id=owner), attr="result"):
                 return owner == name
         if not any(isinstance(arg, ast.Name) and arg.id == name for arg in call.args):
             return False
-        callback = facts.callback(call.func)
+        callback = file.callback(call.func)
         function = callback.function
         if function is None or isinstance(function, ast.Lambda) or len(call.args) != 1:
             return False
         parameter = function.args.args[-1].arg if function.args.args else ""
-        return not _waits(facts.module, function) and any(
+        return not _waits(file.module, function) and any(
             isinstance(inner.func, ast.Attribute)
             and inner.func.attr == "result"
             and isinstance(inner.func.value, ast.Name)
             and inner.func.value.id == parameter
-            for inner in facts.calls_in(function)
+            for inner in file.calls_in(function)
         )
 
 
-def _is_asked(facts: RclpyFile, call: ast.Call, name: str) -> bool:
+def _is_asked(file: RclpyFile, call: ast.Call, name: str) -> bool:
     """Return whether a condition makes sure that the future is done."""
-    return is_guarded_by(facts.module, call, ast.Name(id=name))
+    return is_guarded_by(file.module, call, ast.Name(id=name))
 
 
 def _futures(module: PythonModule, function: FunctionNode) -> list[str]:

@@ -56,14 +56,14 @@ class GoalNeverSucceeds(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
         seen: set[FunctionNode] = set()
-        if facts.module.index.attributes("succeed"):
+        if file.module.index.attributes("succeed"):
             return
-        for server in facts.action_servers:
-            function = _work(facts, server)
+        for server in file.action_servers:
+            function = _work(file, server)
             if function is not None and function not in seen:
                 seen.add(function)
                 if _leaves_open(function):
@@ -72,10 +72,10 @@ class GoalNeverSucceeds(RclpyRule):
                         "result returned without succeed(): goals of the action server of "
                         f"line {line} end as aborted"
                     )
-                    yield self.report(facts.module.location(function.body[-1]), message)
+                    yield self.report(file.module.location(function.body[-1]), message)
 
 
-def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:
+def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
     """Return the execute callback, unless it passes the goal handle on."""
     callback = server.callback
     function = callback.function if callback else None
@@ -86,7 +86,7 @@ def _work(facts: RclpyFile, server: ActionServer) -> FunctionNode | None:
         return None
     name = arguments[0].arg
     uses = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == name]
-    is_kept = all(isinstance(facts.module.parent(use), ast.Attribute) for use in uses)
+    is_kept = all(isinstance(file.module.parent(use), ast.Attribute) for use in uses)
     return function if is_kept else None
 
 

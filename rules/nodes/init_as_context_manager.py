@@ -33,8 +33,8 @@ class InitAsContextManager(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.init_calls:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.init_calls:
             if call.in_with:
                 message = "rclpy.init() is not a context manager on Jazzy: TypeError at start"
                 yield self.report(call, message)

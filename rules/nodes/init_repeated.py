@@ -49,19 +49,19 @@ class InitRepeated(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         started: RclpyCall | None = None
-        calls = sorted((*facts.init_calls, *facts.shutdown_calls), key=lambda call: call.location)
+        calls = sorted((*file.init_calls, *file.shutdown_calls), key=lambda call: call.location)
         for call in calls:
-            in_node = call.name == "init" and self._is_in_node(facts, call)
-            if in_node and any(not self._is_in_node(facts, x) for x in facts.init_calls):
+            in_node = call.name == "init" and self._is_in_node(file, call)
+            if in_node and any(not self._is_in_node(file, x) for x in file.init_calls):
                 message = "rclpy.init() is called before this node is constructed: RuntimeError"
                 yield self.report(call, message)
                 continue
             if call.name != "init":
                 started = None
                 continue
-            if self._has_own_context(call) or facts.is_conditional(call.call):
+            if self._has_own_context(call) or file.is_conditional(call.call):
                 started = None
                 continue
             if started is not None and started.function is call.function:
@@ -71,10 +71,10 @@ class InitRepeated(RclpyRule):
                 )
             started = call
 
-    def _is_in_node(self, facts: RclpyFile, call: RclpyCall) -> bool:
+    def _is_in_node(self, file: RclpyFile, call: RclpyCall) -> bool:
         """Return whether a method of a node class calls it: the node already exists then."""
-        class_ = facts.module.enclosing_class(call.call)
-        return class_ is not None and facts.node_class(class_) is not None
+        class_ = file.module.enclosing_class(call.call)
+        return class_ is not None and file.node_class(class_) is not None
 
     def _has_own_context(self, call: RclpyCall) -> bool:
         return any(word.arg in {"context", None} for word in call.call.keywords)

@@ -38,8 +38,8 @@ class InitWithoutArguments(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.init_calls:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.init_calls:
             given = [word.value for word in call.call.keywords if word.arg == "args"]
             given = given or call.call.args[:1]
             if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
@@ -47,7 +47,7 @@ class InitWithoutArguments(RclpyRule):
             own = call.function.args.args if call.function else []
             fix = None
             if any(argument.arg == "args" for argument in own):
-                edit = Edit(facts.module.path, *facts.module.span(given[0]), "args")
+                edit = Edit(file.module.path, *file.module.span(given[0]), "args")
                 fix = Fix("pass the arguments on", (edit,))
             message = "an empty list replaces the command line: --ros-args have no effect"
-            yield self.report(facts.module.location(given[0]), message, fix)
+            yield self.report(file.module.location(given[0]), message, fix)

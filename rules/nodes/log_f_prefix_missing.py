@@ -39,32 +39,32 @@ class LogFPrefixMissing(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in log_calls(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in log_calls(file):
             text = call.args[0] if call.args else None
             if isinstance(text, ast.Constant) and isinstance(text.value, str):
-                name = _variable(facts, text, text.value)
+                name = _variable(file, text, text.value)
                 if name:
                     message = f"{{{name}}} is logged literally: the string has no f prefix"
-                    yield self.report(facts.module.location(text), message)
+                    yield self.report(file.module.location(text), message)
 
 
-def _variable(facts: RclpyFile, node: ast.Constant, text: str) -> str:
+def _variable(file: RclpyFile, node: ast.Constant, text: str) -> str:
     """Return the first variable, or attribute of one, that a text has in braces."""
     for name in re.findall(r"\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}", text):
-        if _is_bound(facts, node, name.partition(".")[0]):
+        if _is_bound(file, node, name.partition(".")[0]):
             return str(name)
     return ""
 
 
-def _is_bound(facts: RclpyFile, at: ast.Constant, name: str) -> bool:
+def _is_bound(file: RclpyFile, at: ast.Constant, name: str) -> bool:
     probe = ast.Name(id=name, ctx=ast.Load())
-    for node in facts.module.index.names(name):
-        if facts.module.enclosing_function(node) is facts.module.enclosing_function(at):
+    for node in file.module.index.names(name):
+        if file.module.enclosing_function(node) is file.module.enclosing_function(at):
             probe = node
             break
     else:
-        function = facts.module.enclosing_function(at)
+        function = file.module.enclosing_function(at)
         arguments = function.args.args if function else []
         return any(argument.arg == name for argument in arguments)
-    return facts.module.index.lookup(probe.id, probe) is not None
+    return file.module.index.lookup(probe.id, probe) is not None

@@ -51,12 +51,12 @@ class LogKeywordUnknown(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in log_calls(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in log_calls(file):
             for word in call.keywords:
                 if word.arg is None or word.arg in (*_KNOWN, "message"):
                     continue
                 near = get_close_matches(word.arg, _KNOWN, 1, 0.5)
                 hint = f"; did you mean {near[0]!r}?" if near else ""
                 message = f"a logger has no option {word.arg!r}: TypeError{hint}"
-                yield self.report(facts.module.location(word), message)
+                yield self.report(file.module.location(word), message)

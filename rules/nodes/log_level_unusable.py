@@ -59,38 +59,38 @@ class LogLevelUnusable(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call, level in _levels(facts):
-            value = facts.evaluator.evaluate(level)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call, level in _levels(file):
+            value = file.evaluator.evaluate(level)
             is_severity = type(value) is int and value in _SEVERITIES
             if (
                 is_known(value)
                 and not is_severity
-                and not is_handled(facts.module, call, "ValueError")
+                and not is_handled(file.module, call, "ValueError")
             ):
                 message = f"{value!r} is not a LoggingSeverity: ValueError"
-                yield self.report(facts.module.location(level), message)
+                yield self.report(file.module.location(level), message)
 
 
-def _levels(facts: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
+def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield the levels that rclpy loggers are set to."""
-    for attribute in facts.module.index.attributes("set_level"):
-        call = facts.module.parent(attribute)
+    for attribute in file.module.index.attributes("set_level"):
+        call = file.module.parent(attribute)
         if not isinstance(call, ast.Call) or call.func is not attribute or len(call.args) != 1:
             continue
-        if _is_logger(facts, facts.evaluator.single_value(attribute.value)):
+        if _is_logger(file, file.evaluator.single_value(attribute.value)):
             yield call, call.args[0]
-    for call in facts.module.walk(ast.Call):
-        if facts.module.qualified_name(call.func) == _SET and len(call.args) > 1:
+    for call in file.module.walk(ast.Call):
+        if file.module.qualified_name(call.func) == _SET and len(call.args) > 1:
             yield call, call.args[1]
 
 
-def _is_logger(facts: RclpyFile, node: ast.expr) -> bool:
+def _is_logger(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether an expression gets a logger from a node or from rclpy itself."""
     match node:
         case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):
-            is_node = facts.owner_of(owner) is not None and is_of_rclpy(facts, method)
-            return is_node or facts.module.qualified_name(method) == "rclpy.logging.get_logger"
+            is_node = file.owner_of(owner) is not None and is_of_rclpy(file, method)
+            return is_node or file.module.qualified_name(method) == "rclpy.logging.get_logger"
         case ast.Call(func=ast.Name() as function):
-            return facts.module.qualified_name(function) == "rclpy.logging.get_logger"
+            return file.module.qualified_name(function) == "rclpy.logging.get_logger"
     return False

@@ -57,42 +57,42 @@ class LogMessageNotText(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in log_calls(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in log_calls(file):
             if not call.args:
                 continue
             message = call.args[0]
-            if isinstance(message, ast.BinOp) and _adds_number(facts, message):
+            if isinstance(message, ast.BinOp) and _adds_number(file, message):
                 problem = "a number is added to a str: TypeError; use an f-string"
-                yield self.report(facts.module.location(message), problem)
+                yield self.report(file.module.location(message), problem)
             if len(call.args) > 1 and not isinstance(message, ast.Starred):
-                at = facts.module.location(call.args[1])
+                at = file.module.location(call.args[1])
                 yield self.report(at, "loggers do not format arguments: TypeError; use an f-string")
-            elif self._is_not_str(facts, message):
-                start, end = facts.module.span(message)
-                path = facts.module.path
+            elif self._is_not_str(file, message):
+                start, end = file.module.span(message)
+                path = file.module.path
                 edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
-                at = facts.module.location(message)
+                at = file.module.location(message)
                 problem = "log message is not a str: TypeError"
                 yield self.report(at, problem, Fix("convert it to a str", edits))
 
-    def _is_not_str(self, facts: RclpyFile, node: ast.expr) -> bool:
+    def _is_not_str(self, file: RclpyFile, node: ast.expr) -> bool:
         if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):
             return True
         if isinstance(node, ast.Call):
-            return facts.module.qualified_name(node.func) in {"len", "int", "float", "sum", "list"}
-        if isinstance(node, ast.Attribute) and facts.is_number(node):
+            return file.module.qualified_name(node.func) in {"len", "int", "float", "sum", "list"}
+        if isinstance(node, ast.Attribute) and file.is_number(node):
             return True
-        value = facts.evaluator.evaluate(node)
+        value = file.evaluator.evaluate(node)
         return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
 
 
-def _adds_number(facts: RclpyFile, node: ast.BinOp) -> bool:
+def _adds_number(file: RclpyFile, node: ast.BinOp) -> bool:
     if not isinstance(node.op, ast.Add):
         return False
-    left = facts.evaluator.evaluate(node.left)
-    right = facts.evaluator.evaluate(node.right)
+    left = file.evaluator.evaluate(node.left)
+    right = file.evaluator.evaluate(node.right)
     is_number = type(right) in {int, float} or (
-        isinstance(node.right, ast.Attribute) and facts.is_number(node.right)
+        isinstance(node.right, ast.Attribute) and file.is_number(node.right)
     )
     return isinstance(left, str) and is_number

@@ -41,8 +41,8 @@ class LogSeverityVaries(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        module = facts.module
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        module = file.module
         for node in module.walk(ast.IfExp):
             chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
             if None not in chosen and len(chosen) > 1:

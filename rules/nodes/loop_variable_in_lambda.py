@@ -45,17 +45,17 @@ class LoopVariableInLambda(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for _, callback in facts.callbacks:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for _, callback in file.callbacks:
             function = callback.function
             if isinstance(function, ast.Lambda) and callback.node is function:
-                name = _late_name(facts, function)
+                name = _late_name(file, function)
                 if name:
                     message = f"{name!r} is read when the callback runs: all callbacks get the last"
                     yield self.report(callback, f"{message} value; bind it: {name}={name}")
 
 
-def _late_name(facts: RclpyFile, function: ast.Lambda) -> str:
+def _late_name(file: RclpyFile, function: ast.Lambda) -> str:
     """Return a variable of an enclosing loop that a lambda reads; empty if none."""
     given = {arg.arg for arg in ast.walk(function.args) if isinstance(arg, ast.arg)}
     read = {
@@ -63,7 +63,7 @@ def _late_name(facts: RclpyFile, function: ast.Lambda) -> str:
         for node in ast.walk(function.body)
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
     }
-    for parent in facts.module.parents(function):
+    for parent in file.module.parents(function):
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             break
         if isinstance(parent, ast.For) and not _leaves(parent):

@@ -54,26 +54,26 @@ class MethodNotCalled(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
-        for node in facts.module.walk(ast.Attribute):
-            if not isinstance(node.ctx, ast.Load) or not _needs_value(facts, node):
+        for node in file.module.walk(ast.Attribute):
+            if not isinstance(node.ctx, ast.Load) or not _needs_value(file, node):
                 continue
-            if facts.module.qualified_name(node) == "rclpy.ok":
+            if file.module.qualified_name(node) == "rclpy.ok":
                 message = "rclpy.ok is a function: always true; write rclpy.ok()"
-                yield self.report(facts.module.location(node), message)
-            elif facts.module.qualified_name(node) in _FUNCTIONS:
-                message = f"{facts.module.text(node)} is not called; add the parentheses"
-                yield self.report(facts.module.location(node), message)
-            elif _is_method_of_rclpy(facts, node):
+                yield self.report(file.module.location(node), message)
+            elif file.module.qualified_name(node) in _FUNCTIONS:
+                message = f"{file.module.text(node)} is not called; add the parentheses"
+                yield self.report(file.module.location(node), message)
+            elif _is_method_of_rclpy(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
-                yield self.report(facts.module.location(node), message)
+                yield self.report(file.module.location(node), message)
 
 
-def _needs_value(facts: RclpyFile, node: ast.Attribute) -> bool:
+def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether a method that is not called makes no sense in this place."""
-    match facts.module.parent(node):
+    match file.module.parent(node):
         case ast.Attribute(attr=attr):
             return not attr.startswith("__") and attr not in _FUNCTION_HAS
         case ast.If(test=test) | ast.While(test=test):
@@ -84,9 +84,9 @@ def _needs_value(facts: RclpyFile, node: ast.Attribute) -> bool:
             return False
 
 
-def _is_method_of_rclpy(facts: RclpyFile, node: ast.Attribute) -> bool:
-    owner = facts.owner_of(node.value)
+def _is_method_of_rclpy(file: RclpyFile, node: ast.Attribute) -> bool:
+    owner = file.owner_of(node.value)
     if owner is None:
-        return is_method(class_of(facts, node.value) or "", node.attr)
+        return is_method(class_of(file, node.value) or "", node.attr)
     is_own = hasattr(owner, "method") and owner.method(node.attr) is not None
-    return is_method(NODE, node.attr) and not is_own and not facts.evaluator.stores(node.attr)
+    return is_method(NODE, node.attr) and not is_own and not file.evaluator.stores(node.attr)

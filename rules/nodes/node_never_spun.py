@@ -72,39 +72,39 @@ class NodeNeverSpun(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        waiting = {node.name: node for node in facts.classes if _waits(node)}
-        if not facts.init_calls or not waiting:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        waiting = {node.name: node for node in file.classes if _waits(node)}
+        if not file.init_calls or not waiting:
             return
         lasts = any(node.timers or node.services for node in waiting.values())
-        if lasts and len(facts.spin_calls) == 1 and _is_once(facts, facts.spin_calls[0]):
+        if lasts and len(file.spin_calls) == 1 and _is_once(file, file.spin_calls[0]):
             message = "spin_once() outside a loop runs at most one callback; use spin()"
-            yield self.report(facts.spin_calls[0], message)
-        if facts.spin_calls or self._may_run(facts):
+            yield self.report(file.spin_calls[0], message)
+        if file.spin_calls or self._may_run(file):
             return
-        for call in facts.module.walk(ast.Call):
+        for call in file.module.walk(ast.Call):
             if isinstance(call.func, ast.Name) and call.func.id in waiting:
                 message = (
                     f"nothing spins this {call.func.id}: its callbacks never run; call rclpy.spin()"
                 )
-                yield self.report(facts.module.location(call), message)
+                yield self.report(file.module.location(call), message)
 
-    def _may_run(self, facts: RclpyFile) -> bool:
+    def _may_run(self, file: RclpyFile) -> bool:
         """Return whether anything in the file may run callbacks in some other way."""
-        names = {node.attr for node in facts.module.walk(ast.Attribute)}
-        names |= {node.id for node in facts.module.walk(ast.Name)}
+        names = {node.attr for node in file.module.walk(ast.Attribute)}
+        names |= {node.id for node in file.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
 
 
-def _is_once(facts: RclpyFile, spin: RclpyCall) -> bool:
+def _is_once(file: RclpyFile, spin: RclpyCall) -> bool:
     """Return whether a program that starts here spins its node once and ends."""
-    if spin.name != "spin_once" or spin.function is None or not facts.module.has_main_guard:
+    if spin.name != "spin_once" or spin.function is None or not file.module.has_main_guard:
         return False
     in_loop = any(
         isinstance(parent, ast.For | ast.While) and parent.lineno > spin.function.lineno
-        for parent in facts.module.parents(spin.call)
+        for parent in file.module.parents(spin.call)
     )
-    return not in_loop and spin.function in {init.function for init in facts.init_calls}
+    return not in_loop and spin.function in {init.function for init in file.init_calls}
 
 
 def _waits(node: NodeDefinition) -> bool:

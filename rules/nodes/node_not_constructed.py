@@ -66,31 +66,31 @@ class NodeNotConstructed(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node in facts.classes:
-            yield from self._check(facts, node)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
+            yield from self._check(file, node)
 
-    def _check(self, facts: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
+    def _check(self, file: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
         for name, method in node.methods.items():
             if name in _MISSPELLED and node.constructor is None and _calls_init(method):
                 message = f"{name!r} is never called as a constructor; did you mean '__init__'?"
-                yield self.report(facts.module.name_location(method), message)
+                yield self.report(file.module.name_location(method), message)
         call = node.super_init
         if call is None or node.base is not None or not isinstance(call.func, ast.Attribute):
             return
-        at, value = facts.module.location(call), call.func.value
+        at, value = file.module.location(call), call.func.value
         is_call = isinstance(value, ast.Call)
         if isinstance(value, ast.Name) and value.id == "super":
             yield self.report(at, "'super' is not called: TypeError; write super().__init__(...)")
-        elif not is_call and facts.is_node_class(value) and _is_text(call.args[:1]):
+        elif not is_call and file.is_node_class(value) and _is_text(call.args[:1]):
             yield self.report(
                 at, "Node.__init__() is called without self: TypeError; write super().__init__(...)"
             )
         elif is_call and not call.args and not call.keywords and len(node.node.bases) == 1:
             yield self.report(at, "Node.__init__() is called without a node name: TypeError")
-        for used in _used_before(facts, node, call):
+        for used in _used_before(file, node, call):
             message = f"self.{used.attr} is used before Node.__init__() in line {at.line}"
-            yield self.report(facts.module.location(used), f"{message}: AttributeError")
+            yield self.report(file.module.location(used), f"{message}: AttributeError")
 
 
 def _is_text(nodes: list[ast.expr]) -> bool:
@@ -103,13 +103,13 @@ def _calls_init(method: ast.AST) -> bool:
     )
 
 
-def _used_before(facts: RclpyFile, node: NodeClass, call: ast.Call) -> list[ast.Attribute]:
+def _used_before(file: RclpyFile, node: NodeClass, call: ast.Call) -> list[ast.Attribute]:
     """Return the first method of Node that the constructor calls before Node's constructor."""
-    own = set(facts.module.index.bindings(node.node))
-    for other in facts.calls_in(node.constructor) if node.constructor else ():
+    own = set(file.module.index.bindings(node.node))
+    for other in file.calls_in(node.constructor) if node.constructor else ():
         func = other.func
         if other.lineno < call.lineno and isinstance(func, ast.Attribute) and func.attr not in own:
-            is_self = facts.evaluator.self_class(func.value) is node.node
-            if is_self and has(NODE, func.attr) and not facts.is_conditional(call):
+            is_self = file.evaluator.self_class(func.value) is node.node
+            if is_self and has(NODE, func.attr) and not file.is_conditional(call):
                 return [func]
     return []

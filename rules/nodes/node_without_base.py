@@ -48,28 +48,28 @@ class NodeWithoutBase(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for class_ in facts.module.classes.values():
-            if _lacks_base(facts, class_.node):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for class_ in file.module.classes.values():
+            if _lacks_base(file, class_.node):
                 message = f"class {class_.name!r} uses methods of Node; inherit from Node"
                 yield self.report(class_, message)
 
 
-def _lacks_base(facts: RclpyFile, class_: ast.ClassDef) -> bool:
+def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
     """Return whether a class without bases treats itself as a node."""
     bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
     if [base for base in bases if base != "object"] or class_.keywords or class_.decorator_list:
         return False
-    text = facts.module.source.text
-    if class_.name in {base for other in facts.module.walk(ast.ClassDef) for base in _bases(other)}:
+    text = file.module.source.text
+    if class_.name in {base for other in file.module.walk(ast.ClassDef) for base in _bases(other)}:
         return False
-    own = {*facts.module.index.bindings(class_)}
+    own = {*file.module.index.bindings(class_)}
     return any(
         f"self.{name}(" in text
         and name not in own
         and any(
-            facts.evaluator.self_class(use.value) is class_ and not facts.evaluator.stores(name)
-            for use in facts.module.index.attributes(name)
+            file.evaluator.self_class(use.value) is class_ and not file.evaluator.stores(name)
+            for use in file.module.index.attributes(name)
         )
         for name in _CREATES
     )

@@ -55,38 +55,38 @@ class NumberForDuration(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node, problem in _problems(facts):
-            yield self.report(facts.module.location(node), problem)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node, problem in _problems(file):
+            yield self.report(file.module.location(node), problem)
 
 
-def _problems(facts: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
+def _problems(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
     """Yield expressions with a number instead of a duration, and their messages."""
-    for call in facts.module.walk(ast.Call):
-        name = facts.module.qualified_name(call.func)
+    for call in file.module.walk(ast.Call):
+        name = file.module.qualified_name(call.func)
         if name in {_DURATION, _TIME} and call.args:
             kind = name.rpartition(".")[2]
             yield call, f"{kind}() takes only keyword arguments: TypeError; write seconds=..."
-    for comparison in facts.module.walk(ast.Compare):
+    for comparison in file.module.walk(ast.Compare):
         left, operator, right = comparison.left, comparison.ops[0], comparison.comparators[0]
-        if isinstance(operator, _ORDERS) and _is_number(facts, right) and _kind(facts, left):
+        if isinstance(operator, _ORDERS) and _is_number(file, right) and _kind(file, left):
             problem = "compared with a number: TypeError; use Duration(seconds=...)"
-            yield comparison, f"{_kind(facts, left)} {problem}"
-    for sum_ in facts.module.walk(ast.BinOp):
-        is_sum = isinstance(sum_.op, ast.Add | ast.Sub) and _is_number(facts, sum_.right)
-        if is_sum and class_of(facts, sum_.left) == _TIME:
+            yield comparison, f"{_kind(file, left)} {problem}"
+    for sum_ in file.module.walk(ast.BinOp):
+        is_sum = isinstance(sum_.op, ast.Add | ast.Sub) and _is_number(file, sum_.right)
+        if is_sum and class_of(file, sum_.left) == _TIME:
             yield sum_, "Time plus or minus a number: TypeError; use Duration(seconds=...)"
 
 
-def _is_number(facts: RclpyFile, node: ast.expr) -> bool:
-    return type(facts.evaluator.evaluate(node)) in {int, float}
+def _is_number(file: RclpyFile, node: ast.expr) -> bool:
+    return type(file.evaluator.evaluate(node)) in {int, float}
 
 
-def _kind(facts: RclpyFile, node: ast.expr) -> str:
+def _kind(file: RclpyFile, node: ast.expr) -> str:
     """Return ``Time`` or ``Duration`` if an expression certainly is one of them."""
-    value = facts.evaluator.single_value(node)
+    value = file.evaluator.single_value(node)
     if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub):
-        both = {class_of(facts, value.left), class_of(facts, value.right)}
+        both = {class_of(file, value.left), class_of(file, value.right)}
         return "Duration" if both == {_TIME} else ""
-    name = class_of(facts, value) or ""
+    name = class_of(file, value) or ""
     return name.rpartition(".")[2] if name in {_DURATION, _TIME} else ""

@@ -80,41 +80,41 @@ class ObjectCalledWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            problem = _problem(facts, call)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            problem = _problem(file, call)
             if problem:
-                yield self.report(facts.module.location(call), problem)
+                yield self.report(file.module.location(call), problem)
 
 
-def _problem(facts: RclpyFile, call: ast.Call) -> str:
-    name = facts.module.qualified_name(call.func) or ""
+def _problem(file: RclpyFile, call: ast.Call) -> str:
+    name = file.module.qualified_name(call.func) or ""
     problem = ""
     if name.startswith(_PRESETS):
         problem = f"{name[10:]} is a profile, not a function: TypeError; remove the ()"
-    elif re.fullmatch(_WHOLE, name) and facts.interface(call.func):
+    elif re.fullmatch(_WHOLE, name) and file.interface(call.func):
         part = "Goal" if ".action." in name else "Request"
         kind = name.rpartition(".")[2]
         problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
     elif isinstance(call.func, ast.Attribute | ast.Name) and not name:
-        class_ = class_of(facts, call.func) or ""
+        class_ = class_of(file, call.func) or ""
         if class_ in _NOT_CALLED:
             problem = (
                 f"a {class_.rpartition('.')[2]} is not callable: TypeError; call one of its methods"
             )
-        elif isinstance(call.func, ast.Attribute) and _is_value(facts, call.func):
+        elif isinstance(call.func, ast.Attribute) and _is_value(file, call.func):
             problem = f"{call.func.attr!r} is a property, not a method: TypeError; remove the ()"
     match call:
         case ast.Call(func=ast.Attribute(attr="add_done_callback"), args=[ast.Call() as given]):
-            callback = facts.callback(given)
+            callback = file.callback(given)
             if callback.is_called and not callback.is_partial:
                 problem = f"{callback.name}() is called here; pass the function itself, without ()"
     return problem
 
 
-def _is_value(facts: RclpyFile, node: ast.Attribute) -> bool:
+def _is_value(file: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether an attribute of an rclpy object is a property."""
     if node.attr not in _VALUES:
         return False
-    owner = class_of(facts, node.value)
+    owner = class_of(file, node.value)
     return owner is not None and has(owner, node.attr) and not is_method(owner, node.attr)

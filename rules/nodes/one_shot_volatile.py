@@ -48,22 +48,22 @@ class OneShotVolatile(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for publisher in facts.publishers:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for publisher in file.publishers:
             owner = publisher.owner
             if not isinstance(owner, NodeClass) or owner.constructor is None:
                 continue
             if publisher.qos is None or publisher.qos.durability != "VOLATILE":
                 continue
-            calls = publish_calls(facts, publisher)
+            calls = publish_calls(file, publisher)
             if not calls or len(calls) != 1:
                 continue
             call = calls[0]
-            if facts.function_of(call) is not owner.constructor or facts.is_conditional(call):
+            if file.function_of(call) is not owner.constructor or file.is_conditional(call):
                 continue
             topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
             message = (
                 f"the only message{topic} is published in the constructor: later subscribers "
                 "miss it; use TRANSIENT_LOCAL"
             )
-            yield self.report(facts.module.location(call), message)
+            yield self.report(file.module.location(call), message)

@@ -77,10 +77,10 @@ class OwnCallUnfit(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            called = called_function(package, facts, call)
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            called = called_function(package, file, call)
             problem = argument_error(call, called.takes, bound=called.bound) if called else ""
-            if called and problem and not is_handled(facts.module, call, "TypeError"):
+            if called and problem and not is_handled(file.module, call, "TypeError"):
                 message = f"{called.name}() {problem}: TypeError"
-                yield self.report(facts.module.location(call), message)
+                yield self.report(file.module.location(call), message)

@@ -78,48 +78,48 @@ class ParameterCallbackMisused(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for method in CALLBACKS:
-            for attribute in facts.module.index.attributes(method):
-                call = facts.module.parent(attribute)
+            for attribute in file.module.index.attributes(method):
+                call = file.module.parent(attribute)
                 if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                    problem = _problem(facts, call.args[0])
+                    problem = _problem(file, call.args[0])
                     if problem:
-                        yield self.report(facts.module.location(call.args[0]), problem)
-        for argument in callback_arguments(facts):
-            for name in facts.module.index.names(argument.arg):
-                problem = _list_problem(facts, name)
-                if problem and facts.parameter_of(name) is argument:
-                    yield self.report(facts.module.location(name), problem)
+                        yield self.report(file.module.location(call.args[0]), problem)
+        for argument in callback_arguments(file):
+            for name in file.module.index.names(argument.arg):
+                problem = _list_problem(file, name)
+                if problem and file.parameter_of(name) is argument:
+                    yield self.report(file.module.location(name), problem)
 
 
-def _problem(facts: RclpyFile, given: ast.expr) -> str:
+def _problem(file: RclpyFile, given: ast.expr) -> str:
     """Return the message for an expression that is not a callback."""
-    callback = facts.callback(given)
+    callback = file.callback(given)
     if isinstance(given, ast.Call) and not callback.is_partial:
-        inner = facts.callback(given.func)
-        if callback.is_called or _gives_results(facts, inner):
-            return f"{facts.module.text(given)} is called here: TypeError; pass it without ()"
-    if isinstance(facts.evaluator.evaluate(given), str):
+        inner = file.callback(given.func)
+        if callback.is_called or _gives_results(file, inner):
+            return f"{file.module.text(given)} is called here: TypeError; pass it without ()"
+    if isinstance(file.evaluator.evaluate(given), str):
         return "the callback must be a function, but this is a str: TypeError"
     return ""
 
 
-def _gives_results(facts: RclpyFile, callback: Callback) -> bool:
+def _gives_results(file: RclpyFile, callback: Callback) -> bool:
     """Return whether a function returns the result of a callback, not a callback."""
     function = callback.function
     if not isinstance(function, ast.FunctionDef):
         return False
-    values = [facts.evaluator.single_value(x.value) for x in returned(function) if x.value]
+    values = [file.evaluator.single_value(x.value) for x in returned(function) if x.value]
     return bool(values) and all(
-        isinstance(value, ast.Call) and facts.module.qualified_name(value.func) == RESULT
+        isinstance(value, ast.Call) and file.module.qualified_name(value.func) == RESULT
         for value in values
     )
 
 
-def _list_problem(facts: RclpyFile, name: ast.Name) -> str:
+def _list_problem(file: RclpyFile, name: ast.Name) -> str:
     """Return the message for a wrong use of the list of parameters."""
-    match facts.module.parent(name):
+    match file.module.parent(name):
         case ast.Attribute(attr=attr) if attr in _OF_ONE:
             return f"{name.id!r} is a list of parameters, without {attr!r}: AttributeError"
         case ast.Attribute(attr=attr) if attr in _OF_MAPPINGS:

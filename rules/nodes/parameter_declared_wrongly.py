@@ -73,15 +73,15 @@ class ParameterDeclaredWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
-            for node, problem in _problems(facts, parameter):
-                if not is_handled(facts.module, parameter.call, problem.rpartition(": ")[2]):
-                    yield self.report(facts.module.location(node), problem)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for parameter in (p for p in file.parameters if is_of_node(file, p)):
+            for node, problem in _problems(file, parameter):
+                if not is_handled(file.module, parameter.call, problem.rpartition(": ")[2]):
+                    yield self.report(file.module.location(node), problem)
 
 
-def _problems(facts: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr, str]]:
-    name = facts.evaluator.evaluate(parameter.name_node)
+def _problems(file: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr, str]]:
+    name = file.evaluator.evaluate(parameter.name_node)
     if (
         parameter.name_node is not None
         and name is not UNKNOWN
@@ -89,7 +89,7 @@ def _problems(facts: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr
     ):
         yield parameter.name_node, f"the parameter name must be a str, not {name!r}: TypeError"
         return
-    entry = facts.module.parent(parameter.name_node) if parameter.name_node is not None else None
+    entry = file.module.parent(parameter.name_node) if parameter.name_node is not None else None
     if isinstance(entry, ast.Tuple | ast.List) and len(entry.elts) > 3:  # noqa: PLR2004  see Fix
         count = len(entry.elts)
         yield (
@@ -97,22 +97,22 @@ def _problems(facts: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr
             f"expected name, default and descriptor, but this has {count} values: TypeError",
         )
     if parameter.descriptor_node is not None:
-        problem = _descriptor_problem(facts, parameter, parameter.descriptor_node)
+        problem = _descriptor_problem(file, parameter, parameter.descriptor_node)
         if problem:
             yield parameter.descriptor_node, problem
 
 
-def _descriptor_problem(facts: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
-    value = facts.evaluator.evaluate(node)
+def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
+    value = file.evaluator.evaluate(node)
     is_listed = "parameters" in parameter.arguments
     if value is not UNKNOWN and (value is not None or is_listed):
         return f"expected a ParameterDescriptor, not {value!r}: TypeError"
-    if facts.module.qualified_name(node) == DESCRIPTOR:
+    if file.module.qualified_name(node) == DESCRIPTOR:
         return "expected a ParameterDescriptor object, not the class: TypeError"
-    fields = message_made(facts, node, DESCRIPTOR) or {}
+    fields = message_made(file, node, DESCRIPTOR) or {}
     for name in _RANGES:
-        made = facts.evaluator.single_value(fields[name]) if name in fields else None
-        func = facts.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+        made = file.evaluator.single_value(fields[name]) if name in fields else None
+        func = file.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
         if func is not None and func.startswith("rcl_interfaces.msg."):
             return f"{name} must be a list with one range, not a range: TypeError"
     return ""

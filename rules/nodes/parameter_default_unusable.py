@@ -92,30 +92,30 @@ class ParameterDefaultUnusable(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for parameter in (p for p in facts.parameters if is_of_node(facts, p)):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for parameter in (p for p in file.parameters if is_of_node(file, p)):
             node = parameter.default_node
             problem = _type_problem(parameter) or (
-                _default_problem(facts, parameter, node) if node else ""
+                _default_problem(file, parameter, node) if node else ""
             )
             error = problem.rpartition(": ")[2]
-            if problem and not is_handled(facts.module, parameter.call, error):
-                yield self.report(facts.module.location(node or parameter.call), problem)
-        for parameter in facts.parameters:
+            if problem and not is_handled(file.module, parameter.call, error):
+                yield self.report(file.module.location(node or parameter.call), problem)
+        for parameter in file.parameters:
             problem = _missing_problem(parameter)
             if problem:
                 yield self.report(parameter.name_location, problem)
 
 
-def _default_problem(facts: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
-    full = facts.module.qualified_name(node) or ""
+def _default_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
+    full = file.module.qualified_name(node) or ""
     if full.startswith(_TYPES):
         kind = full.removeprefix(_TYPES)
         return f"this constant makes the parameter an integer; {_TYPE.format(kind)}"
-    is_builtin = isinstance(node, ast.Name) and not facts.module.index.lookup(node.id, node)
+    is_builtin = isinstance(node, ast.Name) and not file.module.index.lookup(node.id, node)
     if isinstance(node, ast.Name) and is_builtin and node.id in _CLASSES:
         return f"{_TYPE.format(_CLASSES[node.id])}, not the class {node.id!r}: TypeError"
-    if class_of(facts, node) == PARAMETER:
+    if class_of(file, node) == PARAMETER:
         return "expected the default itself, not a Parameter: TypeError"
     is_dictionary = isinstance(parameter.default, dict) and "parameters" in parameter.arguments
     if is_dictionary or isinstance(node, ast.Set) or isinstance(parameter.default, bytes):

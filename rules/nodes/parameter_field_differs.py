@@ -76,35 +76,35 @@ class ParameterFieldDiffers(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for name in FIELDS:
-            for field in facts.module.index.attributes(name):
-                read, declared = _read(package, facts, field)
+            for field in file.module.index.attributes(name):
+                read, declared = _read(package, file, field)
                 if not declared or field.attr == f"{declared}_value":
                     continue
-                parents = facts.module.parents(field)
+                parents = file.module.parents(field)
                 if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
                     continue  # a fallback
-                _, end = facts.module.span(field)
-                edit = Edit(facts.module.path, end - len(field.attr), end, f"{declared}_value")
+                _, end = file.module.span(field)
+                edit = Edit(file.module.path, end - len(field.attr), end, f"{declared}_value")
                 message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
                 message += f"use {declared}_value"
                 fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
-                yield self.report(facts.module.location(field), message, fix)
+                yield self.report(file.module.location(field), message, fix)
 
 
-def _read(package: Package, facts: RclpyFile, field: ast.Attribute) -> tuple[str, str]:
+def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str, str]:
     """Return name and declared type of the parameter that a field is read from.
 
     Both are empty if that is not certain.
     """
-    match facts.evaluator.single_value(field.value):
+    match file.evaluator.single_value(field.value):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
-            owner, name = parameter_read(facts, parameter)
-            if isinstance(parameter, ast.Name) and is_listed_parameter(facts, parameter):
-                class_ = facts.module.enclosing_class(field)
-                owner = facts.node_class(class_) if class_ is not None else None
-                name = name_asked(facts, field, parameter.id) or UNKNOWN
+            owner, name = parameter_read(file, parameter)
+            if isinstance(parameter, ast.Name) and is_listed_parameter(file, parameter):
+                class_ = file.module.enclosing_class(field)
+                owner = file.node_class(class_) if class_ is not None else None
+                name = name_asked(file, field, parameter.id) or UNKNOWN
             if owner is not None and isinstance(name, str):
                 declared = declared_by(owner, package)
                 return name, declared.types.get(name) or _of_empty_list(declared, name)

@@ -65,42 +65,42 @@ class ParameterMadeWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            for node, problem in _problems(facts, call):
-                yield self.report(facts.module.location(node), problem)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            for node, problem in _problems(file, call):
+                yield self.report(file.module.location(node), problem)
 
 
-def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
-    name = facts.module.qualified_name(call.func) or ""
+def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    name = file.module.qualified_name(call.func) or ""
     if name in {PARAMETER, "rclpy.Parameter"}:
-        yield from _made(facts, call)
+        yield from _made(file, call)
     match call.func:
         case ast.Attribute(attr="declare_parameters", value=owner):
             listed = call.args[1] if len(call.args) > 1 else None
-            if isinstance(listed, ast.List) and facts.owner_of(owner) is not None:
+            if isinstance(listed, ast.List) and file.owner_of(owner) is not None:
                 for item in listed.elts:
                     if isinstance(item, ast.Constant):
                         yield item, "expected a pair ('name', default): TypeError"
                         break
 
 
-def _made(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _made(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     given = dict(zip(("name", "type_", "value"), call.args, strict=False))
     given.update({word.arg: word.value for word in call.keywords if word.arg})
     type_, value = given.get("type_"), given.get("value")
     if type_ is None:
         return
-    constant = facts.evaluator.evaluate(type_)
+    constant = file.evaluator.evaluate(type_)
     if constant is not UNKNOWN and constant is not None:
         yield type_, "the second argument is the type: TypeError; write value=..."
         return
-    kind = _KINDS.get((facts.module.qualified_name(type_) or "").rpartition(".Type.")[2])
+    kind = _KINDS.get((file.module.qualified_name(type_) or "").rpartition(".Type.")[2])
     if kind is not None and value is None and not any(word.arg is None for word in call.keywords):
         yield type_, "type without a value: ValueError"
-    known = facts.evaluator.evaluate(value)
+    known = file.evaluator.evaluate(value)
     if kind is None or value is None or known is UNKNOWN or known is None:
         return
     if type(known) is not kind and not isinstance(known, tuple):
         word = type(known).__name__
-        yield (value, f"type is {facts.module.text(type_)}, but the value is a {word}: ValueError")
+        yield (value, f"type is {file.module.text(type_)}, but the value is a {word}: ValueError")

@@ -52,24 +52,24 @@ class ParameterMessageUsed(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for read in facts.parameter_reads:
-            used = _used_as_number(facts, read)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for read in file.parameter_reads:
+            used = _used_as_number(file, read)
             if used is not None:
                 message = "get_parameter_value() returns a message, not the value; use .value"
-                yield self.report(facts.module.location(used), message)
+                yield self.report(file.module.location(used), message)
 
 
-def _used_as_number(facts: RclpyFile, read: ParameterRead) -> ast.AST | None:
+def _used_as_number(file: RclpyFile, read: ParameterRead) -> ast.AST | None:
     """Return where the message is used as a number, or as the period of a timer."""
-    attribute = facts.module.parent(read.call)
-    call = facts.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
+    attribute = file.module.parent(read.call)
+    call = file.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
     if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
         return None
     if not isinstance(call, ast.Call):
         return None
-    for timer in facts.timers:
+    for timer in file.timers:
         period = timer.argument("timer_period_sec")
-        if period is not None and facts.evaluator.single_value(period.node) is call:
+        if period is not None and file.evaluator.single_value(period.node) is call:
             return period.node
-    return call if stands_for_value(facts, call) else None
+    return call if stands_for_value(file, call) else None

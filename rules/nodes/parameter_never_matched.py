@@ -63,51 +63,51 @@ class ParameterNeverMatched(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         alone = {node: {str(p.name) for p in own} for node, own in declared_alone(package)}
-        for facts in rclpy_files(package):
-            for attribute in facts.module.index.attributes("name"):
-                node = _owner(facts, attribute)
+        for file in rclpy_files(package):
+            for attribute in file.module.index.attributes("name"):
+                node = _owner(file, attribute)
                 if node is not None and node in alone:
-                    yield from self._named(package, facts, attribute, alone[node])
-            for attribute in facts.module.index.attributes("type_"):
-                node = _owner(facts, attribute)
+                    yield from self._named(package, file, attribute, alone[node])
+            for attribute in file.module.index.attributes("type_"):
+                node = _owner(file, attribute)
                 if node is not None:
-                    yield from self._typed(package, facts, attribute, node)
+                    yield from self._typed(package, file, attribute, node)
 
     def _named(
-        self, package: Package, facts: RclpyFile, attribute: ast.Attribute, known: set[str]
+        self, package: Package, file: RclpyFile, attribute: ast.Attribute, known: set[str]
     ) -> Iterator[Diagnostic]:
-        if not is_listed_parameter(facts, attribute.value):
+        if not is_listed_parameter(file, attribute.value):
             return
-        for item in names_compared(facts, attribute):
+        for item in names_compared(file, attribute):
             name = item.value if isinstance(item, ast.Constant) else None
             if isinstance(name, str) and name not in known and not has_always(name):
                 near = closest_name(package, name, known, 0.7)
                 hint = f"; did you mean {near!r}?" if near else ""
                 message = f"never true: the node declares no parameter {name!r}{hint}"
-                yield self.report(facts.module.location(item), message)
+                yield self.report(file.module.location(item), message)
 
     def _typed(
-        self, package: Package, facts: RclpyFile, attribute: ast.Attribute, node: NodeClass
+        self, package: Package, file: RclpyFile, attribute: ast.Attribute, node: NodeClass
     ) -> Iterator[Diagnostic]:
-        match facts.module.parent(attribute), attribute.value:
+        match file.module.parent(attribute), attribute.value:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[other]), (
                 ast.Name(id=variable)
             ):
-                full = facts.module.qualified_name(other) or ""
+                full = file.module.qualified_name(other) or ""
                 if left is not attribute or not full.startswith(_TYPES):
                     return
-                if not is_listed_parameter(facts, attribute.value):
+                if not is_listed_parameter(file, attribute.value):
                     return
-                name = name_asked(facts, attribute, variable) or ""
+                name = name_asked(file, attribute, variable) or ""
                 declared = declared_by(node, package).types.get(name)
                 asked = full.rpartition(".")[2]
-                if declared in types_compared(facts, attribute, name):
+                if declared in types_compared(file, attribute, name):
                     return  # the code handles several types
                 if declared and declared != asked.lower():
                     message = f"never true: {name!r} is declared as {declared}, not {asked}"
-                    yield self.report(facts.module.location(other), message)
+                    yield self.report(file.module.location(other), message)
 
 
-def _owner(facts: RclpyFile, node: ast.AST) -> NodeClass | None:
-    class_ = facts.module.enclosing_class(node)
-    return facts.node_class(class_) if class_ is not None else None
+def _owner(file: RclpyFile, node: ast.AST) -> NodeClass | None:
+    class_ = file.module.enclosing_class(node)
+    return file.node_class(class_) if class_ is not None else None

@@ -70,11 +70,11 @@ class ParameterObjectUsed(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for read, use in objects_used(facts):
-            _, end = facts.module.span(read.call)
-            fix = Fix("append .value", (Edit(facts.module.path, end, end, ".value"),))
-            line = facts.module.location(use).line
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for read, use in objects_used(file):
+            _, end = file.module.span(read.call)
+            fix = Fix("append .value", (Edit(file.module.path, end, end, ".value"),))
+            line = file.module.location(use).line
             where = "" if line == read.location.line else f" (used in line {line})"
             message = f"this is the Parameter{where}, not its value; append .value"
             yield self.report(read, message, fix)

@@ -49,15 +49,15 @@ class ParameterRepeated(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for parameter in facts.parameters:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for parameter in file.parameters:
             if parameter.name != "use_sim_time" or parameter.owner is None:
                 continue
             if not parameter.is_conditional:
                 message = "'use_sim_time' is already declared by rclpy: "
                 message += "ParameterAlreadyDeclaredException"
                 yield self.report(parameter.name_location, message)
-        for node in facts.nodes:
+        for node in file.nodes:
             first: dict[str, int] = {}
             for parameter in node.parameters:
                 name = parameter.name

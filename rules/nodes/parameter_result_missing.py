@@ -102,28 +102,28 @@ class ParameterResultMissing(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for method in CALLBACKS:
-            for attribute in facts.module.index.attributes(method):
-                call = facts.module.parent(attribute)
+            for attribute in file.module.index.attributes(method):
+                call = file.module.parent(attribute)
                 if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                    yield from self._check(facts, facts.callback(call.args[0]), method)
+                    yield from self._check(file, file.callback(call.args[0]), method)
 
-    def _check(self, facts: RclpyFile, callback: Callback, method: str) -> Iterator[Diagnostic]:
+    def _check(self, file: RclpyFile, callback: Callback, method: str) -> Iterator[Diagnostic]:
         function = callback.function
         if function is None or callback.is_partial or callback.is_called:
             return
         if isinstance(function, ast.Lambda):
-            problem = wrong_value(method, facts, function.body) if method != _POST else ""
+            problem = wrong_value(method, file, function.body) if method != _POST else ""
             if problem:
-                yield self.report(facts.module.location(function.body), f"returns {problem}")
+                yield self.report(file.module.location(function.body), f"returns {problem}")
         elif not function.decorator_list:
-            yield from self._check_function(facts, function, method, is_bound=callback.is_bound)
+            yield from self._check_function(file, function, method, is_bound=callback.is_bound)
 
     def _check_function(
-        self, facts: RclpyFile, function: FunctionNode, method: str, *, is_bound: bool
+        self, file: RclpyFile, function: FunctionNode, method: str, *, is_bound: bool
     ) -> Iterator[Diagnostic]:
-        module, arguments = facts.module, function.args
+        module, arguments = file.module, function.args
         wanted = "the list of parameters" if method == _PRE else "a SetParametersResult"
         count = len([*arguments.posonlyargs, *arguments.args]) - int(is_bound)
         if arguments.vararg is None and not count - len(arguments.defaults) <= 1 <= count:
@@ -143,6 +143,6 @@ class ParameterResultMissing(RclpyRule):
             message = f"{function.name}() does not return {wanted}{path}"
             yield self.report(module.name_location(function), message)
         for statement in returned(function):
-            problem = wrong_value(method, facts, statement.value)
+            problem = wrong_value(method, file, statement.value)
             if problem:
                 yield self.report(module.location(statement), f"returns {problem}")

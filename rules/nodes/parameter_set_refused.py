@@ -78,15 +78,15 @@ class ParameterSetRefused(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for owner, made in parameters_set(facts):
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for owner, made in parameters_set(file):
             problem = _problem(declared_by(owner, package), made)
             if problem:
-                yield self.report(facts.module.location(made.node), problem)
-        for attribute in facts.module.index.attributes("undeclare_parameter"):
-            problem = _undeclared(package, facts, attribute)
+                yield self.report(file.module.location(made.node), problem)
+        for attribute in file.module.index.attributes("undeclare_parameter"):
+            problem = _undeclared(package, file, attribute)
             if problem:
-                yield self.report(facts.module.location(attribute), problem)
+                yield self.report(file.module.location(attribute), problem)
 
 
 def _problem(declared: Declared, made: ParameterMade) -> str:
@@ -109,12 +109,12 @@ def _problem(declared: Declared, made: ParameterMade) -> str:
     return ""
 
 
-def _undeclared(package: Package, facts: RclpyFile, attribute: ast.Attribute) -> str:
+def _undeclared(package: Package, file: RclpyFile, attribute: ast.Attribute) -> str:
     """Return the message for undeclaring a read-only parameter."""
-    call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
+    call, owner = file.module.parent(attribute), file.owner_of(attribute.value)
     if owner is None or not isinstance(call, ast.Call) or call.func is not attribute:
         return ""
-    name = facts.evaluator.text(call.args[0]) if call.args else None
+    name = file.evaluator.text(call.args[0]) if call.args else None
     place = declared_by(owner, package).places.get(name) if isinstance(name, str) else None
     if place is None or place.descriptor is None or not place.descriptor.is_read_only:
         return ""

@@ -46,27 +46,27 @@ class ParameterValueCalled(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            problem = _problem(facts, call.func)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            problem = _problem(file, call.func)
             if problem:
                 message = f"{problem}: TypeError; remove the ()"
-                yield self.report(facts.module.location(call), message)
+                yield self.report(file.module.location(call), message)
 
 
-def _problem(facts: RclpyFile, called: ast.expr) -> str:
+def _problem(file: RclpyFile, called: ast.expr) -> str:
     """Return the problem with calling an expression."""
     match called:
-        case ast.Attribute(attr="value", value=owner) if class_of(facts, owner) == PARAMETER:
+        case ast.Attribute(attr="value", value=owner) if class_of(file, owner) == PARAMETER:
             return "'value' is a property of Parameter, not a method"
-        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(facts, owner):
+        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(file, owner):
             return f"{name!r} is a field, not a method"
     return ""
 
 
-def _is_message(facts: RclpyFile, node: ast.expr) -> bool:
+def _is_message(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether an expression is the result of ``get_parameter_value()``."""
-    match facts.evaluator.single_value(node):
+    match file.evaluator.single_value(node):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
-            return class_of(facts, parameter) == PARAMETER
+            return class_of(file, parameter) == PARAMETER
     return False

@@ -62,33 +62,33 @@ class ParameterValueUnfit(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if not facts.parameter_reads and not facts.parameters:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.parameter_reads and not file.parameters:
             return
-        for node, problem in _problems(package, facts):
-            if not is_handled(facts.module, node, "TypeError"):
-                yield self.report(facts.module.location(node), problem)
+        for node, problem in _problems(package, file):
+            if not is_handled(file.module, node, "TypeError"):
+                yield self.report(file.module.location(node), problem)
 
 
-def _problems(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
-    for operation in facts.module.walk(ast.BinOp):
+def _problems(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
+    for operation in file.module.walk(ast.BinOp):
         if isinstance(operation.op, _ARITHMETIC):
             for operand, other in (
                 (operation.left, operation.right),
                 (operation.right, operation.left),
             ):
-                problem = _operand(package, facts, operation.op, operand, other)
+                problem = _operand(package, file, operation.op, operand, other)
                 if problem:
                     yield operation, problem
-    yield from _ranges(package, facts)
+    yield from _ranges(package, file)
 
 
-def _ranges(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
+def _ranges(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
     """Yield the arguments of ``range`` that are not integers."""
-    for call in facts.module.walk(ast.Call):
+    for call in file.module.walk(ast.Call):
         if isinstance(call.func, ast.Name) and call.func.id == "range":
             for given in call.args:
-                name, kind = _declared(package, facts, given)
+                name, kind = _declared(package, file, given)
                 if kind in {"double", "string"}:
                     yield (
                         given,
@@ -97,14 +97,14 @@ def _ranges(package: Package, facts: RclpyFile) -> Iterator[tuple[ast.expr, str]
 
 
 def _operand(
-    package: Package, facts: RclpyFile, operator: ast.operator, operand: ast.expr, other: ast.expr
+    package: Package, file: RclpyFile, operator: ast.operator, operand: ast.expr, other: ast.expr
 ) -> str:
     """Return the message for arithmetic with the value of a parameter."""
-    value = facts.evaluator.evaluate(other)
+    value = file.evaluator.evaluate(other)
     is_number = type(value) in {int, float}
     if not is_number and not isinstance(value, str):
         return ""
-    name, kind = _declared(package, facts, operand)
+    name, kind = _declared(package, file, operand)
     if kind == "string" and is_number:
         is_repeated = isinstance(operator, ast.Mult) and type(value) is int
         problem = f"{name!r} is declared as string, but {value} is a number: TypeError"
@@ -114,11 +114,11 @@ def _operand(
     return ""
 
 
-def _declared(package: Package, facts: RclpyFile, node: ast.expr) -> tuple[str, str]:
+def _declared(package: Package, file: RclpyFile, node: ast.expr) -> tuple[str, str]:
     """Return name and declared type of the parameter whose value an expression is."""
-    match facts.evaluator.single_value(node):
+    match file.evaluator.single_value(node):
         case ast.Attribute(attr="value", value=parameter):
-            owner, name = parameter_read(facts, parameter)
+            owner, name = parameter_read(file, parameter)
             if owner is not None and isinstance(name, str):
                 return name, declared_by(owner, package).types.get(name) or ""
     return "", ""

@@ -49,19 +49,19 @@ class ParametersSetWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for method in _METHODS:
-            for attribute in facts.module.index.attributes(method):
-                call = facts.module.parent(attribute)
+            for attribute in file.module.index.attributes(method):
+                call = file.module.parent(attribute)
                 if not isinstance(call, ast.Call) or call.func is not attribute:
                     continue
-                if call.args and facts.owner_of(attribute.value) is not None:
-                    for node, problem in _problems(facts, call.args[0]):
-                        yield self.report(facts.module.location(node), problem)
+                if call.args and file.owner_of(attribute.value) is not None:
+                    for node, problem in _problems(file, call.args[0]):
+                        yield self.report(file.module.location(node), problem)
 
 
-def _problems(facts: RclpyFile, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
-    if class_of(facts, given) == PARAMETER or isinstance(given, ast.Dict):
+def _problems(file: RclpyFile, given: ast.expr) -> Iterator[tuple[ast.AST, str]]:
+    if class_of(file, given) == PARAMETER or isinstance(given, ast.Dict):
         yield given, "set_parameters() takes a list: TypeError; write [Parameter(...)]"
     for item in given.elts if isinstance(given, ast.List | ast.Tuple) else ():
         if isinstance(item, ast.Tuple | ast.Dict | ast.Constant):

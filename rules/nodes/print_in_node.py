@@ -45,27 +45,27 @@ class PrintInNode(RclpyRule):
         Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if _is_at_terminal(facts):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if _is_at_terminal(file):
             return
-        for node in facts.classes:
+        for node in file.classes:
             calls = [
                 call
                 for method in node.methods.values()
-                for call in facts.calls_in(method)
+                for call in file.calls_in(method)
                 if isinstance(call.func, ast.Name)
                 and call.func.id == "print"
                 and not any(word.arg in {"file", "flush"} for word in call.keywords)
-                and facts.module.index.lookup("print", call.func) is None
+                and file.module.index.lookup("print", call.func) is None
             ]
             if calls:
                 more = f" ({len(calls)} times, first here)" if len(calls) > 1 else ""
                 message = f"{node.name} prints{more}: /rosout gets nothing; use get_logger()"
-                yield self.report(facts.module.location(calls[0]), message)
+                yield self.report(file.module.location(calls[0]), message)
 
 
-def _is_at_terminal(facts: RclpyFile) -> bool:
+def _is_at_terminal(file: RclpyFile) -> bool:
     """Return whether a program interacts with a user at a terminal."""
-    index = facts.module.index
+    index = file.module.index
     reads = index.names("input") or index.attributes("stdin")
-    return bool(reads) or not _TERMINAL.isdisjoint(facts.module.imports_by_root)
+    return bool(reads) or not _TERMINAL.isdisjoint(file.module.imports_by_root)

@@ -51,11 +51,11 @@ class PublisherNeverUsed(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if not facts.init_calls or facts.module.in_tests:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.init_calls or file.module.in_tests:
             return  # a class that other packages may inherit from, or use
-        for publisher in facts.publishers:
-            name = _kept_in(facts, publisher.call)
+        for publisher in file.publishers:
+            name = _kept_in(file, publisher.call)
             if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
                 continue
             if _mentions(package, name) == 1:
@@ -63,9 +63,9 @@ class PublisherNeverUsed(RclpyRule):
                 yield self.report(publisher, message)
 
 
-def _kept_in(facts: RclpyFile, call: ast.Call) -> str:
+def _kept_in(file: RclpyFile, call: ast.Call) -> str:
     """Return the attribute that the result of a call is assigned to."""
-    match facts.module.parent(call):
+    match file.module.parent(call):
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(), attr=name)]):
             return name
         case ast.AnnAssign(target=ast.Attribute(value=ast.Name(), attr=name)):

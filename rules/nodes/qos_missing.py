@@ -44,8 +44,8 @@ class QosMissing(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        entities: list[Publisher | Subscription] = [*facts.publishers, *facts.subscriptions]
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        entities: list[Publisher | Subscription] = [*file.publishers, *file.subscriptions]
         for entity in entities:
             problem = self._problem(entity)
             if problem:

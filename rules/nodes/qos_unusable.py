@@ -106,39 +106,39 @@ class QosUnusable(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for entity in facts.entities:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.entities:
             given = entity.argument("qos_profile") if isinstance(entity, Endpoint) else None
-            problem = _problem(facts, given.node, given.value) if given else ""
+            problem = _problem(file, given.node, given.value) if given else ""
             if given and problem:
                 yield self.report(given, problem)
-        for call in facts.module.walk(ast.Call):
-            if facts.module.qualified_name(call.func) == "rclpy.qos.QoSProfile":
+        for call in file.module.walk(ast.Call):
+            if file.module.qualified_name(call.func) == "rclpy.qos.QoSProfile":
                 for word in call.keywords:
-                    problem = _problem_of_word(facts, word)
+                    problem = _problem_of_word(file, word)
                     if problem:
-                        yield self.report(facts.module.location(word.value), problem)
+                        yield self.report(file.module.location(word.value), problem)
 
 
-def _problem(facts: RclpyFile, node: ast.expr, value: object) -> str:
+def _problem(file: RclpyFile, node: ast.expr, value: object) -> str:
     """Return the message for a wrong QoS argument."""
     if isinstance(value, str | float) or value is None:
         return f"expected a depth or a QoSProfile, not {kind_of(value)}: TypeError"
     if type(value) is int and value < 0:
         return f"the depth is {value}, but must not be negative: ValueError"
-    name = facts.module.qualified_name(node) or ""
+    name = file.module.qualified_name(node) or ""
     if name == "rclpy.qos.QoSProfile":
         return "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)"
     if name.startswith("rclpy.qos.") and "Policy." in name:
         return f"{name[10:]} is a policy, but taken as the depth; write QoSProfile(depth=10, ...)"
-    if isinstance(node, ast.Attribute | ast.Name) and facts.callback(node).function is not None:
+    if isinstance(node, ast.Attribute | ast.Name) and file.callback(node).function is not None:
         return "expected a depth or a QoSProfile, not a function: TypeError"
     return ""
 
 
-def _problem_of_word(facts: RclpyFile, word: ast.keyword) -> str:
+def _problem_of_word(file: RclpyFile, word: ast.keyword) -> str:
     """Return the message for a wrong argument of QoSProfile."""
-    value = facts.evaluator.evaluate(word.value)
+    value = file.evaluator.evaluate(word.value)
     if word.arg == "depth" and isinstance(value, str | float):
         return f"the depth must be an int, not {kind_of(value)}: AssertionError"
     if word.arg == "depth" and type(value) is int and value < 0:
@@ -146,7 +146,7 @@ def _problem_of_word(facts: RclpyFile, word: ast.keyword) -> str:
     wanted = _POLICIES.get(word.arg or "")
     if wanted and isinstance(value, str):
         return f"{word.arg} must be a {wanted}, not a str: AssertionError"
-    name = facts.module.qualified_name(word.value) or ""
+    name = file.module.qualified_name(word.value) or ""
     given = name.split(".")[2] if name.startswith("rclpy.qos.") else ""
     if wanted and given.endswith("Policy") and not given.endswith(wanted):
         return f"{word.arg} must be a {wanted}, not a {given}: another policy takes effect"

@@ -60,9 +60,9 @@ class RateNeverWakes(Rule):
             yield self.report(facts.module.location(call), message)
 
 
-def _is_sleep(facts: RclpyFile, call: ast.Call) -> bool:
+def _is_sleep(file: RclpyFile, call: ast.Call) -> bool:
     value = call.func.value if isinstance(call.func, ast.Attribute) else call.func
-    match facts.evaluator.single_value(value):
+    match file.evaluator.single_value(value):
         case ast.Call(func=ast.Attribute(attr="create_rate", value=node)):
-            return facts.owner_of(node) is not None
+            return file.owner_of(node) is not None
     return False

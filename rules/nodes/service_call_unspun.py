@@ -66,8 +66,8 @@ class ServiceCallUnspun(Rule):
                 yield self.report(facts.module.location(call), message)
 
 
-def _is_call(facts: RclpyFile, call: ast.Call) -> bool:
+def _is_call(file: RclpyFile, call: ast.Call) -> bool:
     if len(call.args) != 1 or call.keywords or not isinstance(call.func, ast.Attribute):
         return False
-    client = facts.evaluator.single_value(call.func.value)
-    return any(x.call is client and x.owner is not None for x in facts.clients)
+    client = file.evaluator.single_value(call.func.value)
+    return any(x.call is client and x.owner is not None for x in file.clients)

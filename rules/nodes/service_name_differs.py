@@ -57,8 +57,8 @@ class ServiceNameDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         files = list(rclpy_files(package))
-        offered = [x for facts in files for x in (*facts.services, *facts.action_servers)]
-        wanted = [x for facts in files for x in (*facts.clients, *facts.action_clients)]
+        offered = [x for file in files for x in (*file.services, *file.action_servers)]
+        wanted = [x for file in files for x in (*file.clients, *file.action_clients)]
         served = {item.name for item in offered}
         clients = {item.name for item in wanted}
         for client in wanted:

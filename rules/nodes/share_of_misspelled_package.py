@@ -57,16 +57,16 @@ class ShareOfMisspelledPackage(RclpyRule):
         ),
     )
 
-    def check_in(self, package: Package, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            if facts.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            if file.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
                 continue
-            name = facts.evaluator.evaluate(call.args[0])
+            name = file.evaluator.evaluate(call.args[0])
             if not isinstance(name, str) or name == name_used_elsewhere(package):
                 continue
-            at = facts.module.location(call.args[0])
+            at = file.module.location(call.args[0])
             closest = meant_package(package, Reference(name, at, None, at))
-            if closest is not None and not is_handled(facts.module, call, "PackageNotFoundError"):
+            if closest is not None and not is_handled(file.module, call, "PackageNotFoundError"):
                 message = (
                     f"no package {name!r}: PackageNotFoundError; did you mean "
                     f"{closest.name!r} ({closest.reason})?"

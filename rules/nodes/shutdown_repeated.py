@@ -43,20 +43,20 @@ class ShutdownRepeated(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.shutdown_calls:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.shutdown_calls:
             if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                 continue
             if not call.in_finally or self._is_caught(call.handlers):
                 continue
-            spins = [spin for spin in facts.spin_calls if spin.function is call.function]
+            spins = [spin for spin in file.spin_calls if spin.function is call.function]
             if not any(spin.catches_keyboard_interrupt for spin in spins):
                 continue
-            _, end = facts.module.span(call.call.func)
+            _, end = file.module.span(call.call.func)
             start = end - len("shutdown")
-            edit = Edit(facts.module.path, start, end, "try_shutdown")
+            edit = Edit(file.module.path, start, end, "try_shutdown")
             fix = None
-            if facts.module.source.text[start:end] == "shutdown":
+            if file.module.source.text[start:end] == "shutdown":
                 fix = Fix("use try_shutdown()", (edit,))
             message = "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()"
             yield self.report(call, message, fix, cause="unclean shutdown")

@@ -72,24 +72,24 @@ class ShutdownUnhandled(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if not facts.init_calls:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.init_calls:
             return
-        for call in facts.spin_calls:
-            if not call.name.endswith("spin") or self._runs_in_thread(facts, call):
+        for call in file.spin_calls:
+            if not call.name.endswith("spin") or self._runs_in_thread(file, call):
                 continue
-            missing = self._missing(facts, call)
+            missing = self._missing(file, call)
             if missing:
                 yield self.report(call, missing, cause="unclean shutdown")
 
-    def _runs_in_thread(self, facts: RclpyFile, call: RclpyCall) -> bool:
+    def _runs_in_thread(self, file: RclpyFile, call: RclpyCall) -> bool:
         """Return whether ``rclpy.init`` is called in another function: this may be a thread."""
-        return all(init.function is not call.function for init in facts.init_calls)
+        return all(init.function is not call.function for init in file.init_calls)
 
-    def _missing(self, facts: RclpyFile, call: RclpyCall) -> str:
+    def _missing(self, file: RclpyFile, call: RclpyCall) -> str:
         caught = call.handlers | call.outer_handlers
         signals: dict[str, str] = {}
-        if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(facts):
+        if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(file):
             signals["Ctrl-C"] = "KeyboardInterrupt"
         names = {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
         if caught.isdisjoint(names) and not call.asks_ok:
@@ -103,10 +103,10 @@ class ShutdownUnhandled(RclpyRule):
         )
 
 
-def _handles_int(facts: RclpyFile) -> bool:
+def _handles_int(file: RclpyFile) -> bool:
     """Return whether a handler in this file replaces the exception of Ctrl-C."""
-    name = facts.module.qualified_name
+    name = file.module.qualified_name
     return any(
         call.args and name(call.func) == "signal.signal" and name(call.args[0]) == "signal.SIGINT"
-        for call in facts.module.walk(ast.Call)
+        for call in file.module.walk(ast.Call)
     )

@@ -51,15 +51,15 @@ class SpinInCallback(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for function, origin in in_callbacks(facts):
-            for call in facts.spin_calls:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for function, origin in in_callbacks(file):
+            for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
                     continue
                 node = call.call.args[0] if call.call.args else None
-                if facts.function_of(call.call) is not function or call.call.keywords:
+                if file.function_of(call.call) is not function or call.call.keywords:
                     continue
-                if not isinstance(node, ast.Name) or not facts.evaluator.self_class(node):
+                if not isinstance(node, ast.Name) or not file.evaluator.self_class(node):
                     continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(call, f"{message}: no callback runs after that")

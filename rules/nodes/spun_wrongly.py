@@ -55,24 +55,24 @@ class SpunWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        shutdowns = Shutdowns(facts)
-        for call in facts.spin_calls:
-            problem = _problem(facts, call, shutdowns)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        shutdowns = Shutdowns(file)
+        for call in file.spin_calls:
+            problem = _problem(file, call, shutdowns)
             if problem:
                 yield self.report(call, problem)
 
 
-def _problem(facts: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
+def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
     """Return the message for a wrong call that spins."""
     if call.name.startswith("executor.") or not call.call.args:
         return ""
     node = call.call.args[0]
-    value = facts.evaluator.single_value(node)
-    class_ = facts.evaluator.named_class(value)
-    if class_ is not None and facts.node_class(class_) is not None:
+    value = file.evaluator.single_value(node)
+    class_ = file.evaluator.named_class(value)
+    if class_ is not None and file.node_class(class_) is not None:
         return f"{class_.name!r} is a class, not a node: TypeError; write {class_.name}()"
-    if (class_of(facts, node) or "").endswith("Executor"):
+    if (class_of(file, node) or "").endswith("Executor"):
         return "this is an executor, not a node: AttributeError; call its spin()"
     other = shutdowns.before(call.call)
     if other is not None:

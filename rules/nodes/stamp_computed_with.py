@@ -72,44 +72,44 @@ class StampComputedWith(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        if not any(facts.module.index.attributes("stamp")):
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not any(file.module.index.attributes("stamp")):
             return
-        for node in [*facts.module.walk(ast.BinOp), *facts.module.walk(ast.Compare)]:
-            if _is_flawed(facts, node):
+        for node in [*file.module.walk(ast.BinOp), *file.module.walk(ast.Compare)]:
+            if _is_flawed(file, node):
                 message = "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-                yield self.report(facts.module.location(node), message)
+                yield self.report(file.module.location(node), message)
 
 
-def _is_flawed(facts: RclpyFile, node: ast.AST) -> bool:
+def _is_flawed(file: RclpyFile, node: ast.AST) -> bool:
     match node:
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
-            return _are_stamps(facts, left, right)
+            return _are_stamps(file, left, right)
         case ast.Compare(
             left=left, ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE()], comparators=[right]
         ):
-            return _are_stamps(facts, left, right)
+            return _are_stamps(file, left, right)
     return False
 
 
-def _are_stamps(facts: RclpyFile, *sides: ast.expr) -> bool:
+def _are_stamps(file: RclpyFile, *sides: ast.expr) -> bool:
     """Return whether one side is a message stamp, and the other a stamp, time or number."""
-    stamps = [_is_stamp(facts, side) for side in sides]
+    stamps = [_is_stamp(file, side) for side in sides]
     return any(stamps) and all(
-        is_stamp or _is_time_or_number(facts, side)
+        is_stamp or _is_time_or_number(file, side)
         for is_stamp, side in zip(stamps, sides, strict=True)
     )
 
 
-def _is_stamp(facts: RclpyFile, node: ast.expr) -> bool:
+def _is_stamp(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether an expression is the stamp of a header that this file does not set."""
-    match facts.evaluator.single_value(node):
+    match file.evaluator.single_value(node):
         case ast.Attribute(attr="stamp", value=ast.Attribute(attr="header")) as stamp:
-            stores = [*facts.evaluator.stores("stamp"), *facts.evaluator.stores("header")]
-            text = f"{facts.module.text(stamp)}."
-            return not any(text.startswith(f"{facts.module.text(x.node)}.") for x in stores)
+            stores = [*file.evaluator.stores("stamp"), *file.evaluator.stores("header")]
+            text = f"{file.module.text(stamp)}."
+            return not any(text.startswith(f"{file.module.text(x.node)}.") for x in stores)
     return False
 
 
-def _is_time_or_number(facts: RclpyFile, node: ast.expr) -> bool:
-    return class_of(facts, node) in _SPANS or type(facts.evaluator.evaluate(node)) in {int, float}
+def _is_time_or_number(file: RclpyFile, node: ast.expr) -> bool:
+    return class_of(file, node) in _SPANS or type(file.evaluator.evaluate(node)) in {int, float}

@@ -61,25 +61,25 @@ class SuperInitMissing(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for node in facts.classes:
-            skipped = _skipping(facts, node)
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
+            skipped = _skipping(file, node)
             if skipped is not None:
-                yield self.report(facts.module.location(skipped[0]), skipped[1])
+                yield self.report(file.module.location(skipped[0]), skipped[1])
                 continue
             if node.calls_super_init or node.constructor is None or node.is_made_later:
                 continue
-            at = facts.module.name_location(node.constructor)
+            at = file.module.name_location(node.constructor)
             message = f"{node.name}.__init__() does not call super().__init__(): AttributeError"
             yield self.report(at, message)
 
 
-def _skipping(facts: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
+def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
     """Return a use of ``super`` that does not reach the constructor of Node, and why."""
-    for call in facts.calls_in(node.constructor) if node.constructor else ():
+    for call in file.calls_in(node.constructor) if node.constructor else ():
         match call:
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
-                if facts.module.qualified_name(first) == "rclpy.node.Node":
+                if file.module.qualified_name(first) == "rclpy.node.Node":
                     return call, "this super() skips the constructor of Node; write super()"
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name()]):
                 return call, "super() with only a class is unbound; write super()"

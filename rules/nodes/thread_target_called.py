@@ -77,47 +77,47 @@ class ThreadTargetCalled(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for call in facts.module.walk(ast.Call):
-            for node, problem in _problems(facts, call):
-                yield self.report(facts.module.location(node), problem)
-        for timer in facts.timers:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            for node, problem in _problems(file, call):
+                yield self.report(file.module.location(node), problem)
+        for timer in file.timers:
             argument = timer.argument("timer_period_sec")
-            value, notes = facts.evaluator.trace(argument.node if argument else None)
+            value, notes = file.evaluator.trace(argument.node if argument else None)
             # Zero as the default of a parameter is usually overridden.
             if argument is None or value not in (0, 0.0) or notes:
                 continue
-            if not is_guarded_by(facts.module, timer.call, argument.node):
+            if not is_guarded_by(file.module, timer.call, argument.node):
                 yield self.report(argument, "timer with period 0 uses all CPU time")
 
 
-def _is_single(facts: RclpyFile, node: ast.expr) -> bool:
+def _is_single(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether the arguments of a thread are certainly a single object, not a tuple."""
     if isinstance(node, ast.Constant):
         return not isinstance(node.value, str) or len(node.value) != 1
-    return isinstance(node, ast.Name | ast.Attribute) and facts.owner_of(node) is not None
+    return isinstance(node, ast.Name | ast.Attribute) and file.owner_of(node) is not None
 
 
-def _problems(facts: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
-    if facts.module.qualified_name(call.func) == "threading.Thread":
+def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    if file.module.qualified_name(call.func) == "threading.Thread":
         for word in call.keywords:
             if word.arg == "target" and isinstance(word.value, ast.Call):
-                callback = facts.callback(word.value)
+                callback = file.callback(word.value)
                 if callback.is_called and not callback.is_partial:
                     yield (
                         word.value,
                         f"{callback.name}() is called here, not in the thread; pass it without ()",
                     )
-                elif facts.module.qualified_name(word.value.func) in _SPINS:
+                elif file.module.qualified_name(word.value.func) in _SPINS:
                     message = "spins here, not in the thread; write target=rclpy.spin, args=(node,)"
                     yield word.value, message
-            elif word.arg == "args" and _is_single(facts, word.value):
-                text = facts.module.text(word.value)
+            elif word.arg == "args" and _is_single(file, word.value):
+                text = file.module.text(word.value)
                 yield (
                     word.value,
                     f"({text}) is not a tuple: TypeError in the thread; write ({text},)",
                 )
-    if isinstance(facts.module.parent(call), ast.Expr):
-        function = facts.callback(call.func).function
+    if isinstance(file.module.parent(call), ast.Expr):
+        function = file.callback(call.func).function
         if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
             yield call, f"coroutine {function.name}() is not awaited: it never runs"

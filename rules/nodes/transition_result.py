@@ -82,20 +82,20 @@ class TransitionResult(RclpyRule):
         ),
     )
 
-    def check_file(self, facts: RclpyFile) -> Iterator[Diagnostic]:
-        for class_ in facts.classes:
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for class_ in file.classes:
             if class_.is_lifecycle:
                 for name, function in class_.methods.items():
                     if function.decorator_list or is_generator(function):
                         continue
                     if name in _TRANSITIONS:
-                        yield from self._check(facts, function)
-                    elif name.startswith("on_") and not facts.module.index.attributes(name):
-                        yield from self._check_name(facts, function, class_.methods)
-                yield from self._check_publishers(facts, class_)
+                        yield from self._check(file, function)
+                    elif name.startswith("on_") and not file.module.index.attributes(name):
+                        yield from self._check_name(file, function, class_.methods)
+                yield from self._check_publishers(file, class_)
 
-    def _check(self, facts: RclpyFile, function: FunctionNode) -> Iterator[Diagnostic]:
-        module, given = facts.module, function.args
+    def _check(self, file: RclpyFile, function: FunctionNode) -> Iterator[Diagnostic]:
+        module, given = file.module, function.args
         count = len([*given.posonlyargs, *given.args]) - 1
         at = module.name_location(function)
         if given.vararg is None and not count - len(given.defaults) <= 1 <= count:
@@ -111,20 +111,20 @@ class TransitionResult(RclpyRule):
                 yield self.report(module.location(statement), f"returns {value}, {happens}")
 
     def _check_name(
-        self, facts: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
+        self, file: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
         for near in get_close_matches(function.name, left, 1, 0.85):
             message = f"rclpy never calls {function.name!r}; did you mean {near!r}?"
-            yield self.report(facts.module.name_location(function), message)
+            yield self.report(file.module.name_location(function), message)
 
-    def _check_publishers(self, facts: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
+    def _check_publishers(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
         function = class_.methods.get("on_activate")
         publishers = [x for x in class_.publishers if x.is_lifecycle]
-        if function is None or not publishers or facts.module.index.attributes("on_activate"):
+        if function is None or not publishers or file.module.index.attributes("on_activate"):
             return
         line = publishers[0].location.line
         message = (
             f"super().on_activate(state) is not called: the publisher of line {line} stays inactive"
         )
-        yield self.report(facts.module.name_location(function), message)
+        yield self.report(file.module.name_location(function), message)

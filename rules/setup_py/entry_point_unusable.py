@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
-from scaffold.api.rclpy import node_facts
+from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
 
 _SETUP = (
@@ -105,8 +105,8 @@ class EntryPointUnusable(Rule):
                 )
                 yield self.report(function, message)
             return
-        facts = node_facts(package, path)
-        if any(node.name == entry.function for node in facts.classes):
+        file = rclpy_file(package, path)
+        if any(node.name == entry.function for node in file.classes):
             message = f"{entry.function} is a node class: a program needs a function that spins it"
             yield self.report(entry, message)
 

@@ -71,12 +71,12 @@ class NodeWithoutEntryPoint(Rule):
         started = {entry.module for entry in setup.entry_points}
         used = names_imported(package)
         copied = _started_classes(package, started)
-        for facts in rclpy_files(package):
-            module = facts.module
+        for file in rclpy_files(package):
+            module = file.module
             name = module.path.removesuffix(".py").replace("/", ".")
-            if name in started or name in used or not facts.classes or not _is_program(module):
+            if name in started or name in used or not file.classes or not _is_program(module):
                 continue
-            if copied.issuperset(node.name for node in facts.classes) or not _is_module(name):
+            if copied.issuperset(node.name for node in file.classes) or not _is_module(name):
                 continue
             root = module.path.partition("/")[0]
             if module.path.count("/") == 1 and root in {item.partition(".")[0] for item in started}:
@@ -101,9 +101,9 @@ def _started_classes(package: Package, started: set[str]) -> set[str]:
     """Return the names of the nodes that entry points start; others of the name are copies."""
     return {
         node.name
-        for facts in rclpy_files(package)
-        if facts.module.path.removesuffix(".py").replace("/", ".") in started
-        for node in facts.classes
+        for file in rclpy_files(package)
+        if file.module.path.removesuffix(".py").replace("/", ".") in started
+        for node in file.classes
     }
 
 

@@ -38,7 +38,7 @@ from scaffold.model.rclpy.entities import (
     Subscription,
     Timer,
 )
-from scaffold.model.rclpy.file import RclpyFile, node_facts, rclpy_files
+from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_files
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
@@ -111,12 +111,12 @@ __all__ = [
     "names_of_bases",
     "names_used_by",
     "namespace_problem",
-    "node_facts",
     "node_problem",
     "numbers_taken",
     "objects_used",
     "parameter_read",
     "parameters_set",
+    "rclpy_file",
     "rclpy_files",
     "stands_for_value",
     "topic_problem",

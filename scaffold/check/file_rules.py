@@ -96,9 +96,9 @@ class RclpyRule(FileRule):
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file; raises ViewError if it cannot be read."""
-        from scaffold.model.rclpy.file import node_facts
+        from scaffold.model.rclpy.file import rclpy_file
 
-        return self.check_in(package, node_facts(package, path))
+        return self.check_in(package, rclpy_file(package, path))
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""

@@ -47,11 +47,11 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
     )
 
 
-def _is_node(package: Package, facts: RclpyFile) -> bool | None:
+def _is_node(package: Package, file: RclpyFile) -> bool | None:
     """Tell whether a file uses rclpy; ``None`` if it may, through another of the package."""
-    if facts.uses_rclpy:
+    if file.uses_rclpy:
         return True
-    roots = set(facts.module.imports_by_root)
+    roots = set(file.module.imports_by_root)
     own = {path.split("/")[0].removesuffix(".py") for path in package.python_files}
     return None if roots & (own | {"", package.name}) else False
 
@@ -60,12 +60,12 @@ def _is_node(package: Package, facts: RclpyFile) -> bool | None:
 
 
 def _publications(
-    facts: RclpyFile, owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]
+    file: RclpyFile, owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
         if owner.is_lifecycle:
             continue  # it publishes once it is activated, which nobody does here
-        alone = owner.facts is facts and not (isinstance(owner, NodeClass) and owner.base)
+        alone = owner.facts is file and not (isinstance(owner, NodeClass) and owner.base)
         reaches = PublishReach(owner.facts, starts, alone=alone)
         for publisher in _made(owner, starts, lambda item: item.publishers):
             topic = _resolved(publisher.topic, owner)

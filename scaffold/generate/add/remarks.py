@@ -72,8 +72,8 @@ def _has_rule(clash: Clash) -> bool:
 
 def _uses(package: Package) -> Iterator[Use]:
     """Yield what the nodes of a package use, as far as names and types are known."""
-    for facts in rclpy_files(package):
-        for endpoint in facts.endpoints:
+    for file in rclpy_files(package):
+        for endpoint in file.endpoints:
             use = _use(endpoint)
             if use is not None:
                 yield use

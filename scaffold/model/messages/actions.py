@@ -29,9 +29,9 @@ class Wrapped(NamedTuple):
 class ActionMessages:
     """Finds in a file the messages that action clients are given."""
 
-    def __init__(self, facts: RclpyFile) -> None:
-        self._facts = facts
-        self._clients = {client.call: client for client in facts.action_clients}
+    def __init__(self, file: RclpyFile) -> None:
+        self._facts = file
+        self._clients = {client.call: client for client in file.action_clients}
         self._feedback = dict(self._feedback_arguments())
 
     def wrapped(self, node: ast.expr) -> Wrapped | None:

@@ -15,7 +15,7 @@ from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import Binding
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
 from scaffold.model.rclpy.entities import ActionServer, Endpoint, Service, Subscription
-from scaffold.model.rclpy.file import RclpyFile, node_facts
+from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -74,9 +74,9 @@ class Assigned(NamedTuple):
 class MessageTypes:
     """What is known about the messages in one Python file."""
 
-    def __init__(self, facts: RclpyFile, definitions: Definitions) -> None:
-        self.facts = facts
-        self.module = facts.module
+    def __init__(self, file: RclpyFile, definitions: Definitions) -> None:
+        self.facts = file
+        self.module = file.module
         self.definitions = definitions
         self._known: dict[ast.AST, FieldType | MessageClass | None] = {}
         self._classes: dict[ast.expr, MessageClass | None] = {}
@@ -87,7 +87,7 @@ class MessageTypes:
         """Return the view of a file; raises ViewError if it cannot be parsed."""
 
         def build() -> MessageTypes:
-            return cls(node_facts(package, path), package.workspace.interfaces)
+            return cls(rclpy_file(package, path), package.workspace.interfaces)
 
         return package.remember(("message_types", path), build)
 

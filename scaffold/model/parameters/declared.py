@@ -92,9 +92,9 @@ def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter
     Unlike `declared_by` it tells nothing of nodes that others inherit from.
     """
     passed_on: dict[RclpyFile, frozenset[ast.ClassDef]] = {}
-    for facts in rclpy_files(package):
-        bases = _bases(facts)
-        for node in facts.classes:
+    for file in rclpy_files(package):
+        bases = _bases(file)
+        for node in file.classes:
             declared = None if node.node in bases else _declared(node, passed_on)
             if declared is not None:
                 yield node, declared
@@ -123,33 +123,33 @@ def _declared(
     return None if _declares_on_others(node.facts) else found
 
 
-def _bases(facts: RclpyFile) -> frozenset[ast.ClassDef | None]:
+def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
     """Return the classes of a file that others there inherit from."""
     return frozenset(
-        facts.evaluator.named_class(base)
-        for other in facts.module.walk(ast.ClassDef)
+        file.evaluator.named_class(base)
+        for other in file.module.walk(ast.ClassDef)
         for base in other.bases
     )
 
 
-def _declares_on_others(facts: RclpyFile) -> bool:
+def _declares_on_others(file: RclpyFile) -> bool:
     """Tell whether the file declares parameters on an object that is not known."""
-    return any(parameter.owner is None for parameter in facts.parameters)
+    return any(parameter.owner is None for parameter in file.parameters)
 
 
-def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
+def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
     """Return the classes that give themselves to something that may declare parameters.
 
     All of them where the file asks nodes what they have.
     """
-    if "has_parameter" in facts.module.source.text:
-        return frozenset(facts.module.walk(ast.ClassDef))
+    if "has_parameter" in file.module.source.text:
+        return frozenset(file.module.walk(ast.ClassDef))
     found: set[ast.ClassDef] = set()
-    for call in facts.module.walk(ast.Call):
+    for call in file.module.walk(ast.Call):
         given = [*call.args, *(word.value for word in call.keywords)]
-        classes = {class_ for item in given if (class_ := facts.evaluator.self_class(item))}
+        classes = {class_ for item in given if (class_ := file.evaluator.self_class(item))}
         if classes:
-            name = facts.module.qualified_name(call.func) or ""
+            name = file.module.qualified_name(call.func) or ""
             is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
             if not name.startswith(_KNOWN) and not is_super and name != "super":
                 found |= classes
@@ -159,16 +159,16 @@ def _passed_on(facts: RclpyFile) -> frozenset[ast.ClassDef]:
 def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter]:
     """Yield what other files declare on a node: ``node = Talker(); node.declare_parameter()``."""
     if isinstance(owner, NodeClass):
-        for facts in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
-            if facts is not owner.facts:
-                yield from (parameter for parameter in facts.parameters if parameter.owner is owner)
+        for file in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
+            if file is not owner.facts:
+                yield from (parameter for parameter in file.parameters if parameter.owner is owner)
 
 
 def own_nodes(package: Package) -> tuple[list[NodeDefinition], bool]:
     """Return the nodes in the Python code of a package, and whether there are no others."""
 
     def find() -> tuple[list[NodeDefinition], bool]:
-        result = [node for facts in rclpy_files(package) for node in facts.nodes]
+        result = [node for file in rclpy_files(package) for node in file.nodes]
         compiled = any(
             path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
         )

@@ -26,31 +26,31 @@ class Executed(NamedTuple):
     """What runs it: ``the callback on_timer``, ``the constructor of Talker``."""
 
 
-def has_more_threads(facts: RclpyFile) -> bool:
+def has_more_threads(file: RclpyFile) -> bool:
     """Tell whether a file names what may run callbacks in another thread."""
-    text = facts.module.source.text
+    text = file.module.source.text
     return any(word in text for word in ("MultiThreaded", "Thread(", "threading", "CallbackGroup"))
 
 
-def in_callbacks(facts: RclpyFile) -> Iterator[Executed]:
+def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that callbacks of timers, topics and services run, each once."""
     seen: set[ast.AST] = set()
-    for entity, callback in facts.callbacks:
+    for entity, callback in file.callbacks:
         function = callback.function
         if function is None or not isinstance(entity, Timer | Subscription | Service):
             continue
-        for reached in facts.reached(function, seen):
+        for reached in file.reached(function, seen):
             seen.add(reached)
             if not isinstance(reached, ast.AsyncFunctionDef):
                 name = callback.name
                 yield Executed(reached, f"callback {name!r}" if name else "a callback")
 
 
-def in_constructors(facts: RclpyFile) -> Iterator[Executed]:
+def in_constructors(file: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that constructors of nodes run, each once."""
     seen: set[ast.AST] = set()
-    for node in facts.classes:
-        for reached in facts.reached(node.constructor, seen) if node.constructor else ():
+    for node in file.classes:
+        for reached in file.reached(node.constructor, seen) if node.constructor else ():
             seen.add(reached)
             yield Executed(reached, f"the constructor of {node.name}")
 
@@ -122,16 +122,16 @@ def _places(run: Execution) -> dict[object, str]:
     return places
 
 
-def _may_spin(facts: RclpyFile) -> bool:
+def _may_spin(file: RclpyFile) -> bool:
     """Tell whether a file may spin a node in another thread, or step by step."""
-    for call in facts.spin_calls:
+    for call in file.spin_calls:
         if call.name.rpartition(".")[2] != "spin":
             return True
-    known = {call.call.func for call in facts.spin_calls}
-    names = [name.id for name in facts.module.walk(ast.Name) if name not in known]
-    names += [name.attr for name in facts.module.walk(ast.Attribute) if name not in known]
-    names += [word.arg for word in facts.module.walk(ast.keyword) if word.arg]
+    known = {call.call.func for call in file.spin_calls}
+    names = [name.id for name in file.module.walk(ast.Name) if name not in known]
+    names += [name.attr for name in file.module.walk(ast.Attribute) if name not in known]
+    names += [word.arg for word in file.module.walk(ast.keyword) if word.arg]
     names = [name.lower() for name in names if name != "SingleThreadedExecutor"]
     if any(word in name for name in names for word in _OTHER_THREADS):
         return True
-    return any(item.root in {"threading", "asyncio", "_thread"} for item in facts.module.imports)
+    return any(item.root in {"threading", "asyncio", "_thread"} for item in file.module.imports)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.rclpy.file import node_facts
+from scaffold.model.rclpy.file import rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -98,7 +98,7 @@ def _programs(package: Package) -> Iterator[EntryPoint]:
             if path is None or path not in package.python_files:
                 continue
             # A node is meant for `ros2 run` wherever it is installed.
-            if install.destination == f"lib/{package.name}" or node_facts(package, path).nodes:
+            if install.destination == f"lib/{package.name}" or rclpy_file(package, path).nodes:
                 yield EntryPoint(install.rename or path.rpartition("/")[2], path, None)
 
 
@@ -106,32 +106,32 @@ def _programs(package: Package) -> Iterator[EntryPoint]:
 
 
 def _run(package: Package, start: EntryPoint) -> Execution:
-    facts = node_facts(package, start.path)
-    outside = _calls_outside(facts) if start.function is None else []
-    functions = _functions(facts, start.function, outside)
-    calls = [call for function in functions for call in facts.calls_in(function)]
-    return Execution(facts, functions, [*outside, *calls])
+    file = rclpy_file(package, start.path)
+    outside = _calls_outside(file) if start.function is None else []
+    functions = _functions(file, start.function, outside)
+    calls = [call for function in functions for call in file.calls_in(function)]
+    return Execution(file, functions, [*outside, *calls])
 
 
 def _functions(
-    facts: RclpyFile, entry: str | None, outside: Iterable[ast.Call]
+    file: RclpyFile, entry: str | None, outside: Iterable[ast.Call]
 ) -> list[FunctionNode]:
     """Return the functions that run, from the entry on, in the same file."""
     if entry is not None:
-        found = facts.module.functions.get(entry)
+        found = file.module.functions.get(entry)
         begin = [found.node] if found else []
     else:
-        called = [facts.callback(call.func).function for call in outside]
+        called = [file.callback(call.func).function for call in outside]
         begin = [item for item in called if item is not None and not isinstance(item, ast.Lambda)]
     reached: dict[FunctionNode | ast.Lambda, None] = {}
     for one in begin:
-        reached.update(dict.fromkeys(facts.reached(one, reached)))
+        reached.update(dict.fromkeys(file.reached(one, reached)))
     return [item for item in reached if not isinstance(item, ast.Lambda)]
 
 
-def _calls_outside(facts: RclpyFile) -> list[ast.Call]:
+def _calls_outside(file: RclpyFile) -> list[ast.Call]:
     """Return the calls that importing or running the file makes itself."""
-    module = facts.module
+    module = file.module
     return [
         call
         for call in module.walk(ast.Call)
@@ -150,7 +150,7 @@ def _files(package: Package, path: str) -> list[RclpyFile]:
         if current in result or not package.has(current):
             continue
         try:
-            result[current] = node_facts(package, current)
+            result[current] = rclpy_file(package, current)
         except ViewError:
             continue
         pending += _imported(package, current)

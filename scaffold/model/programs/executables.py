@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import keys_of_module
 from scaffold.model.cmake.ament import programs
-from scaffold.model.rclpy.file import node_facts
+from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.nodes import NodeObject
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -57,12 +57,12 @@ def nodes_of(package: Package, program: str) -> list[NodeDefinition]:
     if not path:
         return []
     try:
-        facts = node_facts(package, path)
+        file = rclpy_file(package, path)
     except ViewError:
         return []
-    result = list(facts.nodes)
+    result = list(file.nodes)
     for name in _imported(package, path):
-        result.extend(node_facts(package, name).nodes)
+        result.extend(rclpy_file(package, name).nodes)
     result.extend(_made_by_others(package, path))
     return result
 
@@ -78,7 +78,7 @@ def _made_by_others(package: Package, path: str) -> Iterator[NodeDefinition]:
             if other is None or not other.has(name):
                 continue
             with contextlib.suppress(ViewError):
-                nodes = node_facts(other, name).nodes
+                nodes = rclpy_file(other, name).nodes
                 yield from (node for node in nodes if isinstance(node, NodeObject))
 
 
@@ -99,7 +99,7 @@ def _find_imported(package: Package, path: str) -> Iterator[str]:
         for stem in names:
             if package.has(f"{stem}.py") and f"{stem}.py" != path:
                 try:
-                    node_facts(package, f"{stem}.py")
+                    rclpy_file(package, f"{stem}.py")
                 except ViewError:
                     continue
                 yield f"{stem}.py"

@@ -16,10 +16,10 @@ _FAR = 200
 class Shutdowns:
     """The shutdowns of a file that are statements, by the block that they stand in."""
 
-    def __init__(self, facts: RclpyFile) -> None:
-        self._module = facts.module
+    def __init__(self, file: RclpyFile) -> None:
+        self._module = file.module
         self._blocks: dict[tuple[ast.AST, str], dict[int, RclpyCall]] = {}
-        for call in facts.shutdown_calls:
+        for call in file.shutdown_calls:
             place = self._place(call.call)
             if place is not None:
                 holder, block, number = place
@@ -48,24 +48,24 @@ class Shutdowns:
         return holder, *self._module.index.place(statement)
 
 
-def used_of_executor(facts: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
+def used_of_executor(file: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
     """Return what is used of an executor held in a local variable and given to nobody."""
-    name = facts.module.qualified_name(call.func) or ""
-    parent = facts.module.parent(call)
+    name = file.module.qualified_name(call.func) or ""
+    parent = file.module.parent(call)
     if not name.startswith("rclpy.executors.") or not name.endswith("Executor"):
         return None
     if not isinstance(parent, ast.Assign) or not isinstance(parent.targets[0], ast.Name):
         return None
     variable = parent.targets[0]
-    scope = facts.module.index.lookup(variable.id, variable)
+    scope = file.module.index.lookup(variable.id, variable)
     result: dict[str, ast.AST] = {}
-    for other in facts.module.index.names(variable.id):
+    for other in file.module.index.names(variable.id):
         if other is variable:
             continue
-        around = facts.module.parent(other)
+        around = file.module.parent(other)
         if not scope or not isinstance(around, ast.Attribute):
             return None
-        looked_up = facts.module.index.lookup(other.id, other)
+        looked_up = file.module.index.lookup(other.id, other)
         if looked_up is None or looked_up[0] is not scope[0]:
             return None
         result[around.attr] = around

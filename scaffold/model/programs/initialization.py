@@ -15,26 +15,26 @@ if TYPE_CHECKING:
 _HARMLESS = frozenset({"rclpy", *dir(builtins)})
 
 
-def late_init(facts: RclpyFile, made: ast.Call) -> ast.Call | None:
+def late_init(file: RclpyFile, made: ast.Call) -> ast.Call | None:
     """Return the only initialization of a file, if it comes too late in the same function."""
-    mentions = [*facts.module.index.attributes("init"), *facts.module.index.names("init")]
-    if len(facts.init_calls) != 1 or len(mentions) != 1:
+    mentions = [*file.module.index.attributes("init"), *file.module.index.names("init")]
+    if len(file.init_calls) != 1 or len(mentions) != 1:
         return None
-    call = facts.init_calls[0].call
-    is_certain = not facts.is_conditional(call) and not facts.is_conditional(made)
-    is_same = facts.function_of(call) is facts.function_of(made)
+    call = file.init_calls[0].call
+    is_certain = not file.is_conditional(call) and not file.is_conditional(made)
+    is_same = file.function_of(call) is file.function_of(made)
     return call if is_certain and is_same and call.lineno > made.lineno else None
 
 
-def may_init(facts: RclpyFile) -> bool:
+def may_init(file: RclpyFile) -> bool:
     """Tell whether a file may initialize rclpy, or makes a context of its own."""
-    index = facts.module.index
+    index = file.module.index
     for name in ("init", "Context"):
         if index.attributes(name) or index.names(name):
             return True
     return any(
         name.name in {"init", "Context"} or (name.name == "*" and not _is_standard(item.root))
-        for item in facts.module.imports
+        for item in file.module.imports
         for name in item.names
     )
 

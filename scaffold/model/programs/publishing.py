@@ -35,16 +35,16 @@ class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
     """Something else may happen as well."""
 
 
-def publish_calls(facts: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] | None:
+def publish_calls(file: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] | None:
     """Return the calls that publish; ``None`` when others get hold of the publisher."""
     try:
-        return list(_uses(facts, publisher, "publish"))
+        return list(_uses(file, publisher, "publish"))
     except _Doubt:
         return None
 
 
 def publish_rates(
-    facts: RclpyFile, publisher: Publisher, *, may_leave: bool = False
+    file: RclpyFile, publisher: Publisher, *, may_leave: bool = False
 ) -> Sequence[float] | None:
     """Return the rates in Hz that add up to how often a publisher publishes, one per message.
 
@@ -53,7 +53,7 @@ def publish_rates(
     rate, it publishes at the start or never.
 
     Args:
-        facts: The file.
+        file: The file.
         publisher: What publishes.
         may_leave: Whether callbacks may return or raise before they publish.
     """
@@ -61,76 +61,76 @@ def publish_rates(
         return None
     try:
         return [
-            _rate(facts, timer)
-            for call in _uses(facts, publisher, "publish")
-            for timer in _timers_behind(facts, call, 0, may_leave=may_leave)
+            _rate(file, timer)
+            for call in _uses(file, publisher, "publish")
+            for timer in _timers_behind(file, call, 0, may_leave=may_leave)
         ]
     except _Doubt:
         return None
 
 
-def ticks_always(facts: RclpyFile, timer: Timer) -> bool:
+def ticks_always(file: RclpyFile, timer: Timer) -> bool:
     """Tell whether a timer certainly ticks, from the start of its node to the end."""
     try:
-        _expect_ticking(facts, timer)
+        _expect_ticking(file, timer)
     except _Doubt:
         return False
     return True
 
 
-def _rate(facts: RclpyFile, timer: Timer) -> float:
+def _rate(file: RclpyFile, timer: Timer) -> float:
     if isinstance(timer.period, Unknown) or timer.period <= 0:
         raise _Doubt
-    _expect_ticking(facts, timer)
+    _expect_ticking(file, timer)
     return 1 / timer.period
 
 
-def _expect_ticking(facts: RclpyFile, timer: Timer) -> None:
+def _expect_ticking(file: RclpyFile, timer: Timer) -> None:
     autostart = timer.argument("autostart")
     if timer.is_conditional or timer.has_unknown_arguments:
         raise _Doubt
     if autostart and autostart.value is not True:
         raise _Doubt
-    if timer.argument("clock") or _may_be_held_up(facts, timer):
+    if timer.argument("clock") or _may_be_held_up(file, timer):
         raise _Doubt
-    if not _runs_once(facts, timer.function):
+    if not _runs_once(file, timer.function):
         raise _Doubt
     if timer.attribute or timer.variable:
-        list(_uses(facts, timer, ""))
+        list(_uses(file, timer, ""))
 
 
-def _may_be_held_up(facts: RclpyFile, timer: Timer) -> bool:
+def _may_be_held_up(file: RclpyFile, timer: Timer) -> bool:
     """Tell whether a timer is in a callback group that may do anything."""
     group = timer.argument("callback_group")
     if group is None:
         return False
-    made = facts.evaluator.single_value(group.node)
-    names = facts.module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
+    made = file.evaluator.single_value(group.node)
+    names = file.module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
     return not any(name.startswith("rclpy.callback_groups.") for name in names)
 
 
-def _runs_once(facts: RclpyFile, function: FunctionNode | None) -> bool:
+def _runs_once(file: RclpyFile, function: FunctionNode | None) -> bool:
     """Tell whether a function is run once per node: constructor, its helper, or main."""
     for _ in range(_MAX_CALLS):
         if function is None or function.name == "__init__":
             return True
-        is_method = isinstance(facts.module.parent(function), ast.ClassDef)
-        references = list(_references(facts, function))
+        is_method = isinstance(file.module.parent(function), ast.ClassDef)
+        references = list(_references(file, function))
         if not is_method:
             return len(references) <= 1
-        if len(references) != 1 or not _is_certain_call(facts, references[0]):
+        if len(references) != 1 or not _is_certain_call(file, references[0]):
             return False
-        function = facts.module.enclosing_function(references[0])
+        function = file.module.enclosing_function(references[0])
     return False
 
 
 # -- who uses what
 
 
-def _uses(facts: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
+def _uses(file: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
     """Yield the calls of a method of something stored; doubt when it goes elsewhere."""
-    module = facts.module
-    for node in _stored_references(facts, entity):
+    module = file.module
+    for node in _stored_references(file, entity):
         parent = module.parent(node)
         above = module.parent(parent) if parent else None
         if isinstance(parent, ast.Attribute):
@@ -143,17 +143,17 @@ def _uses(facts: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
             raise _Doubt
 
 
-def _stored_references(facts: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
+def _stored_references(file: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
     """Yield where the attribute and the variable that something is stored in are read."""
     if not entity.attribute and not entity.variable:
         raise _Doubt
     if entity.attribute:
-        yield from _attribute_references(facts, entity, entity.attribute)
+        yield from _attribute_references(file, entity, entity.attribute)
     if entity.variable:
-        for node in facts.module.index.names(entity.variable):
+        for node in file.module.index.names(entity.variable):
             if not isinstance(node.ctx, ast.Load):
                 continue
-            found = facts.module.index.lookup(node.id, node)
+            found = file.module.index.lookup(node.id, node)
             bindings = found[1] if found else ()
             if any(binding.value is entity.call for binding in bindings):
                 if len(bindings) > 1:
@@ -162,20 +162,20 @@ def _stored_references(facts: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
 
 
 def _attribute_references(
-    facts: RclpyFile, entity: Entity, attribute: str
+    file: RclpyFile, entity: Entity, attribute: str
 ) -> Iterator[ast.Attribute]:
     function = entity.function
-    class_ = facts.module.enclosing_class(function) if function else None
+    class_ = file.module.enclosing_class(function) if function else None
     if class_ is None:
         raise _Doubt
-    family = facts.related_classes(class_)
-    for store in facts.evaluator.stores(attribute):
+    family = file.related_classes(class_)
+    for store in file.evaluator.stores(attribute):
         other = store.class_ is None or store.class_ in family
         if other and store.value is not entity.call and not _is_placeholder(store, entity):
             raise _Doubt
-    for node in facts.module.index.attributes(attribute):
+    for node in file.module.index.attributes(attribute):
         if isinstance(node.ctx, ast.Load):
-            holder = facts.evaluator.self_class(node.value)
+            holder = file.evaluator.self_class(node.value)
             if holder is None or holder in family:
                 yield node
 
@@ -187,33 +187,33 @@ def _is_placeholder(store: Store, entity: Entity) -> bool:
 
 
 def _timers_behind(
-    facts: RclpyFile, call: ast.AST, depth: int, *, may_leave: bool
+    file: RclpyFile, call: ast.AST, depth: int, *, may_leave: bool
 ) -> Iterator[Timer]:
     """Yield a timer for every way to come to a call; doubt for any other way."""
-    module = facts.module
-    function = facts.function_of(call)
+    module = file.module
+    function = file.function_of(call)
     if depth > _MAX_CALLS or function is None:
         raise _Doubt
-    if _is_conditional(facts, call, function) or not (may_leave or _gets_to(facts, call, function)):
+    if _is_conditional(file, call, function) or not (may_leave or _gets_to(file, call, function)):
         raise _Doubt
     if not isinstance(function, ast.Lambda) and function.name == "__init__":
         return  # once, at the start
-    references = list(_references(facts, function))
+    references = list(_references(file, function))
     if not references or len(references) > _MAX_CALLS:
         raise _Doubt
     for reference in references:
-        timer = _timer_with(facts, reference)
+        timer = _timer_with(file, reference)
         if timer is not None:
             yield timer
             continue
         parent = module.parent(reference)
         if not isinstance(parent, ast.Call) or parent.func is not reference:
             raise _Doubt
-        yield from _timers_behind(facts, parent, depth + 1, may_leave=may_leave)
+        yield from _timers_behind(file, parent, depth + 1, may_leave=may_leave)
 
 
-def _timer_with(facts: RclpyFile, reference: ast.expr) -> Timer | None:
-    for timer in facts.timers:
+def _timer_with(file: RclpyFile, reference: ast.expr) -> Timer | None:
+    for timer in file.timers:
         callback = timer.callback
         if callback and not callback.is_called and _innermost(callback) is reference:
             return timer
@@ -228,33 +228,33 @@ def _innermost(callback: Callback) -> ast.expr:
     return node
 
 
-def _references(facts: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
+def _references(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
     """Yield where a function is mentioned; doubt when another one has the same name."""
     if isinstance(function, ast.Lambda):
         yield function
-    elif isinstance(facts.module.parent(function), ast.ClassDef):
-        yield from _method_references(facts, function)
+    elif isinstance(file.module.parent(function), ast.ClassDef):
+        yield from _method_references(file, function)
     else:
-        yield from _function_references(facts, function)
+        yield from _function_references(file, function)
 
 
-def _method_references(facts: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
-    index, class_ = facts.module.index, facts.module.enclosing_class(function)
-    family = facts.related_classes(class_) if class_ else ()
+def _method_references(file: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
+    index, class_ = file.module.index, file.module.enclosing_class(function)
+    family = file.related_classes(class_) if class_ else ()
     name = function.name
     same = [binding for member in family for binding in index.bindings(member).get(name, ())]
     if len(same) != 1:
         raise _Doubt
     for node in index.attributes(name):
-        holder = facts.evaluator.self_class(node.value)
+        holder = file.evaluator.self_class(node.value)
         if holder is None or holder in family:
             yield node
 
 
-def _function_references(facts: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
-    for name in facts.module.index.names(function.name):
+def _function_references(file: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
+    for name in file.module.index.names(function.name):
         if isinstance(name.ctx, ast.Load):
-            found = facts.module.index.lookup(name.id, name)
+            found = file.module.index.lookup(name.id, name)
             bindings = found[1] if found else ()
             if any(binding.node is function for binding in bindings):
                 if len(bindings) > 1:
@@ -262,26 +262,26 @@ def _function_references(facts: RclpyFile, function: FunctionNode) -> Iterator[a
                 yield name
 
 
-def _is_certain_call(facts: RclpyFile, reference: ast.expr) -> bool:
-    parent = facts.module.parent(reference)
-    function = facts.function_of(reference)
+def _is_certain_call(file: RclpyFile, reference: ast.expr) -> bool:
+    parent = file.module.parent(reference)
+    function = file.function_of(reference)
     return (
         isinstance(parent, ast.Call)
         and parent.func is reference
         and function is not None
-        and _is_certain(facts, parent, function)
+        and _is_certain(file, parent, function)
     )
 
 
-def _is_certain(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _is_certain(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether a node is run exactly once whenever its function is."""
-    return not _is_conditional(facts, node, function) and _gets_to(facts, node, function)
+    return not _is_conditional(file, node, function) and _gets_to(file, node, function)
 
 
-def _is_conditional(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _is_conditional(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether a node is inside of something that may skip or repeat it."""
     child = node
-    for parent in facts.module.parents(node):
+    for parent in file.module.parents(node):
         if parent is function:
             break
         match parent:
@@ -299,12 +299,12 @@ def _is_conditional(facts: RclpyFile, node: ast.AST, function: FunctionNode | as
     return False
 
 
-def _gets_to(facts: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
+def _gets_to(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
     """Tell whether nothing leaves a function before a node of it."""
     return not any(
-        facts.function_of(leaving) is function and _is_before(leaving, node)
+        file.function_of(leaving) is function and _is_before(leaving, node)
         for kind in (ast.Return, ast.Raise, ast.Yield)
-        for leaving in facts.module.walk(kind)
+        for leaving in file.module.walk(kind)
     )
 
 
@@ -343,9 +343,9 @@ class PublishReach:
         alone: Whether no other file calls into this one.
     """
 
-    def __init__(self, facts: RclpyFile, starts: Collection[FunctionNode], *, alone: bool) -> None:
-        self._facts = facts
-        self._module = facts.module
+    def __init__(self, file: RclpyFile, starts: Collection[FunctionNode], *, alone: bool) -> None:
+        self._facts = file
+        self._module = file.module
         self._starts = starts
         self._alone = alone
 

@@ -93,8 +93,8 @@ def _services(package: Package) -> Mapping[str, ServiceName]:
 
 def _by_name(package: Package, kinds: tuple[type[Endpoint], ...]) -> Mapping[str, list[Endpoint]]:
     result: dict[str, list[Endpoint]] = {}
-    for facts in rclpy_files(package):
-        for endpoint in facts.endpoints:
+    for file in rclpy_files(package):
+        for endpoint in file.endpoints:
             name = endpoint.name
             if not isinstance(endpoint, kinds) or isinstance(name, Unknown):
                 continue

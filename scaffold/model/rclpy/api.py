@@ -114,12 +114,12 @@ def first_unknown(dotted: str) -> tuple[str, str] | None:
     return None
 
 
-def class_of(facts: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
+def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the class of rclpy, as the table calls it, that an expression is an object of."""
-    value = facts.evaluator.single_value(node)
+    value = file.evaluator.single_value(node)
     if not isinstance(value, ast.Call) or depth > _DEEPEST:
-        return _class_of_argument(facts, value)
-    name = facts.module.qualified_name(value.func) or ""
+        return _class_of_argument(file, value)
+    name = file.module.qualified_name(value.func) or ""
     name = _places().get(name, name)
     if name in _GIVEN:
         return _GIVEN[name]
@@ -127,48 +127,48 @@ def class_of(facts: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
         return name
     if not isinstance(value.func, ast.Attribute):
         return None
-    return _class_made(facts, value, value.func, depth)
+    return _class_made(file, value, value.func, depth)
 
 
-def _class_made(facts: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
+def _class_made(file: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
     """Return the class of what a method gives."""
-    owner = facts.owner_of(func.value)
+    owner = file.owner_of(func.value)
     if owner is not None:
         is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
         return None if is_own or owner.is_lifecycle else _MADE.get(func.attr)
     if func.attr == "result" and not call.args:
-        return _class_of_result(facts, func.value, depth)
-    inner = class_of(facts, func.value, depth + 1)
+        return _class_of_result(file, func.value, depth)
+    inner = class_of(file, func.value, depth + 1)
     return _GIVEN.get(f"{inner}.{func.attr}")
 
 
-def _class_of_result(facts: RclpyFile, node: ast.expr, depth: int) -> str | None:
+def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     """Return the class of what a future holds: the handle of a goal that was sent."""
-    future = future_given(facts, node)
-    made = facts.evaluator.single_value(node if future is None else future)
+    future = future_given(file, node)
+    made = file.evaluator.single_value(node if future is None else future)
     if isinstance(made, ast.Call) and isinstance(made.func, ast.Attribute):
-        inner = class_of(facts, made.func.value, depth + 1)
+        inner = class_of(file, made.func.value, depth + 1)
         return _RESULTS.get(f"{inner}.{made.func.attr}")
     return None
 
 
-def _class_of_argument(facts: RclpyFile, node: ast.expr) -> str | None:
+def _class_of_argument(file: RclpyFile, node: ast.expr) -> str | None:
     """Return the class of what a callback is given: a future that is done, a goal handle."""
-    argument = facts.parameter_of(node)
-    if argument is not None and _is_goal_handle(facts, argument):
+    argument = file.parameter_of(node)
+    if argument is not None and _is_goal_handle(file, argument):
         return GOAL_HANDLE
-    if is_listed_parameter(facts, node):
+    if is_listed_parameter(file, node):
         return PARAMETER
-    future = future_given(facts, node)
-    return class_of(facts, future) if future is not None else None
+    future = future_given(file, node)
+    return class_of(file, future) if future is not None else None
 
 
-def _is_goal_handle(facts: RclpyFile, argument: ast.arg) -> bool:
+def _is_goal_handle(file: RclpyFile, argument: ast.arg) -> bool:
     """Tell whether an action server calls a function with the handle of a goal for this."""
-    for server in facts.action_servers:
+    for server in file.action_servers:
         for name in _GOAL_CALLBACKS:
             given = server.argument(name)
-            callback = facts.callback(given.node) if given else None
+            callback = file.callback(given.node) if given else None
             if callback is None or callback.is_partial or callback.is_called:
                 continue
             if _first_argument(callback.function, is_bound=callback.is_bound) is argument:
@@ -176,15 +176,15 @@ def _is_goal_handle(facts: RclpyFile, argument: ast.arg) -> bool:
     return False
 
 
-def future_given(facts: RclpyFile, node: ast.expr) -> ast.expr | None:
+def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
     """Return the future that is done when a callback is called with what a name stands for."""
-    argument = facts.parameter_of(node)
+    argument = file.parameter_of(node)
     if argument is None:
         return None
-    for attribute in facts.module.index.attributes("add_done_callback"):
-        match facts.module.parent(attribute):
+    for attribute in file.module.index.attributes("add_done_callback"):
+        match file.module.parent(attribute):
             case ast.Call(func=func, args=[given]) if func is attribute:
-                callback = facts.callback(given)
+                callback = file.callback(given)
                 given_to = _first_argument(callback.function, is_bound=callback.is_bound)
                 if given_to is argument and not callback.is_partial:
                     return attribute.value

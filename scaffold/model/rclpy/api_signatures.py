@@ -147,34 +147,34 @@ class Excess(NamedTuple):
     """The first such argument."""
 
 
-def excess_arguments(facts: RclpyFile) -> Iterator[Excess]:
+def excess_arguments(file: RclpyFile) -> Iterator[Excess]:
     """Yield the calls of rclpy's functions that end in a TypeError, in the order of the text."""
-    for call in facts.module.walk(ast.Call):
-        named = _called(facts, call) if call.args or call.keywords else None
+    for call in file.module.walk(ast.Call):
+        named = _called(file, call) if call.args or call.keywords else None
         if named is not None:
             yield from _excess(call, *named)
-    for node in facts.classes:
+    for node in file.classes:
         base = node.constructor_call if node.base is None and not node.is_lifecycle else None
         if base is not None:
             yield from _excess(base, "Node.__init__", FUNCTIONS["rclpy.node.Node"])
 
 
-def _called(facts: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
-    for name in facts.module.qualified_names(call.func):
+def _called(file: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
+    for name in file.module.qualified_names(call.func):
         if name in FUNCTIONS:
             return name, FUNCTIONS[name]
     func = call.func
     if isinstance(func, ast.Attribute) and func.attr in OBJECTS:
-        signature = OBJECTS[func.attr].get(class_of(facts, func.value) or "")
+        signature = OBJECTS[func.attr].get(class_of(file, func.value) or "")
         return (func.attr, signature) if signature is not None else None
     if not isinstance(func, ast.Attribute) or func.attr not in METHODS:
         return None
-    return (func.attr, METHODS[func.attr]) if _is_plain(facts, func) else None
+    return (func.attr, METHODS[func.attr]) if _is_plain(file, func) else None
 
 
-def _is_plain(facts: RclpyFile, func: ast.Attribute) -> bool:
+def _is_plain(file: RclpyFile, func: ast.Attribute) -> bool:
     """Tell whether a method is rclpy's own, not one of a class in between."""
-    owner = facts.owner_of(func.value)
+    owner = file.owner_of(func.value)
     if isinstance(owner, NodeObject):
         return not owner.is_lifecycle
     while isinstance(owner, NodeClass):

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.nodes import NodeClass
 
 
-def used_by_classes(facts: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
+def used_by_classes(file: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
     """Return what classes read of themselves, but for what the file sets on whatever object."""
-    module = facts.module
+    module = file.module
     read: list[ast.Attribute] = []
     stored: set[str] = set()
     for attribute in module.walk(ast.Attribute):
@@ -28,19 +28,19 @@ def used_by_classes(facts: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]
     result: dict[ast.ClassDef, list[ast.Attribute]] = {}
     for attribute in read:
         if attribute.attr not in stored and not has(NODE, attribute.attr):
-            class_ = _owner(facts, attribute)
+            class_ = _owner(file, attribute)
             if class_ is not None:
                 result.setdefault(class_, []).append(attribute)
     return result
 
 
-def _owner(facts: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
+def _owner(file: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
     """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
-    class_ = facts.evaluator.self_class(attribute.value)
+    class_ = file.evaluator.self_class(attribute.value)
     if class_ is None and isinstance(attribute.value, ast.Name):
-        made = facts.evaluator.single_value(attribute.value)
+        made = file.evaluator.single_value(attribute.value)
         if isinstance(made, ast.Call):
-            class_ = facts.evaluator.named_class(made.func)
+            class_ = file.evaluator.named_class(made.func)
     return class_
 
 

@@ -14,28 +14,28 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 
-def resolve(facts: RclpyFile, node: ast.expr) -> Callback:
+def resolve(file: RclpyFile, node: ast.expr) -> Callback:
     """Return what an expression stands for as a callback."""
-    module = facts.module
+    module = file.module
     if isinstance(node, ast.Call):
         if module.qualified_name(node.func) == "functools.partial" and node.args:
-            inner = resolve(facts, node.args[0])
+            inner = resolve(file, node.args[0])
             return inner._replace(node=node, is_partial=True)
-        inner = resolve(facts, node.func)
+        inner = resolve(file, node.func)
         is_called = inner.function is not None and not _returns_function(inner.function)
         return inner._replace(node=node, is_called=is_called, function=None)
     if isinstance(node, ast.Lambda):
         return Callback(node, None, node, module, is_called=False, is_bound=False)
     if isinstance(node, ast.Attribute):
-        owner = facts.owner_of(node.value)
+        owner = file.owner_of(node.value)
         method = owner.method(node.attr) if isinstance(owner, NodeClass) else None
         if method is None:
-            class_ = facts.evaluator.self_class(node.value)
-            method = _method_of(facts, class_, node.attr) if class_ else None
+            class_ = file.evaluator.self_class(node.value)
+            method = _method_of(file, class_, node.attr) if class_ else None
         is_bound = method is not None and not _is_static_method(method)
         return Callback(node, node.attr, method, module, is_called=False, is_bound=is_bound)
     if isinstance(node, ast.Name):
-        found = facts.module.index.lookup(node.id, node)
+        found = file.module.index.lookup(node.id, node)
         nodes = [binding.node for binding in found[1]] if found else []
         function = nodes[0] if len(nodes) == 1 else None
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
@@ -44,18 +44,18 @@ def resolve(facts: RclpyFile, node: ast.expr) -> Callback:
     return Callback(node, None, None, module, is_called=False, is_bound=False)
 
 
-def _method_of(facts: RclpyFile, class_: ast.ClassDef, name: str) -> FunctionNode | None:
-    for member in facts.related_classes(class_):
-        for binding in facts.module.index.bindings(member).get(name, ()):
+def _method_of(file: RclpyFile, class_: ast.ClassDef, name: str) -> FunctionNode | None:
+    for member in file.related_classes(class_):
+        for binding in file.module.index.bindings(member).get(name, ()):
             if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
                 return binding.node
     return None
 
 
-def function_of(facts: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | None:
+def function_of(file: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | None:
     """Return the function whose body a node stands in."""
     child = node
-    for parent in facts.module.parents(node):
+    for parent in file.module.parents(node):
         if isinstance(parent, ast.Lambda):
             return parent
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef) and isinstance(
@@ -67,12 +67,12 @@ def function_of(facts: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | 
 
 
 def reached(
-    facts: RclpyFile, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+    file: RclpyFile, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
 ) -> Sequence[FunctionNode | ast.Lambda]:
     """Return a function and what it calls in the same file: methods of self, functions.
 
     Args:
-        facts: The file.
+        file: The file.
         function: The function.
         known: Functions that are of no interest any more, nor is what they call.
     """
@@ -81,9 +81,9 @@ def reached(
     while pending:
         result.update(dict.fromkeys(pending))
         called = [
-            facts.callback(call.func).function
+            file.callback(call.func).function
             for current in pending
-            for call in facts.calls_in(current)
+            for call in file.calls_in(current)
         ]
         pending = [
             item

@@ -22,7 +22,7 @@ class Called(NamedTuple):
     """How many of the first arguments it is given anyway: 1 for ``self``."""
 
 
-def called_function(package: Package, facts: RclpyFile, call: ast.Call) -> Called | None:
+def called_function(package: Package, file: RclpyFile, call: ast.Call) -> Called | None:
     """Return the method, function or constructor of the package that a call is of.
 
     Returns:
@@ -34,38 +34,38 @@ def called_function(package: Package, facts: RclpyFile, call: ast.Call) -> Calle
         return None
     if any(word.arg is None for word in call.keywords):
         return None
-    if facts.callback(call.func).function is not None:
-        return _of_this_file(facts, call.func)
-    return _imported(package, facts, call.func) or _constructor(facts, call.func)
+    if file.callback(call.func).function is not None:
+        return _of_this_file(file, call.func)
+    return _imported(package, file, call.func) or _constructor(file, call.func)
 
 
-def _of_this_file(facts: RclpyFile, func: ast.expr) -> Called | None:
-    callback = facts.callback(func)
+def _of_this_file(file: RclpyFile, func: ast.expr) -> Called | None:
+    callback = file.callback(func)
     function = callback.function
     if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
         return None
-    if callback.is_called or callback.is_partial or not _is_only_one(facts, func, function):
+    if callback.is_called or callback.is_partial or not _is_only_one(file, func, function):
         return None
-    name = callback.name or facts.module.text(func)
+    name = callback.name or file.module.text(func)
     return Called(name, function.args, int(callback.is_bound))
 
 
 def _is_only_one(
-    facts: RclpyFile, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
+    file: RclpyFile, func: ast.expr, function: ast.FunctionDef | ast.AsyncFunctionDef
 ) -> bool:
     """Tell whether no class that inherits, and no assignment, puts another function in place."""
-    others = [node for node in facts.module.function_nodes if node.name == function.name]
-    if len(others) != 1 or facts.evaluator.stores(function.name):
+    others = [node for node in file.module.function_nodes if node.name == function.name]
+    if len(others) != 1 or file.evaluator.stores(function.name):
         return False
     if not isinstance(func, ast.Attribute):
         return True
-    class_ = facts.evaluator.self_class(func.value)
+    class_ = file.evaluator.self_class(func.value)
     return class_ is not None and function in class_.body
 
 
-def _imported(package: Package, facts: RclpyFile, func: ast.expr) -> Called | None:
+def _imported(package: Package, file: RclpyFile, func: ast.expr) -> Called | None:
     """Return the function of another module of the package."""
-    dotted = facts.module.qualified_name(func) or ""
+    dotted = file.module.qualified_name(func) or ""
     module, _, name = dotted.rpartition(".")
     path = f"{module.replace('.', '/')}.py"
     if not module or not package.has(path):
@@ -75,16 +75,16 @@ def _imported(package: Package, facts: RclpyFile, func: ast.expr) -> Called | No
     function = bindings[0].node if len(bindings) == 1 else None
     if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
         return None
-    return None if function.decorator_list else Called(facts.module.text(func), function.args, 0)
+    return None if function.decorator_list else Called(file.module.text(func), function.args, 0)
 
 
-def _constructor(facts: RclpyFile, func: ast.expr) -> Called | None:
+def _constructor(file: RclpyFile, func: ast.expr) -> Called | None:
     """Return the constructor of a class of nodes of this file."""
-    class_ = facts.evaluator.named_class(func)
-    node = facts.node_class(class_) if class_ is not None else None
+    class_ = file.evaluator.named_class(func)
+    node = file.node_class(class_) if class_ is not None else None
     constructor = node.methods.get("__init__") if node is not None else None
     if class_ is None or constructor is None or constructor.decorator_list:
         return None
     if class_.decorator_list or class_.keywords:
         return None
-    return Called(facts.module.text(func), constructor.args, 1)
+    return Called(file.module.text(func), constructor.args, 1)

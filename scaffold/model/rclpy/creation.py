@@ -70,8 +70,8 @@ _ACTIONS = {
 class Creation:
     """Reads what the calls of a file create."""
 
-    def __init__(self, facts: RclpyFile) -> None:
-        self._facts = facts
+    def __init__(self, file: RclpyFile) -> None:
+        self._facts = file
 
     def entities(self) -> Iterator[Entity]:
         """Yield everything created, in the order of the text."""

@@ -45,7 +45,7 @@ __all__ = [
     "NodeDefinition",
     "NodeObject",
     "RclpyFile",
-    "node_facts",
+    "rclpy_file",
     "rclpy_files",
 ]
 
@@ -74,7 +74,7 @@ class Modules(Protocol):
         """Return what ``build`` makes; it is made once for a key."""
 
 
-def node_facts(modules: Modules, path: str) -> RclpyFile:
+def rclpy_file(modules: Modules, path: str) -> RclpyFile:
     """Return what the rclpy code of a Python file says; raises ViewError."""
     return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
 
@@ -99,7 +99,7 @@ def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator
         mentioning: Words without which a file is of no interest; it is not even parsed.
     """
     for module in package.modules(rclpy_paths(package), mentioning):
-        yield node_facts(package, module.path)
+        yield rclpy_file(package, module.path)
 
 
 class RclpyFile:
@@ -214,7 +214,7 @@ class RclpyFile:
                 try:
                     # What is made of the other file is kept here, for everybody who asks.
                     with reads.recorded(self._reads):
-                        return node_facts(self.modules, path)
+                        return rclpy_file(self.modules, path)
                 except ViewError:
                     return None
         return None

@@ -21,66 +21,66 @@ _EXECUTORS = frozenset(
 _MAX_CALLS = 20
 
 
-def rclpy_calls(facts: RclpyFile) -> Iterator[RclpyCall]:
+def rclpy_calls(file: RclpyFile) -> Iterator[RclpyCall]:
     """Yield the calls that start, run or end rclpy, in the order of the text."""
     outside: _Outside | None = None
-    for call in facts.module.walk(ast.Call):
-        name = _run_name(facts, call)
+    for call in file.module.walk(ast.Call):
+        name = _run_name(file, call)
         if name is not None:
-            outside = outside or _Outside(facts)
-            yield _rclpy_call(facts, call, name, outside)
+            outside = outside or _Outside(file)
+            yield _rclpy_call(file, call, name, outside)
 
 
-def _run_name(facts: RclpyFile, call: ast.Call) -> str | None:
-    for name in facts.module.qualified_names(call.func):
+def _run_name(file: RclpyFile, call: ast.Call) -> str | None:
+    for name in file.module.qualified_names(call.func):
         root, _, function = name.rpartition(".")
         if function in _RUNS and root in {"rclpy", "rclpy.utilities"}:
             return function
     func = call.func
-    if isinstance(func, ast.Attribute) and func.attr in _RUNS and _is_executor(facts, func.value):
+    if isinstance(func, ast.Attribute) and func.attr in _RUNS and _is_executor(file, func.value):
         return f"executor.{func.attr}"
     return None
 
 
-def _is_executor(facts: RclpyFile, node: ast.expr) -> bool:
-    value = facts.evaluator.single_value(node)
+def _is_executor(file: RclpyFile, node: ast.expr) -> bool:
+    value = file.evaluator.single_value(node)
     if value is node and isinstance(node, ast.Name):
-        value = _entered(facts, node) or node
+        value = _entered(file, node) or node
     if not isinstance(value, ast.Call):
         return False
-    return not _EXECUTORS.isdisjoint(facts.module.qualified_names(value.func))
+    return not _EXECUTORS.isdisjoint(file.module.qualified_names(value.func))
 
 
-def _entered(facts: RclpyFile, node: ast.Name) -> ast.expr | None:
+def _entered(file: RclpyFile, node: ast.Name) -> ast.expr | None:
     """Return what ``with ... as name`` is entered with."""
-    found = facts.module.index.lookup(node.id, node)
+    found = file.module.index.lookup(node.id, node)
     for binding in found[1] if found else ():
-        parent = facts.module.parent(binding.node)
+        parent = file.module.parent(binding.node)
         if isinstance(parent, ast.withitem):
             return parent.context_expr
     return None
 
 
-def _rclpy_call(facts: RclpyFile, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
+def _rclpy_call(file: RclpyFile, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
     in_finally = asks_ok = in_with = False
     child: ast.AST = call
-    for parent in facts.module.parents(call):
+    for parent in file.module.parents(call):
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if facts.module.index.place(child)[0] == "finalbody":
+            case ast.Try() if file.module.index.place(child)[0] == "finalbody":
                 in_finally = True
             case ast.If(test=test):
-                asks_ok = asks_ok or _asks_ok(facts, test)
+                asks_ok = asks_ok or _asks_ok(file, test)
             case ast.With(items=items):
-                in_with = in_with or any(_enters_init(facts, item) for item in items)
+                in_with = in_with or any(_enters_init(file, item) for item in items)
         child = parent
     return RclpyCall(
         name,
         call,
-        facts.module.location(call),
-        facts.module.enclosing_function(call),
-        frozenset(_handlers_around(facts, call)),
+        file.module.location(call),
+        file.module.enclosing_function(call),
+        frozenset(_handlers_around(file, call)),
         in_finally,
         asks_ok,
         in_with,
@@ -88,18 +88,18 @@ def _rclpy_call(facts: RclpyFile, call: ast.Call, name: str, outside: _Outside) 
     )
 
 
-def _handlers_around(facts: RclpyFile, node: ast.AST) -> set[str]:
+def _handlers_around(file: RclpyFile, node: ast.AST) -> set[str]:
     """Return what is caught around a node in its function."""
     handlers: set[str] = set()
     child = node
-    for parent in facts.module.parents(node):
+    for parent in file.module.parents(node):
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if facts.module.index.place(child)[0] == "body":
-                handlers.update(_caught(facts, parent))
+            case ast.Try() if file.module.index.place(child)[0] == "body":
+                handlers.update(_caught(file, parent))
             case ast.With(items=items):
-                handlers.update(*(_suppressed(facts, item) for item in items))
+                handlers.update(*(_suppressed(file, item) for item in items))
         child = parent
     return handlers
 
@@ -107,12 +107,12 @@ def _handlers_around(facts: RclpyFile, node: ast.AST) -> set[str]:
 class _Outside:
     """What is caught around the functions of a file, by all that call them there."""
 
-    def __init__(self, facts: RclpyFile) -> None:
-        self._facts = facts
+    def __init__(self, file: RclpyFile) -> None:
+        self._facts = file
         self._known: dict[FunctionNode, frozenset[str]] = {}
         self._depth = 0
         self._calls: dict[str, list[ast.Name]] = {}
-        for call in facts.module.walk(ast.Call):
+        for call in file.module.walk(ast.Call):
             if isinstance(call.func, ast.Name):
                 self._calls.setdefault(call.func.id, []).append(call.func)
 
@@ -138,39 +138,39 @@ class _Outside:
         return found is not None and any(binding.node is function for binding in found[1])
 
 
-def _caught(facts: RclpyFile, node: ast.Try) -> Iterator[str]:
+def _caught(file: RclpyFile, node: ast.Try) -> Iterator[str]:
     for handler in node.handlers:
         if handler.type is None:
             yield "BaseException"
         else:
-            yield from _exceptions(facts, handler.type)
+            yield from _exceptions(file, handler.type)
 
 
-def _exceptions(facts: RclpyFile, node: ast.expr) -> Iterator[str]:
-    node = facts.evaluator.single_value(node)
+def _exceptions(file: RclpyFile, node: ast.expr) -> Iterator[str]:
+    node = file.evaluator.single_value(node)
     if isinstance(node, ast.Tuple):
         for item in node.elts:
-            yield from _exceptions(facts, item)
+            yield from _exceptions(file, item)
     else:
-        yield from facts.module.qualified_names(node)
+        yield from file.module.qualified_names(node)
 
 
-def _suppressed(facts: RclpyFile, item: ast.withitem) -> Iterator[str]:
+def _suppressed(file: RclpyFile, item: ast.withitem) -> Iterator[str]:
     call = item.context_expr
     if not isinstance(call, ast.Call):
         return
-    if facts.module.qualified_name(call.func) == "contextlib.suppress":
+    if file.module.qualified_name(call.func) == "contextlib.suppress":
         for arg in call.args:
-            yield from _exceptions(facts, arg)
+            yield from _exceptions(file, arg)
 
 
-def _enters_init(facts: RclpyFile, item: ast.withitem) -> bool:
+def _enters_init(file: RclpyFile, item: ast.withitem) -> bool:
     call = item.context_expr
-    return isinstance(call, ast.Call) and facts.module.qualified_name(call.func) == "rclpy.init"
+    return isinstance(call, ast.Call) and file.module.qualified_name(call.func) == "rclpy.init"
 
 
-def _asks_ok(facts: RclpyFile, test: ast.expr) -> bool:
+def _asks_ok(file: RclpyFile, test: ast.expr) -> bool:
     return any(
-        isinstance(node, ast.Call) and facts.module.qualified_name(node.func) == "rclpy.ok"
+        isinstance(node, ast.Call) and file.module.qualified_name(node.func) == "rclpy.ok"
         for node in ast.walk(test)
     )

@@ -13,12 +13,12 @@ LOG_METHODS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _METHOD = "get_logger"
 
 
-def log_calls(facts: RclpyFile) -> Iterator[ast.Call]:
+def log_calls(file: RclpyFile) -> Iterator[ast.Call]:
     """Yield the calls such as ``node.get_logger().info(...)``."""
-    for attribute in facts.module.index.attributes(_METHOD):
-        logger = facts.module.parent(attribute)
-        method = facts.module.parent(logger) if isinstance(logger, ast.Call) else None
-        call = facts.module.parent(method) if isinstance(method, ast.Attribute) else None
+    for attribute in file.module.index.attributes(_METHOD):
+        logger = file.module.parent(attribute)
+        method = file.module.parent(logger) if isinstance(logger, ast.Call) else None
+        call = file.module.parent(method) if isinstance(method, ast.Attribute) else None
         if (
             isinstance(method, ast.Attribute)
             and method.attr in LOG_METHODS
@@ -26,24 +26,24 @@ def log_calls(facts: RclpyFile) -> Iterator[ast.Call]:
             and logger.func is attribute
             and isinstance(call, ast.Call)
             and call.func is method
-            and is_of_rclpy(facts, attribute)
+            and is_of_rclpy(file, attribute)
         ):
             yield call
 
 
-def is_of_rclpy(facts: RclpyFile, method: ast.expr) -> bool:
+def is_of_rclpy(file: RclpyFile, method: ast.expr) -> bool:
     """Tell whether ``get_logger`` of some object is rclpy's, not one that a class here defines.
 
     Args:
-        facts: The file.
+        file: The file.
         method: The ``get_logger`` that is called.
     """
     makers = {
-        facts.module.parent(function)
-        for function in facts.module.walk(ast.FunctionDef)
+        file.module.parent(function)
+        for function in file.module.walk(ast.FunctionDef)
         if function.name == _METHOD
     }
-    class_ = facts.evaluator.self_class(method.value) if isinstance(method, ast.Attribute) else None
+    class_ = file.evaluator.self_class(method.value) if isinstance(method, ast.Attribute) else None
     if class_ is None:
         return not any(isinstance(maker, ast.ClassDef) for maker in makers)
-    return makers.isdisjoint(facts.related_classes(class_))
+    return makers.isdisjoint(file.related_classes(class_))

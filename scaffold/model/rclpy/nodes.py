@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 class NodeDefinition:
     """A node as the code makes it: of a class of its own, or an object."""
 
-    def __init__(self, facts: RclpyFile, name: str, location: Location) -> None:
-        self.facts = facts
+    def __init__(self, file: RclpyFile, name: str, location: Location) -> None:
+        self.facts = file
         self.name = name
         """Of the class, or of the variable."""
         self.location = location
@@ -145,8 +145,8 @@ class NodeDefinition:
 class NodeObject(NodeDefinition):
     """A node without a class of its own: ``node = rclpy.create_node('talker')``."""
 
-    def __init__(self, facts: RclpyFile, name: str, location: Location, call: ast.Call) -> None:
-        super().__init__(facts, name, location)
+    def __init__(self, file: RclpyFile, name: str, location: Location, call: ast.Call) -> None:
+        super().__init__(file, name, location)
         self._call = call
 
     @cached_property
@@ -158,8 +158,8 @@ class NodeObject(NodeDefinition):
 class NodeClass(NodeDefinition):
     """A class that inherits from rclpy's Node; its location is its name."""
 
-    def __init__(self, facts: RclpyFile, node: ast.ClassDef, base: NodeClass | None) -> None:
-        super().__init__(facts, node.name, facts.module.name_location(node))
+    def __init__(self, file: RclpyFile, node: ast.ClassDef, base: NodeClass | None) -> None:
+        super().__init__(file, node.name, file.module.name_location(node))
         self.node = node
         self.base = base
         """The base class, if that is a node class of the same package."""

@@ -20,7 +20,7 @@ from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.creation import _SIGNATURES
 from scaffold.model.rclpy.entities import Publisher, Qos, parameter_type
-from scaffold.model.rclpy.file import RclpyFile, node_facts
+from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.model.rclpy.qos import PROFILES
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 from tests import PATIENCE
@@ -236,11 +236,11 @@ def test_base_class_in_another_file_of_the_package() -> None:
         "        self.create_timer(1 / self.get_parameter('rate').value, self.tick)\n"
     )
     package = Package.of({"demo/base.py": base, "demo/talker.py": derived})
-    view = node_facts(package, "demo/talker.py")
+    view = rclpy_file(package, "demo/talker.py")
     (talker,) = view.classes
     assert (talker.is_lifecycle, talker.node_name) == (True, "base")
     assert talker.base is not None
-    assert talker.base.facts is node_facts(package, "demo/base.py")
+    assert talker.base.facts is rclpy_file(package, "demo/base.py")
     assert [(timer.period, set(timer.from_parameters)) for timer in talker.timers] == [
         (0.5, {"rate"})
     ]
@@ -255,8 +255,8 @@ def test_relative_base_and_a_circle_of_files() -> None:
             "demo/d.py": "from rclpy.node import Node\nclass D(Node): pass\n",
         }
     )
-    assert node_facts(package, "demo/a.py").classes == []
-    assert [item.name for item in node_facts(package, "demo/c.py").classes] == ["C"]
+    assert rclpy_file(package, "demo/a.py").classes == []
+    assert [item.name for item in rclpy_file(package, "demo/c.py").classes] == ["C"]
 
 
 def test_node_without_a_class() -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from scaffold.model.package import Package
 from scaffold.model.rclpy.entities import Parameter
-from scaffold.model.rclpy.file import node_facts
+from scaffold.model.rclpy.file import rclpy_file
 
 _NODE = (
     "from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor\n"
@@ -19,7 +19,7 @@ _NODE = (
 
 def declared(body: str) -> list[Parameter]:
     text = _NODE + "".join(f"        {line}\n" for line in body.splitlines())
-    facts = node_facts(Package.of({"talker.py": text}), "talker.py")
+    facts = rclpy_file(Package.of({"talker.py": text}), "talker.py")
     return list(facts.parameters)
 
 

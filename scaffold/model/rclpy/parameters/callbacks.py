@@ -19,21 +19,21 @@ _MESSAGE = r"\w+\.(?:msg|srv|action)\.\w+"
 _REFUSED = "every change is rejected"
 
 
-def wrong_value(method: str, facts: RclpyFile, value: ast.expr | None) -> str:
+def wrong_value(method: str, file: RclpyFile, value: ast.expr | None) -> str:
     """Return the problem with the result of a callback that a method adds, else nothing."""
-    return (_wrong_list if method == _PRE else _wrong_result)(facts, value)
+    return (_wrong_list if method == _PRE else _wrong_result)(file, value)
 
 
-def _wrong_result(facts: RclpyFile, value: ast.expr | None) -> str:
+def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a SetParametersResult, else nothing."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
-    fields = message_made(facts, value, RESULT)
+    fields = message_made(file, value, RESULT)
     if fields is not None:
         is_refusal = "successful" not in fields
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
-    value = _one_of_constants(facts, value) or facts.evaluator.single_value(value)
-    full = facts.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
+    value = _one_of_constants(file, value) or file.evaluator.single_value(value)
+    full = file.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
     what = ""
     if isinstance(value, ast.Constant):
         what = repr(value.value)
@@ -43,35 +43,35 @@ def _wrong_result(facts: RclpyFile, value: ast.expr | None) -> str:
         return "the class SetParametersResult; instantiate it with successful=True"
     elif full != RESULT and re.fullmatch(_MESSAGE, full) and full[0] != ".":
         what = f"a {full.rpartition('.')[2]}"
-    elif isinstance(value, ast.Call) and _gives_nothing(facts, value):
-        what = f"the result of {facts.module.text(value.func)}(), which is None"
+    elif isinstance(value, ast.Call) and _gives_nothing(file, value):
+        what = f"the result of {file.module.text(value.func)}(), which is None"
     return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
 
 
-def _one_of_constants(facts: RclpyFile, value: ast.expr) -> ast.Constant | None:
+def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:
     """Return one of the constants that a variable is set to, if it is set to nothing else."""
-    found = facts.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
+    found = file.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
     values = [binding.value for binding in found[1]] if found else []
     constants = [item for item in values if isinstance(item, ast.Constant)]
     return constants[0] if constants and len(constants) == len(values) else None
 
 
-def _wrong_list(facts: RclpyFile, value: ast.expr | None) -> str:
+def _wrong_list(file: RclpyFile, value: ast.expr | None) -> str:
     """Return what is wrong about a value in place of a list of parameters, else nothing."""
-    made = facts.evaluator.single_value(value) if value is not None else None
+    made = file.evaluator.single_value(value) if value is not None else None
     if made is None or (isinstance(made, ast.Constant) and made.value in {None, True, False}):
         return "nothing, not the list of parameters to set: TypeError"
-    full = facts.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+    full = file.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
     return "a SetParametersResult, not the list of parameters: TypeError" if full == RESULT else ""
 
 
-def _gives_nothing(facts: RclpyFile, call: ast.Call) -> bool:
+def _gives_nothing(file: RclpyFile, call: ast.Call) -> bool:
     """Tell whether a function of the file ends without a value, always."""
-    function = facts.callback(call.func).function
+    function = file.callback(call.func).function
     if not isinstance(function, ast.FunctionDef) or function.decorator_list:
         return False
     if not may_end(function) or is_generator(function):
         return False
-    class_ = facts.module.enclosing_class(function)
-    is_replaced = class_ is not None and len(facts.related_classes(class_)) > 1
+    class_ = file.module.enclosing_class(function)
+    is_replaced = class_ is not None and len(file.related_classes(class_)) > 1
     return not is_replaced and not any(item.value is not None for item in returned(function))

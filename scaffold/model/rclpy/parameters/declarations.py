@@ -36,8 +36,8 @@ class Declaration(NamedTuple):
 class Declarations:
     """The parameters that a file declares."""
 
-    def __init__(self, facts: RclpyFile) -> None:
-        self._facts = facts
+    def __init__(self, file: RclpyFile) -> None:
+        self._facts = file
         self._is_indexing = False
 
     def declarations_in(self, call: ast.Call, method: str) -> Iterator[Declaration]:

@@ -64,29 +64,29 @@ class Descriptor(NamedTuple):
 _PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[])
 
 
-def descriptor_of(facts: RclpyFile, node: ast.expr | None) -> Descriptor | None:
+def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
     """Return the descriptor that an expression makes; ``None`` when it is not known in full."""
     if node is None or (isinstance(node, ast.Constant) and node.value is None):
         return _PLAIN
-    fields = message_made(facts, node, DESCRIPTOR)
+    fields = message_made(file, node, DESCRIPTOR)
     if fields is None:
         return None
     is_dynamic, is_read_only = (
-        _flag(facts, fields.get(name)) for name in ("dynamic_typing", "read_only")
+        _flag(file, fields.get(name)) for name in ("dynamic_typing", "read_only")
     )
     if is_dynamic is None or is_read_only is None:
         return None
     ranges: list[Range] = []
     for name in _RANGES:
         if name in fields:
-            found = _range(facts, name, fields[name])
+            found = _range(file, name, fields[name])
             if found is None:
                 return None
             ranges.append(found)
     return Descriptor(is_dynamic, is_read_only, ranges)
 
 
-def message_made(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
     """Return what the fields of a message are set to where an expression uses it.
 
     By keywords where it is made, and one by one below, in the same block; ``append`` on a field
@@ -96,19 +96,19 @@ def message_made(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.e
         The fields; ``None`` when it is no such message, or when more may be set.
     """
     if not isinstance(node, ast.Name):
-        return _keywords(facts, _kept(facts, node), kind)
-    first = _assigned_before(facts, node)
+        return _keywords(file, _kept(file, node), kind)
+    first = _assigned_before(file, node)
     if first is None or first.value is None:
-        return _keywords(facts, _kept(facts, node), kind)
-    fields = _keywords(facts, first.value, kind)
+        return _keywords(file, _kept(file, node), kind)
+    fields = _keywords(file, first.value, kind)
     if fields is None:
         return None
-    for use in facts.module.index.names(node.id):
+    for use in file.module.index.names(node.id):
         if isinstance(use.ctx, ast.Load) and _is_between(use, first.node, node):
-            same = facts.module.index.lookup(use.id, use)
+            same = file.module.index.lookup(use.id, use)
             if same is None or all(item is not first for item in same[1]):
                 continue
-            if not _take(facts, use, first, fields):
+            if not _take(file, use, first, fields):
                 return None
     return fields
 
@@ -117,43 +117,43 @@ def _is_close(first: float, second: float) -> bool:
     return math.isclose(first, second, rel_tol=_TOLERANCE)
 
 
-def _keywords(facts: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
-    if not isinstance(node, ast.Call) or kind not in facts.module.qualified_names(node.func):
+def _keywords(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+    if not isinstance(node, ast.Call) or kind not in file.module.qualified_names(node.func):
         return None
     if node.args or any(word.arg is None for word in node.keywords):
         return None
     return {word.arg: word.value for word in node.keywords if word.arg is not None}
 
 
-def _kept(facts: RclpyFile, node: ast.expr) -> ast.expr:
+def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
     """Return what a name or attribute is set to once, if nothing else is done with its parts."""
     if isinstance(node, ast.Name):
-        uses: list[ast.AST] = [*facts.module.index.names(node.id)]
+        uses: list[ast.AST] = [*file.module.index.names(node.id)]
     elif isinstance(node, ast.Attribute):
-        uses = [*facts.module.index.attributes(node.attr)]
+        uses = [*file.module.index.attributes(node.attr)]
     else:
         return node
-    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in uses):
+    if any(isinstance(file.module.parent(use), ast.Attribute) for use in uses):
         return node
-    return facts.evaluator.single_value(node)
+    return file.evaluator.single_value(node)
 
 
-def _assigned_before(facts: RclpyFile, node: ast.Name) -> Binding | None:
+def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
     """Return the assignment that a name has its value from: all stand in one block with the use."""
-    found = facts.module.index.lookup(node.id, node)
-    block = _block(facts, node)
+    found = file.module.index.lookup(node.id, node)
+    block = _block(file, node)
     last: Binding | None = None
     for binding in found[1] if found else ():
-        if binding.kind != "assignment" or _block(facts, binding.node) != block:
+        if binding.kind != "assignment" or _block(file, binding.node) != block:
             return None
         if _line(binding.node) < node.lineno:
             last = binding
     return last
 
 
-def _block(facts: RclpyFile, node: ast.AST) -> tuple[ast.AST | None, str]:
+def _block(file: RclpyFile, node: ast.AST) -> tuple[ast.AST | None, str]:
     """Return the block that the statement of a node stands in."""
-    module = facts.module
+    module = file.module
     while not isinstance(node, ast.stmt):
         parent = module.parent(node)
         if parent is None:
@@ -170,12 +170,12 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
     return use is not last and _line(first) < use.lineno <= last.lineno
 
 
-def _take(facts: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
+def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
     """Note what a use of the message sets; false when nobody knows."""
-    module = facts.module
+    module = file.module
     parent = module.parent(use)
     above = module.parent(parent) if parent is not None else None
-    is_straight = _block(facts, use) == _block(facts, first.node)
+    is_straight = _block(file, use) == _block(file, first.node)
     match parent, above:
         case ast.Attribute(attr=name, ctx=ast.Store()), ast.Assign(targets=[_], value=value):
             fields[name] = value
@@ -201,24 +201,24 @@ def _keeps(call: ast.Call) -> bool:
     return name in _KEEPING or name[:1].isupper()
 
 
-def _flag(facts: RclpyFile, node: ast.expr | None) -> bool | None:
+def _flag(file: RclpyFile, node: ast.expr | None) -> bool | None:
     if node is None:
         return False
-    value = facts.evaluator.evaluate(node)
+    value = file.evaluator.evaluate(node)
     return value if isinstance(value, bool) else None
 
 
-def _range(facts: RclpyFile, field: str, node: ast.expr) -> Range | None:
+def _range(file: RclpyFile, field: str, node: ast.expr) -> Range | None:
     type_, kind = _RANGES[field]
-    items, is_complete = facts.evaluator.elements(node)
+    items, is_complete = file.evaluator.elements(node)
     if len(items) != 1 or not is_complete:
         return None
-    fields = message_made(facts, items[0].node, kind)
+    fields = message_made(file, items[0].node, kind)
     if fields is None:
         return None
     numbers: list[float] = []
     for name in ("from_value", "to_value", "step"):
-        value = facts.evaluator.number(fields[name]) if name in fields else 0
+        value = file.evaluator.number(fields[name]) if name in fields else 0
         if not isinstance(value, int | float):
             return None
         numbers.append(float(value) if type_ == "double" else value)

@@ -34,7 +34,7 @@ _LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
-def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
+def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
     """Return the node and the name of the parameter that an expression is the object of.
 
     Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
@@ -42,82 +42,82 @@ def parameter_read(facts: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | N
     Returns:
         Node and name; ``None`` and ``UNKNOWN`` when the expression is no such call.
     """
-    made = facts.evaluator.single_value(node)
+    made = file.evaluator.single_value(node)
     if isinstance(made, ast.Subscript):
-        return _listed(facts, made)
+        return _listed(file, made)
     if not isinstance(made, ast.Call):
         return None, UNKNOWN
-    func = facts.method_of(made)
+    func = file.method_of(made)
     if func is None or func.attr not in _GIVING:
         return None, UNKNOWN
     named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
-    return facts.owner_of(func.value), facts.evaluator.text(named[0]) if named else UNKNOWN
+    return file.owner_of(func.value), file.evaluator.text(named[0]) if named else UNKNOWN
 
 
-def _listed(facts: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None, str | Unknown]:
+def _listed(file: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None, str | Unknown]:
     """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
-    call = facts.evaluator.single_value(node.value)
-    index = facts.evaluator.evaluate(node.slice)
+    call = file.evaluator.single_value(node.value)
+    index = file.evaluator.evaluate(node.slice)
     match call:
         case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
-            names = facts.evaluator.evaluate(given)
+            names = file.evaluator.evaluate(given)
             if isinstance(names, list | tuple) and type(index) is int and index < len(names):
                 name = names[index]
-                return facts.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
+                return file.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
     return None, UNKNOWN
 
 
-def is_of_node(facts: RclpyFile, created: Entity) -> bool:
+def is_of_node(file: RclpyFile, created: Entity) -> bool:
     """Tell whether a method is called on a node, by what is known or by the name of the object."""
     if created.owner is not None:
         return True
-    func = facts.method_of(created.call)
+    func = file.method_of(created.call)
     receiver = func.value if func is not None else None
     if isinstance(receiver, ast.Attribute):
         return receiver.attr.lstrip("_") == "node"
     return isinstance(receiver, ast.Name) and receiver.id.lstrip("_") == "node"
 
 
-def is_parameter_list(facts: RclpyFile, node: ast.expr) -> bool:
+def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is surely a list of rclpy's parameters."""
-    made = facts.evaluator.single_value(node)
+    made = file.evaluator.single_value(node)
     match made:
         case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
-            return facts.owner_of(receiver) is not None
-    argument = facts.parameter_of(made)
-    return argument is not None and argument in callback_arguments(facts)
+            return file.owner_of(receiver) is not None
+    argument = file.parameter_of(made)
+    return argument is not None and argument in callback_arguments(file)
 
 
-def is_listed_parameter(facts: RclpyFile, node: ast.expr) -> bool:
+def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
     """Tell whether an expression is an item of such a list: of a loop, or by its number."""
     if isinstance(node, ast.Subscript):
-        is_number = type(facts.evaluator.evaluate(node.slice)) is int
-        return is_number and is_parameter_list(facts, node.value)
+        is_number = type(file.evaluator.evaluate(node.slice)) is int
+        return is_number and is_parameter_list(file, node.value)
     if not isinstance(node, ast.Name):
         return False
-    found = facts.module.index.lookup(node.id, node)
-    loops = [facts.module.parent(binding.node) for binding in found[1]] if found else []
+    found = file.module.index.lookup(node.id, node)
+    loops = [file.module.parent(binding.node) for binding in found[1]] if found else []
     return bool(loops) and all(
         isinstance(loop, ast.For | ast.comprehension)
         and isinstance(loop.target, ast.Name)
-        and is_parameter_list(facts, loop.iter)
+        and is_parameter_list(file, loop.iter)
         for loop in loops
     )
 
 
-def callback_arguments(facts: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
+def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
     """Return what rclpy calls with a list of parameters: the argument, and its function."""
-    known = facts.parameter_callbacks
+    known = file.parameter_callbacks
     if known is not None:
         return known
     result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
-    facts.parameter_callbacks = result
+    file.parameter_callbacks = result
     for method in CALLBACKS:
-        for attribute in facts.module.index.attributes(method):
-            call = facts.module.parent(attribute)
+        for attribute in file.module.index.attributes(method):
+            call = file.module.parent(attribute)
             if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
                 continue
-            callback = facts.callback(call.args[0])
+            callback = file.callback(call.args[0])
             if callback.function is None or callback.is_partial or callback.is_called:
                 continue
             arguments = callback.function.args
@@ -127,14 +127,14 @@ def callback_arguments(facts: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lam
     return result
 
 
-def name_asked(facts: RclpyFile, node: ast.AST, variable: str) -> str | None:
+def name_asked(file: RclpyFile, node: ast.AST, variable: str) -> str | None:
     """Return the name that a parameter has where a node runs: ``if parameter.name == 'rate':``."""
     child = node
-    for parent in facts.module.parents(node):
+    for parent in file.module.parents(node):
         tests: list[ast.expr] = []
         if isinstance(parent, ast.BoolOp) and isinstance(parent.op, ast.And):
             tests = [item for item in parent.values if item is not child]
-        elif isinstance(parent, ast.If) and facts.module.index.place(child)[0] == "body":
+        elif isinstance(parent, ast.If) and file.module.index.place(child)[0] == "body":
             tests = [parent.test]
             if isinstance(parent.test, ast.BoolOp) and isinstance(parent.test.op, ast.And):
                 tests = parent.test.values
@@ -164,36 +164,36 @@ class ParameterMade(NamedTuple):
     value: object
 
 
-def parameters_set(facts: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterMade]]:
+def parameters_set(file: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterMade]]:
     """Yield the parameters that a file sets on nodes that are known, one by one."""
     for method in ("set_parameters", "set_parameters_atomically"):
-        for attribute in facts.module.index.attributes(method):
-            call = facts.module.parent(attribute)
+        for attribute in file.module.index.attributes(method):
+            call = file.module.parent(attribute)
             if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
                 continue
-            owner = facts.owner_of(attribute.value)
-            for item in facts.evaluator.elements(call.args[0]).items if owner else ():
-                made = _parameter_made(facts, call, item.node)
+            owner = file.owner_of(attribute.value)
+            for item in file.evaluator.elements(call.args[0]).items if owner else ():
+                made = _parameter_made(file, call, item.node)
                 if made is not None and owner is not None:
                     yield owner, made
 
 
-def _parameter_made(facts: RclpyFile, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
+def _parameter_made(file: RclpyFile, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
     """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
-    call = facts.evaluator.single_value(node)
+    call = file.evaluator.single_value(node)
     if not isinstance(call, ast.Call):
         return None
-    if facts.module.qualified_name(call.func) not in {"rclpy.Parameter", _PARAMETER}:
+    if file.module.qualified_name(call.func) not in {"rclpy.Parameter", _PARAMETER}:
         return None
     given = dict(zip(("name", "type_", "value"), call.args, strict=False))
     given.update({word.arg: word.value for word in call.keywords if word.arg is not None})
-    name = facts.evaluator.text(given.get("name"))
+    name = file.evaluator.text(given.get("name"))
     if not isinstance(name, str) or any(word.arg is None for word in call.keywords):
         return None
-    value = facts.evaluator.evaluate(given["value"]) if "value" in given else None
+    value = file.evaluator.evaluate(given["value"]) if "value" in given else None
     kind = "not_set" if value is None else parameter_type(value)
     if "type_" in given:
-        full = facts.module.qualified_name(given["type_"]) or ""
+        full = file.module.qualified_name(given["type_"]) or ""
         kind = full.rpartition(".Type.")[2].lower() if ".Type." in full else None
     return ParameterMade(setting, node, name, kind, value)
 
@@ -207,22 +207,22 @@ class NameUsed(NamedTuple):
     name: str
 
 
-def names_used(facts: RclpyFile) -> Iterator[NameUsed]:
+def names_used(file: RclpyFile) -> Iterator[NameUsed]:
     """Yield the parameters that a file describes, undeclares, sets, or gets as one of a list."""
     for method in (*_NAMED, *_LISTED):
-        for attribute in facts.module.index.attributes(method):
-            call, owner = facts.module.parent(attribute), facts.owner_of(attribute.value)
+        for attribute in file.module.index.attributes(method):
+            call, owner = file.module.parent(attribute), file.owner_of(attribute.value)
             if owner is not None and isinstance(call, ast.Call) and call.func is attribute:
                 given = call.args[:1]
                 if method in _LISTED and given:
-                    given = [item.node for item in facts.evaluator.elements(given[0]).items]
-                yield from _texts(facts, owner, call, given)
-    for owner, made in parameters_set(facts):
+                    given = [item.node for item in file.evaluator.elements(given[0]).items]
+                yield from _texts(file, owner, call, given)
+    for owner, made in parameters_set(file):
         yield NameUsed(owner, made.call, made.node, made.name)
-    for read in facts.parameter_reads:
+    for read in file.parameter_reads:
         name = read.argument("name")
         if read.owner is not None and read.method == "get_parameter" and name is not None:
-            yield from _texts(facts, read.owner, read.call, _looped(facts, name.node))
+            yield from _texts(file, read.owner, read.call, _looped(file, name.node))
 
 
 def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]:
@@ -238,18 +238,18 @@ def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]
 
 
 def _texts(
-    facts: RclpyFile, owner: NodeDefinition, call: ast.Call, nodes: list[ast.expr]
+    file: RclpyFile, owner: NodeDefinition, call: ast.Call, nodes: list[ast.expr]
 ) -> Iterator[NameUsed]:
     for node in nodes:
-        name = facts.evaluator.text(node)
+        name = file.evaluator.text(node)
         if isinstance(name, str):
             yield NameUsed(owner, call, node, name)
 
 
-def _looped(facts: RclpyFile, node: ast.expr) -> list[ast.expr]:
+def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
     """Return what a name stands for in a loop over a list that is written there."""
-    found = facts.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-    loops = [facts.module.parent(item.node) for item in found[1]] if found else []
+    found = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+    loops = [file.module.parent(item.node) for item in found[1]] if found else []
     if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
         return []
     loop = loops[0]
@@ -257,25 +257,25 @@ def _looped(facts: RclpyFile, node: ast.expr) -> list[ast.expr]:
     return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
 
 
-def types_compared(facts: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
+def types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
     """Return the types that a function compares the type of one parameter with."""
-    function = facts.module.enclosing_function(attribute)
+    function = file.module.enclosing_function(attribute)
     result: set[str] = set()
-    for other in facts.module.index.attributes("type_"):
+    for other in file.module.index.attributes("type_"):
         if not isinstance(other.value, ast.Name):
             continue
-        compared = facts.module.parent(other)
-        is_same = facts.module.enclosing_function(other) is function
-        is_same = is_same and name_asked(facts, other, other.value.id) == name
+        compared = file.module.parent(other)
+        is_same = file.module.enclosing_function(other) is function
+        is_same = is_same and name_asked(file, other, other.value.id) == name
         if is_same and isinstance(compared, ast.Compare):
-            full = facts.module.qualified_name(compared.comparators[0]) or ""
+            full = file.module.qualified_name(compared.comparators[0]) or ""
             result.add(full.rpartition(".")[2].lower())
     return result
 
 
-def names_compared(facts: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
+def names_compared(file: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
     """Return what a name is compared with, one after the other."""
-    match facts.module.parent(attribute):
+    match file.module.parent(attribute):
         case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
             return [other]
         case ast.Compare(

@@ -30,37 +30,37 @@ _MOST_USES = 200
 """Of one name; each object that is stored in it asks for all."""
 
 
-def objects_used(facts: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
+def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that give a Parameter whose value is meant, and the first such place."""
-    for item in _objects(facts):
-        use = _use(facts, item.call, item.variable, item.attribute)
+    for item in _objects(file):
+        use = _use(file, item.call, item.variable, item.attribute)
         if use is not None:
             yield item, use
 
 
 def _use(
-    facts: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
+    file: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
 ) -> ast.AST | None:
     """Return a place where the object is calculated with."""
-    if stands_for_value(facts, call):
+    if stands_for_value(file, call):
         return call
     if variable is None and attribute is None:
         return None
-    uses = _uses(facts, call, variable, attribute)
+    uses = _uses(file, call, variable, attribute)
     stored = [use for use in uses if isinstance(use.ctx, ast.Store)]
     if len(stored) > 1 or len(uses) > _MOST_USES:
         return None
     read = [use for use in uses if isinstance(use.ctx, ast.Load)]
-    if any(isinstance(facts.module.parent(use), ast.Attribute) for use in read):
+    if any(isinstance(file.module.parent(use), ast.Attribute) for use in read):
         return None
-    return next((use for use in read if stands_for_value(facts, use)), None)
+    return next((use for use in read if stands_for_value(file, use)), None)
 
 
 def _uses(
-    facts: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
+    file: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
 ) -> Sequence[ast.Name | ast.Attribute]:
     """Return where what a call gives is stored and used, in its function or in its class."""
-    module = facts.module
+    module = file.module
     class_ = module.enclosing_class(call) if attribute is not None else None
     if attribute is not None and class_ is not None:
         return [
@@ -75,19 +75,19 @@ def _uses(
     return [name for name in names if function is None or function in module.parents(name)]
 
 
-def _objects(facts: RclpyFile) -> Iterator[Entity]:
+def _objects(file: RclpyFile) -> Iterator[Entity]:
     """Yield the calls that give a Parameter."""
-    for read in facts.parameter_reads:
+    for read in file.parameter_reads:
         if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
             yield read
-    for parameter in facts.parameters:
+    for parameter in file.parameters:
         if parameter.owner is not None and "name" in parameter.arguments:
             yield parameter
 
 
-def stands_for_value(facts: RclpyFile, node: ast.AST) -> bool:
+def stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
     """Tell whether a node stands where only the value makes sense."""
-    parent = facts.module.parent(node)
+    parent = file.module.parent(node)
     used = False
     match parent:
         case ast.BinOp(op=op, right=right):
@@ -95,7 +95,7 @@ def stands_for_value(facts: RclpyFile, node: ast.AST) -> bool:
         case ast.Compare(left=left, ops=ops, comparators=others):
             is_first = left is node and not isinstance(ops[0], ast.Is | ast.IsNot)
             other = others[0] if left is node else left
-            is_same = class_of(facts, other) == PARAMETER
+            is_same = class_of(file, other) == PARAMETER
             used = (is_first or node in others[:1]) and not is_same and not _is_none(other)
         case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
             used = test is node
@@ -106,7 +106,7 @@ def stands_for_value(facts: RclpyFile, node: ast.AST) -> bool:
         case ast.UnaryOp() | ast.BoolOp() | ast.FormattedValue():
             used = True
         case ast.Call(func=func) if node in parent.args:
-            name = facts.module.qualified_name(func) or ""
+            name = file.module.qualified_name(func) or ""
             positions = _POSITIONS.get(func.attr, ()) if isinstance(func, ast.Attribute) else ()
             is_builtin = isinstance(func, ast.Name) and func.id in _BUILTINS
             used = is_builtin or name.startswith(_FUNCTIONS)
