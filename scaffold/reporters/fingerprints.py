@@ -12,6 +12,8 @@ from scaffold.reporters.paths import in_repository
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from scaffold.diagnostic import Diagnostic
     from scaffold.model.package import Package
 
@@ -30,9 +32,13 @@ class Fingerprints:
     It depends on the file, the code, the text of the line unless the finding is about the whole
     file, and the message without its numbers: these may be those of other lines. Findings that
     agree in all of it are counted.
+
+    Args:
+        path_of: Returns the path of a file of a package that fingerprints are made of.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, path_of: Callable[[Package, str], str] = in_repository) -> None:
+        self._path_of = path_of
         self._counts: Counter[tuple[str, ...]] = Counter()
 
     def of(self, package: Package, diagnostic: Diagnostic) -> str:
@@ -43,7 +49,7 @@ class Fingerprints:
         is_of_file &= (at.line, at.column, at.end_line, at.end_column) == (1, 1, 1, 1)
         line = lines[at.line - 1].strip() if at.line <= len(lines) and not is_of_file else ""
         message = _NUMBERS.sub("", diagnostic.message)
-        key = (in_repository(package, at.path), diagnostic.code, line, message)
+        key = (self._path_of(package, at.path), diagnostic.code, line, message)
         self._counts[key] += 1
         text = "\0".join([*key, str(self._counts[key])])
         return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()

@@ -722,6 +722,31 @@ def test_git_runs_no_program_of_the_repository(repository: Repository, run: Run)
     assert repository.has_run, "git alone does"
 
 
+def test_a_commit_is_read_without_programs_of_the_repository(
+    repository: Repository, run: Run
+) -> None:
+    repository.write("ros2-scaffold.toml", "")
+    repository.write("talker/talker/module.py", "import os\n")
+    repository.write(".gitattributes", "* filter=evil diff=evil\n")
+    subprocess.run(["git", "add", "."], check=True)
+    identity = ("-c", "user.name=Ada", "-c", "user.email=ada@example.org")
+    subprocess.run(["git", *identity, "commit", "--quiet", "-m", "all"], check=True)
+    command = f"touch {repository.canary}; cat"
+    for key in ("filter.evil.clean", "filter.evil.smudge", "filter.evil.process"):
+        subprocess.run(["git", "config", key, command], check=True)
+    for key in ("diff.evil.textconv", "diff.evil.command", "diff.external"):
+        subprocess.run(["git", "config", key, command], check=True)
+    repository.write("talker/talker/other.py", "import sys\n")
+    repository.write("talker/CMakeLists.txt", CMAKE + "\n")
+    outcome = run("check", "--since", "HEAD", "--select", "F", "talker")
+    assert "other.py:1:1" in outcome.out
+    assert "older finding" in outcome.out
+    assert "module.py" not in outcome.out
+    assert not repository.has_run
+    subprocess.run(["git", "diff", "HEAD"], check=False, capture_output=True)
+    assert repository.has_run, "git alone does"
+
+
 def test_git_is_run_in_one_place() -> None:
     places = [
         path.relative_to(ROOT).as_posix()

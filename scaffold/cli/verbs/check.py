@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import baselines, flags, terminal
+from scaffold.cli import baselines, flags, since, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,6 +71,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     _add_report_arguments(parser)
     baselines.add_arguments(parser)
+    parser.add_argument(
+        "--since",
+        metavar="REV",
+        help="report what is found in files that differ from this commit of git, and what the "
+        "change breaks in other files",
+    )
     parser.add_argument(
         "--stdin-filename",
         metavar="FILE",
@@ -139,6 +145,7 @@ def run(options: argparse.Namespace) -> int:
     is_unsaved = standard_input.validate(options)
     disk = Disk()
     baselines.validate(options, disk)
+    since.validate(options)
     directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
@@ -156,12 +163,17 @@ def run(options: argparse.Namespace) -> int:
         return _reference(targets)
     is_unfinished = _note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
-    is_forgotten = settings.content or is_unfinished or options.write_baseline
+    is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
     slot = None if is_forgotten else _slot(options, targets)
+    change = since.Since(directory, options.since, targets) if options.since else None
+    targets = change.targets() if change else targets
     memory = ResultCache(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     if options.write_baseline:
         return baselines.write(options, results)
+    if change:
+        results, note = change.limit(results, session)
+        options.notes += (note,)
     reported = baselines.hide(options, results, targets, session)
     output = reports.write(options, reported, _report_options(options))
     code = exit_code(reported, is_zero=options.exit_zero)
