@@ -16,7 +16,8 @@ from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
 from scaffold.source import Source, ViewError
 
-_COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
+COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
+"""Matches a comment; its group ``codes`` is missing where it covers the whole line."""
 _CODE = r"\b[A-Z]+[0-9]+"
 
 
@@ -52,7 +53,7 @@ def _codes_on(package: Package, path: str, line: int) -> list[str] | None:
     has_any = package.remember(("noqa", path), lambda: "noqa" in source.text.lower())
     if not has_any or line > len(source.lines):
         return None
-    matched = re.search(_COMMENT, source.lines[line - 1], re.IGNORECASE)
+    matched = re.search(COMMENT, source.lines[line - 1], re.IGNORECASE)
     return re.findall(_CODE, (matched["codes"] or "").upper()) if matched else None
 
 
@@ -85,7 +86,7 @@ def _suppressions(package: Package, path: str) -> Iterable[tuple[Source, int, st
     if "noqa:" not in source.text.lower():
         return
     for number, line in enumerate(source.lines, 1):
-        comment = re.search(_COMMENT, line, re.IGNORECASE)
+        comment = re.search(COMMENT, line, re.IGNORECASE)
         if comment and comment["codes"]:
             start = source.offset(number) + comment.start("codes")
             for code in re.finditer(_CODE, comment["codes"], re.IGNORECASE):

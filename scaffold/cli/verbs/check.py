@@ -72,6 +72,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_report_arguments(parser)
     baselines.add_arguments(parser)
     parser.add_argument(
+        "--add-noqa",
+        action="store_true",
+        help="silence findings by `noqa: CODE` at the end of their lines; with --diff, show it",
+    )
+    parser.add_argument(
         "--since",
         metavar="REV",
         help="report what is found in files that differ from this commit of git, and what the "
@@ -132,6 +137,7 @@ def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
     from scaffold.check.cache.results import ResultCache
+    from scaffold.check.fixes.noqa import SuppressingSession
     from scaffold.check.session import Session
     from scaffold.cli import reports, standard_input
     from scaffold.cli.choices import Choices
@@ -146,18 +152,18 @@ def run(options: argparse.Namespace) -> int:
     disk = Disk()
     baselines.validate(options, disk)
     since.validate(options)
+    _validate_noqa(options)
     directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
-    session = Session(
-        rules, choices.selection(options.select, options.ignore), choices.adjustments()
-    )
+    kind = SuppressingSession if options.add_noqa else Session
+    session = kind(rules, choices.selection(options.select, options.ignore), choices.adjustments())
     if is_unsaved:
         return _check_unsaved(options, session, disk)
     targets = _targets(options, session, disk)
-    if options.fix or options.diff:
+    if options.fix or options.diff or options.add_noqa:
         return _fix(options, session, targets)
     if options.reference:
         return _reference(targets)
@@ -180,6 +186,14 @@ def run(options: argparse.Namespace) -> int:
     if slot is not None:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
+
+
+def _validate_noqa(options: argparse.Namespace) -> None:
+    from scaffold.errors import InputError
+
+    for flag in ("fix", "reference", "stdin_filename", "since", "baseline", "write_baseline"):
+        if options.add_noqa and getattr(options, flag):
+            raise InputError(f"--add-noqa only adds comments: leave out --{flag.replace('_', '-')}")
 
 
 def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
@@ -376,7 +390,8 @@ def _report_fixes(
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(item.applied for item in fixed)
-    terminal.say(f"{_fixes(count)}{', nothing written' if options.diff else ' applied'}")
+    done = _comments(count) if options.add_noqa else f"{_fixes(count)} applied"
+    terminal.say(f"{_fixes(count)}, nothing written" if options.diff else done)
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
@@ -402,6 +417,10 @@ def _reference(targets: Sequence[Target]) -> int:
         terminal.show(f"{place}: {one.message}")
     terminal.show(f"{count or 'no'} differences from pydocstyle")
     return INTERNAL_ERROR if count else CLEAN
+
+
+def _comments(count: int) -> str:
+    return f"noqa added to {'1 line' if count == 1 else f'{count} lines'}"
 
 
 def _fixes(count: int) -> str:
