@@ -1,4 +1,4 @@
-"""Copyright notices and licence headers of source files, judged as ament_copyright does."""
+"""Copyright notices and license headers of source files, judged as ament_copyright does."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Header(NamedTuple):
     licence: str | None = None
     """The SPDX identifier of the known header; ``None`` when there is no such header."""
     text: str = ""
-    """What stands behind the last notice, in one line."""
+    """What follows the last notice, in one line."""
     unreadable: str = ""
     """Why ament_copyright ends in a traceback on this file."""
 
@@ -102,7 +102,7 @@ def read(path: str, data: bytes) -> Header:
 
 
 def _behind_first_lines(text: str) -> int | None:
-    """Return the offset behind shebang, coding and empty lines; None if nothing follows them."""
+    """Return the offset after shebang, coding and empty lines; None if nothing follows them."""
     at = 0
     while True:
         begin = 1 if at == 0 and text[0] == "\ufeff" else at
@@ -164,7 +164,7 @@ def _without_common_beginning(lines: list[str]) -> list[str]:
 
 
 def _notices(block: str) -> tuple[list[str], str]:
-    """Return the copyright notices, and what stands behind the last one."""
+    """Return the copyright notices, and what follows the last one."""
     result: list[str] = []
     end = 0
     notice = re.compile(_NOTICE, re.IGNORECASE | re.MULTILINE)
@@ -179,7 +179,7 @@ def _notices(block: str) -> tuple[list[str], str]:
 
 
 def _begins_line(block: str, at: int, floor: int) -> bool:
-    r"""Tell whether only blanks, one other character or ``\copyright`` stand before ``at``."""
+    r"""Tell whether only spaces, one other character or ``\copyright`` precede ``at``."""
     before = _back(block, at, floor)
     if _is_near_start(block, before, at, floor):
         return True
@@ -250,7 +250,7 @@ def _in_order(text: str, sections: tuple[str, ...]) -> bool:
 
 
 def departure(text: str) -> tuple[str, str, str] | None:
-    """Return the licence that an unknown header comes near to, and where it departs.
+    """Return the license that an unknown header resembles, and where it differs.
 
     Returns:
         The SPDX identifier, the words expected and the words found there; ``None`` when the text
@@ -267,7 +267,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
 
 
 def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str], list[str]]:
-    """Return how many words agree, and what was expected and given behind them."""
+    """Return how many words agree, and what was expected and given after them."""
     same = at = 0
     for number, section in enumerate(sections):
         reach = at + _HOLDER if number else len(words)

@@ -21,7 +21,7 @@ _CAUSE = "copyright"
 
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
-    """Yield what ament_copyright reports under one code, as advice where nobody runs it."""
+    """Yield what ament_copyright reports under one code, as advice where the linter is not run."""
     if code == "LY020":
         missing = [header for header in headers(package) if not header.holders]
         yield from _of_headers(package, code, missing, _no_notice)

@@ -13,7 +13,7 @@ IGNORE_MARKER = "AMENT_IGNORE"
 def lintable(package: Package) -> tuple[str, ...]:
     """Return the files that every ament linter that walks directories itself would visit.
 
-    They leave out directories that begin with ``_`` or ``.``, and directories with a file or a
+    They skip directories that begin with ``_`` or ``.``, and directories with a file or a
     directory named AMENT_IGNORE and all that is below.
     """
     return package.remember("ament_files", lambda: tuple(_visited(package, package.files)))
@@ -43,7 +43,7 @@ def _visited(package: Package, paths: Iterable[str]) -> list[str]:
 def select(files: Iterable[str]) -> dict[str, int]:
     """Return the linters (FLAKE8, PEP257, both) of each file that one of them checks.
 
-    Both take ``*.py``. ament_flake8 leaves out directories with an AMENT_IGNORE file and all
+    Both take ``*.py``. ament_flake8 skips directories with an AMENT_IGNORE file and all
     directories whose name starts with a dot or an underscore; ament_pep257 knows only the second.
     """
     listed = list(files)

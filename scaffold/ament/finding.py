@@ -22,7 +22,7 @@ class Finding(NamedTuple):
     """A code at a place of one file; only plain values, so that it can be cached.
 
     Lines and columns count from 1, as in the text with universal newlines and without a byte
-    order mark. ``end_line`` 0 stands for an unknown end.
+    order mark. ``end_line`` is 0 if the end is unknown.
     """
 
     code: str

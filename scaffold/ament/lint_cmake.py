@@ -44,7 +44,7 @@ _HANDLER_MODULE = "FindPackageHandleStandardArgs"
 
 
 class Finding(NamedTuple):
-    """A line that a filter of the linter does not let pass."""
+    """A line that a filter of the linter rejects."""
 
     filter: str
     source: Source
@@ -90,7 +90,7 @@ def _of_file(package: Package, path: str) -> dict[str, list[Finding]]:
 
 
 class Line(NamedTuple):
-    """A line: as it stands in the file, and without its comment."""
+    """A line: as written in the file, and without its comment."""
 
     start: int
     raw: str
@@ -204,7 +204,7 @@ class Scan:
                 return
 
     def _spaces(self) -> Iterator[Finding]:
-        """Compare the blanks behind ``(`` with those before the next ``)``, wherever it is."""
+        """Compare the spaces after ``(`` with those before the next ``)``, wherever it is."""
         closing: Line | None = None
         result: list[Finding] = []
         for line in reversed(self.lines):
@@ -272,7 +272,7 @@ def _is_string(raw: str) -> bool:
 
 
 def _has_arguments(code: str, start: int, last: int) -> bool:
-    """Tell whether at least two characters, no parenthesis in second place, stand inside."""
+    """Tell whether it contains at least two characters, the second one no parenthesis."""
     at = len(code) - len(code[start:].lstrip())
     while at < len(code) and not code[at].isspace():
         at += 1
@@ -298,7 +298,7 @@ class Outline(NamedTuple):
 
 
 def outline(package: Package, source: Source) -> Outline:
-    """Return the outline of a CMake file; made once, for files with something to mend only."""
+    """Return the outline of a CMake file; made once, and only for files with something to fix."""
     return package.remember(("cmake_outline", source.path), lambda: _outline(source.text))
 
 

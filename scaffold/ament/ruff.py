@@ -100,7 +100,7 @@ class Run:
         return result
 
     def close(self) -> None:
-        """End what still runs and nobody waits for."""
+        """End the processes that still run and that nothing waits for."""
         while self._running:
             process, pipe = self._running.pop()
             os.close(pipe)

@@ -26,7 +26,7 @@ class Use(NamedTuple):
     why_not: str = ""
     """Why the linter does not run; for people."""
     excluded: tuple[str, ...] = ()
-    """Patterns of files that it is told to leave out."""
+    """Patterns of files that it is configured to skip."""
 
     def covers(self, path: str) -> bool:
         """Tell whether the linter looks at a file."""

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 MOST_EDITS = 200
-"""Of one fix; a line with more is mended in several rounds, if at all."""
+"""Of one fix; a line with more is fixed in several rounds, if at all."""
 
 _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
@@ -259,7 +259,7 @@ def _joined(findings: Sequence[Finding]) -> Finding:
     for other in fixable[1:] if not _meet(edits) else ():
         if len(edits) > MOST_EDITS:
             break
-        # What mends a whole line is said of each of its findings.
+        # A fix of a whole line belongs to each of its findings.
         if other.fix_is_unsafe == leading.fix_is_unsafe and other.fix != before:
             has_grown = _added(edits, other.fix) or has_grown
         before = other.fix

@@ -48,7 +48,7 @@ def check(path: str, data: bytes) -> tuple[Location, str] | None:
     """Return the first mistake in an XML file.
 
     Prefixes of namespaces may be undeclared, as xmllint has it; nothing outside of the file is
-    read, so references to entities of another file are let pass.
+    read, so references to entities of another file are accepted.
     """
     reader = _Reader()
     try:

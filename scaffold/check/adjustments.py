@@ -33,7 +33,7 @@ class Adjustments(NamedTuple):
             yield one if severity is None else one._replace(severity=severity)
 
     def excludes(self, package: Package, path: str) -> bool:
-        """Tell whether a file of a package is left out."""
+        """Tell whether a file of a package is skipped."""
         if not self.exclusion.patterns:
             return False
         place = package.remember(

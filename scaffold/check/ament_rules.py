@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class AmentRule(Rule):
-    """A code of the table of ament's linters; its documentation stands there."""
+    """A code of the table of ament's linters, which holds its documentation."""
 
     examples: ClassVar[tuple[Example, ...]] = ()
     row: ClassVar[AmentCode]

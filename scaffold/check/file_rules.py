@@ -124,7 +124,7 @@ class LaunchRule(FileRule):
     """Reads the launch files that are written in Python."""
 
     def paths(self, package: Package) -> Sequence[str]:
-        """Return the files that import launch, those of tests left out."""
+        """Return the files that import launch, except those of tests."""
         from scaffold.model.launch.python_file import launch_paths
 
         return launch_paths(package)

@@ -1,4 +1,4 @@
-"""Names that ROS developers know: packages, what they bring along, and manifest keys."""
+"""Names that ROS developers know: packages, their transitive dependencies, and manifest keys."""
 
 from __future__ import annotations
 
@@ -309,7 +309,7 @@ def _alike() -> Mapping[tuple[int, str], list[str]]:
 
 
 def is_one_slip(text: str, other: str, *, digits: bool = True) -> bool:
-    """Tell whether two names differ by one letter or by two neighbours swapped.
+    """Tell whether two names differ by one letter or by two adjacent letters swapped.
 
     Args:
         text: A name.
@@ -464,7 +464,7 @@ a dependency that comes along this way is missing in the manifest, yet present o
 
 
 def transitive_dependencies(keys: set[str]) -> set[str]:
-    """Return what declared packages bring along, over any number of steps."""
+    """Return the transitive dependencies of declared packages."""
     result: set[str] = set()
     pending = list(keys)
     while pending:

@@ -107,7 +107,7 @@ class Package:
 
     @property
     def place(self) -> str | None:
-        """Where it stands on disk, also if changes to it are in memory; see ``root``."""
+        """Its directory on disk, even if changes to it are in memory; see ``root``."""
         return getattr(self.tree, "place", self.root)
 
     @property
@@ -124,7 +124,7 @@ class Package:
         return path in {"", "."} or path in self.tree.directories
 
     def glob(self, pattern: str) -> list[str]:
-        """Return the files that match, where ``*`` stands for anything but ``/``."""
+        """Return the files that match, where ``*`` matches anything but ``/``."""
         return filter_names(self._by_depth.get(pattern.count("/"), ()), pattern)
 
     def is_executable(self, path: str) -> bool:
@@ -185,7 +185,7 @@ class Package:
 
     @property
     def cmake(self) -> CMakeLists:
-        """CMakeLists.txt, unless nobody reads it: colcon builds ament_python with setup.py."""
+        """CMakeLists.txt, unless it is not used: colcon builds ament_python with setup.py."""
 
         def parse() -> CMakeLists:
             from scaffold.model.cmake.lists import CMakeLists

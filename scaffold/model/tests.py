@@ -18,7 +18,7 @@ LAUNCH = "generate_test_description"
 """A file with this function is for launch_testing, which calls the tests in its own way."""
 
 _PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
-"""Words that stand for other ways to run tests."""
+"""Words that indicate other ways to run tests."""
 
 
 class Fixture(NamedTuple):
@@ -164,7 +164,7 @@ def may_start(package: Package, name: str) -> bool:
 
 
 def is_named_elsewhere(package: Package, name: str) -> bool:
-    """Tell whether a name stands anywhere else: in a call, an import, an argument, a text."""
+    """Tell whether a name occurs anywhere else: in a call, an import, an argument, a text."""
     count = sum(module.source.text.count(name) for module in package.modules())
     return count > 1
 
@@ -182,7 +182,7 @@ def constructed_class(module: PythonModule, node: ast.expr) -> str:
 def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
     """Yield the files with tests of nodes, and their text with that of the conftest.py files.
 
-    Tests with launch_testing, and files that run themselves, are left out.
+    Tests with launch_testing, and files that run themselves, are skipped.
     """
     around = [item for item in package.modules() if item.path.endswith("conftest.py")]
     for module in test_modules(package):

@@ -60,7 +60,7 @@ shows which are known.
 the text it knows, and fails under ``colcon test``. A package inside of a repository is not
 asked.
 
-**Fix.** ``ament_copyright --add-missing "NAME" LICENCE`` writes both.
+**Fix.** ``ament_copyright --add-missing "NAME" LICENSE`` writes both.
 
 **Source.** ``ament_copyright/main.py`` and ``crawler.py``.
 """,

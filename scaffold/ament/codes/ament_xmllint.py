@@ -72,7 +72,7 @@ after the wrong one.
 
 **Fix.** Put the elements in the order name, version, description, maintainer, license, url,
 author, dependencies, group_depend, member_of_group, export. Comments go with the element that
-they stand in front of; where there are any, the author should look at the result.
+they precede; where there are any, the author should look at the result.
 
 **Source.** The schemas ``package_format1.xsd`` to ``package_format3.xsd``; REP-149.
 """,

@@ -1,7 +1,7 @@
 """C400 to C419: calls that a literal or a comprehension would replace.
 
-flake8-comprehensions goes by names and shapes alone; ruff also asks whether the name still stands
-for the builtin, and places some findings at the argument instead of the call.
+flake8-comprehensions goes by names and shapes alone; ruff also asks whether the name still refers
+to the builtin, and places some findings at the argument instead of the call.
 """
 
 from __future__ import annotations

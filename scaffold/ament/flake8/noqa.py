@@ -23,7 +23,7 @@ def _skips_file(text: PythonText) -> bool:
 
 
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
-    """Take flake8's name off the findings that a comment silences; drop what nobody reports."""
+    """Take flake8's name off findings that a comment silences; drop unreported ones."""
     if _skips_file(text):
         return _without(findings, lambda _: True)
     if "noqa" not in text.text.lower():

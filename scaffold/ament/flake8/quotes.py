@@ -54,7 +54,7 @@ def _may_fail(text: str) -> bool:
     for piece in re.findall(r"[fF][rR]?'([^'\n]*)'", rest):
         if piece.rfind("{") > piece.rfind("}"):  # its own quotes inside of an f-string
             return True
-    # What stands where a docstring may stand.
+    # Strings where a docstring is allowed.
     return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None
 
 
@@ -109,7 +109,7 @@ def _fix(
 
 
 def _docstrings(tokens: list[Token]) -> set[Position]:
-    """Return the starts of the string tokens where a docstring may stand."""
+    """Return the starts of the string tokens where a docstring is allowed."""
     positions: set[Position] = set()
     awaited = True
     keyword = False

@@ -46,7 +46,7 @@ class Definition:
         self.literal = literal
         self.docstring = literal.text
         self.text = text
-        """The file that it stands in."""
+        """The file that it is in."""
 
     @property
     def is_function(self) -> bool:
@@ -96,7 +96,7 @@ class Definition:
 
     @cached_property
     def indent(self) -> str:
-        """What stands on the line before the docstring's quotes."""
+        """What is on the line before the docstring's quotes."""
         return self.around[0].rpartition("\n")[2]
 
     @property

@@ -20,7 +20,7 @@ _NO_SENTENCE = r">>>|[:@*-]|(?=[^\s./]*[./])\S+$"
 
 
 def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str]:
-    """Return what mends a finding, and a title; nothing where a person has to look."""
+    """Return what fixes a finding, and a title; nothing where a person has to decide."""
     if not definition.is_docstring or "\f" in definition.docstring:
         return (), ""
     if code in _AROUND:
@@ -118,7 +118,7 @@ def _text(definition: Definition) -> tuple[int, int]:
 
 
 def _touches_quotes(definition: Definition) -> bool:
-    """Tell whether the text would melt into quotes that stand next to it."""
+    """Tell whether the text would merge with quotes next to it."""
     start, end = _text(definition)
     literal = definition.docstring
     return '"' in (literal[start], literal[end - 1]) or "'" in (literal[start], literal[end - 1])
@@ -176,7 +176,7 @@ def _blank_after_summary(definition: Definition) -> Iterator[Splice]:
 
 
 def _indentation(definition: Definition) -> Iterator[Splice]:
-    """Move all lines behind the first one alike, so that what ``help`` shows stays the same."""
+    """Indent all lines after the first one by the same amount, so that ``help`` shows the same text."""
     literal, indent = definition.docstring, definition.indent
     rows = literal.split("\n")
     closes = rows[-1].strip() in ('"""', "'''")

@@ -24,7 +24,7 @@ from scaffold.record import NamedTuple
 IGNORED = frozenset(
     ["D100", "D101", "D102", "D103", "D104", "D105", "D106", "D107", "D203", "D212", "D404"]
 )
-"""What the convention ``ament`` of ament_pep257 leaves out."""
+"""The codes that the convention ``ament`` of ament_pep257 skips."""
 
 
 class Difference(NamedTuple):

@@ -23,18 +23,18 @@ class _Place:
         self.at = starts[section.row] + len(self.indent)
         self.end = starts[section.row] + len(section.line)
         self.blanks = sum(1 for _ in takewhile(lambda line: not line.strip(), section.after))
-        """Blank lines right behind the name."""
+        """Blank lines right after the name."""
         self.is_empty = self.blanks == len(section.after)
         first = "" if self.is_empty else section.after[self.blanks].strip()
         self.dashes = first if set(first) == {"-"} else ""
 
     def start(self, behind: int) -> int:
-        """Return the start of the line that is so many lines behind the name."""
+        """Return the start of the line that is this many lines after the name."""
         return self.starts[self.section.row + behind]
 
 
 def mend(code: str, definition: Definition) -> Iterator[Splice]:
-    """Yield what mends a code in all sections of a docstring."""
+    """Yield what fixes a code in all sections of a docstring."""
     if code not in _MENDING or (code in _TO_NUMPY and not _is_numpy_afterwards(definition)):
         return
     lines = definition.docstring.split("\n")

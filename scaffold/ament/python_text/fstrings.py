@@ -15,7 +15,7 @@ from tokenize import TokenInfo
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START, Position
 
 Cut = Generator[TokenInfo, None, int]
-"""Tokens, and then the offset behind them."""
+"""Tokens, and then the offset after them."""
 
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _NOISE = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
@@ -164,5 +164,5 @@ class _Opened:
 
 
 def _moved(place: Position, row: int, column: int) -> Position:
-    """Move a place within ``(expression)`` to where the expression stands."""
+    """Move a place within ``(expression)`` to where the expression is."""
     return row + place[0] - 1, place[1] + (column - 1 if place[0] == 1 else 0)

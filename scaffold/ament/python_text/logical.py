@@ -65,7 +65,7 @@ class LogicalLine:
     def position(self, offset: int) -> Position:
         """Return row (from 1) and column (from 0) of an offset of ``text``.
 
-        As in flake8, an offset belongs to the first token that ends at or behind it and is counted
+        As in flake8, an offset belongs to the first token that ends at or after it and is counted
         back from the token's end: within a string of several rows the last row is returned.
         """
         ends, places = self._built[1]
@@ -95,7 +95,7 @@ class LogicalLine:
         return "".join(parts), (ends, places)
 
     def _gap(self, before: Token, token: Token, text: str) -> str:
-        """Return what stands between two tokens when the line breaks are taken out."""
+        """Return what is between two tokens when the line breaks are taken out."""
         if before.end[0] != token.start[0]:
             last = self.lines[before.end[0] - 1][before.end[1] - 1]
             if last == "," or (last not in "{[(" and text not in "}])"):

@@ -144,7 +144,7 @@ class ResultCache:
         """
         from scaffold.ament import ruff
 
-        with suppress(EnvironmentMissingError):  # nobody may have asked for style
+        with suppress(EnvironmentMissingError):  # style may not be requested
             disk.stamp(ruff.executable())
         disk.note(self._outside)
         if not (disk.is_settled and holds(disk.seen)):

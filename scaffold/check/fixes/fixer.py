@@ -216,7 +216,7 @@ def splice(text: str, edits: Iterable[Edit]) -> str:
 
 
 def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
-    """Return the order of edits; at one place dependencies stand as people sort them."""
+    """Return the order of edits; at the same place dependencies are sorted as people sort them."""
     if edit.path != MANIFEST or edit.start != edit.end:
         return edit.start, edit.end, (0, "")
     from scaffold.model.manifest.edit import inserted_dependency

@@ -10,7 +10,7 @@ from scaffold.files.disk import MAX_BYTES
 from scaffold.files.tree import Tree, within
 
 MOST_KEPT = 2_000_000
-"""Bytes of a file up to which it is read only once; nobody edits larger ones."""
+"""Size in bytes up to which a file is read only once; larger files are rarely edited."""
 
 
 class Overlay:

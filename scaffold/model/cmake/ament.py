@@ -35,7 +35,7 @@ class Program(NamedTuple):
 
 
 def uses_ament(package: Package) -> bool:
-    """Tell whether a CMakeLists.txt is meant to be of an ament_cmake package."""
+    """Tell whether a CMakeLists.txt belongs to an ament_cmake package."""
     cmake = package.cmake
     return any(
         found_package.name.startswith("ament_cmake") for found_package in cmake.found_packages
@@ -68,7 +68,7 @@ def is_only_imported(package: Package, path: str) -> bool:
     except ViewError:
         return False
     if module.has_main_guard or "main" in module.functions:
-        return False  # a main that nothing calls is meant to be started
+        return False  # a main that nothing calls is there to be started
     if not module.functions and not module.classes:
         return False
     return all(_only_defines(statement) for statement in module.tree.body)
@@ -106,7 +106,7 @@ def programs(package: Package) -> list[Program]:
 
 
 def installs_directory(package: Package, directory: str) -> bool | None:
-    """Tell whether a directory, or one around it, is installed; ``None`` if nobody can say."""
+    """Tell whether a directory, or one around it, is installed; ``None`` if unknown."""
     unknown = False
     for install in package.cmake.installs:
         for item in install.items:
@@ -150,7 +150,7 @@ def is_used_by_build(package: Package, path: str) -> bool:
     """Tell whether a file is installed, alone or in a directory of programs, or handed on.
 
     Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
-    says that it is left out. A package without programs has scripts as data that Python is given.
+    says that it is excluded. A package without programs has scripts as data that Python is given.
     """
     is_script = not programs(package) and not package.is_executable(path)
     directories = {path.rpartition("/")[0], path.partition("/")[0]} - {""}

@@ -116,14 +116,14 @@ def append_arguments(
     *,
     raw: bool = False,
 ) -> Edits | None:
-    """Add arguments behind one of a command: on lines of their own if that one has its own.
+    """Add arguments after an argument of a command, on their own lines if it has its own.
 
     Args:
         lists: The file.
         command: The command.
-        last: The argument that they go behind.
+        last: The argument to add them after.
         values: The arguments.
-        raw: They are written as they are to stand in the file.
+        raw: They are already quoted and escaped as in the file.
     """
     if lists.errors:
         return None
@@ -308,7 +308,7 @@ def insert_install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits 
 
 
 def _end_anchor(lists: CMakeLists) -> Command | None:
-    """Return the command that new things stand above: the tests, else ament_package()."""
+    """Return the command to insert new ones before: the tests, else ament_package()."""
     calls = [
         command
         for name in LAST_CALLS

@@ -2,7 +2,7 @@ r"""CMakeLists.txt as tokens: the same ones that CMake's own lexer makes.
 
 The grammar, in words: an unquoted argument ends at a blank, a parenthesis, ``#`` or ``"``; inside
 of one, ``$(X)`` and ``a"b c"`` are kept together (the legacy forms); ``\`` takes the next character
-along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` stands before it.
+along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` precedes it.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Tokens(Sequence[Token]):
     def __init__(self) -> None:
         self.kinds: list[str] = []
         self.starts: list[int] = []
-        """Where each token starts; one more stands for the end of the file."""
+        """Where each token starts; the last element is the end of the file."""
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -240,9 +240,9 @@ def _legacy_quoted_end(text: str, start: int) -> int:
 
 
 def _behind_make_variable(text: str, at: int) -> int:
-    r"""Return the offset behind ``$(X)`` when ``(`` at the offset belongs to one.
+    r"""Return the offset after ``$(X)`` when ``(`` at the offset belongs to one.
 
-    The ``$`` is the last character of a run, so no ``\`` stands before it.
+    The ``$`` is the last character of a run, so no ``\`` precedes it.
     """
     if not text.startswith("$(", at - 1):
         return at
@@ -251,7 +251,7 @@ def _behind_make_variable(text: str, at: int) -> int:
 
 
 def _behind_escape(text: str, at: int) -> int:
-    r"""Return the offset behind ``\`` and its character; the offset itself at a line's end."""
+    r"""Return the offset after ``\`` and its character; the offset itself at a line's end."""
     following = text[at + 1 : at + 2]
     if following in {"", "\n", "\0"} or text.startswith("\r\n", at + 1):
         return at

@@ -385,7 +385,7 @@ class CMakeLists:
         return self.expand(argument.text.removeprefix(_PREFIX), command, bindings)
 
     def _patterns(self, command: Command) -> tuple[list[str], list[str]]:
-        """Return what the patterns of install(DIRECTORY) select and what they leave out."""
+        """Return what the patterns of install(DIRECTORY) select and what they skip."""
         selected: list[str] = []
         excluded: list[str] = []
         values = command.values

@@ -59,12 +59,12 @@ class Argument:
 
     @property
     def quoted(self) -> bool:
-        """Whether it stands in double quotes."""
+        """Whether it is in double quotes."""
         return self.kind == "quoted"
 
     @property
     def bracket(self) -> bool:
-        """Whether it stands in ``[[`` and ``]]``."""
+        """Whether it is in ``[[`` and ``]]``."""
         return self.kind == "bracket"
 
     @property
@@ -121,7 +121,7 @@ class Command:
         self.name = self.written_name.lower()
         """In lower case: CMake does not tell them apart."""
         self.open_end = self.end = tokens.starts[opening + 1]
-        """The offset behind ``(``."""
+        """The offset after ``(``."""
         self.closed = False
         """Whether ``)`` is there."""
         self.index = 0
@@ -131,7 +131,7 @@ class Command:
         self.parent: Command | None = None
         """The command that opened the block around it: ``if``, ``foreach``, ``function`` …"""
         self.branch: Command | None = None
-        """Like ``parent``, but the ``elseif`` or ``else`` when it stands behind one."""
+        """Like ``parent``, but the ``elseif`` or ``else`` when it is after one."""
 
     def __repr__(self) -> str:
         return f"{self.written_name}({' '.join(map(repr, self.arguments))})"
@@ -140,7 +140,7 @@ class Command:
         """Note where the command ends; for the reader.
 
         Args:
-            last: The number of the token behind the last argument, which ``)`` is if it is there.
+            last: The number of the token after the last argument, which ``)`` is if it is there.
             closed: Whether it is there.
         """
         self._last = last
@@ -191,7 +191,7 @@ class Command:
         return [argument.value for argument in self.arguments]
 
     def sections(self, keywords: Collection[str]) -> dict[str, list[Argument]]:
-        """Split the arguments at keywords; what stands before the first one is under ``""``.
+        """Split the arguments at keywords; those before the first one are under ``""``.
 
         A keyword that is there without arguments has an empty list; the arguments of one that is
         there twice are joined.
@@ -206,7 +206,7 @@ class Command:
         return result
 
     def keyword(self, name: str, keywords: Collection[str]) -> list[Argument]:
-        """Return the arguments behind a keyword, up to the next one."""
+        """Return the arguments after a keyword, up to the next one."""
         return self.sections({name, *keywords}).get(name, [])
 
     def has(self, keyword: str) -> bool:
@@ -383,7 +383,7 @@ class _Parser:
 
 
 class _Nesting:
-    """Tells the commands what blocks they stand in; complains of blocks that do not fit."""
+    """Assigns commands to their blocks; reports blocks that do not match."""
 
     def __init__(self, source: Source) -> None:
         self.source = source

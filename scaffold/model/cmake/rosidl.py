@@ -106,7 +106,7 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
 
 
 def _where_written(cmake: CMakeLists, command: Command, argument: Argument, value: str) -> Argument:
-    """Return the argument that spells a value: it may stand in the ``set`` of a variable."""
+    """Return the argument that holds a value, which may be in the ``set`` of a variable."""
     if "$" not in argument.raw:
         return argument
     for other in cmake.find("set", "list"):

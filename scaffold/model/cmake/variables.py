@@ -10,7 +10,7 @@ from scaffold.model.cmake.parser import Argument, Command
 from scaffold.record import NamedTuple
 
 ROOT = "\0"
-"""Stands for the directory of the package; no file can contain it."""
+"""Placeholder for the directory of the package; no file can contain it."""
 
 _PIECE = re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
 _SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
@@ -48,7 +48,7 @@ _READING_LISTS = frozenset({"LENGTH", "GET", "JOIN", "SUBLIST", "FIND"})
 
 
 class _Entry(NamedTuple):
-    """What a command does to a variable; ``None``: nobody knows."""
+    """The effect of a command on a variable; ``None`` if unknown."""
 
     command: Command
     value: str | None

@@ -1,1 +1,1 @@
-"""Which packages the paths of a user stand for."""
+"""Which packages the paths given by a user select."""

@@ -54,10 +54,10 @@ def find(
         paths: Directories and files.
         disk: Notes what was looked at, now and later, outside of the packages.
         are_saved: Whether files must be there; those of an editor may be new.
-        whole_packages: A file stands for its package, if colcon finds that around or below the
+        whole_packages: A file selects its package, if colcon finds that around or below the
             current directory; other files are skipped.
-        exclusion: Packages and files to leave out; other packages still see these packages.
-        left_out: Gets the packages that are left out, and the files of ``paths``.
+        exclusion: Packages and files to skip; other packages still see these packages.
+        left_out: Gets the packages that are skipped, and the files of ``paths``.
 
     Raises:
         InputError: a path does not exist, or holds no package.
@@ -158,7 +158,7 @@ def _sort_files(
 
 def _package_directories(disk: Disk, path: str) -> list[str]:
     result = colcon.package_directories(disk, path)
-    # If nothing else is there, these are meant; a rule says that colcon does not see them.
+    # If there is nothing else, the user means these; a rule says that colcon does not see them.
     result = result or colcon.package_directories(disk, path, ignored=True)
     if result:
         return result

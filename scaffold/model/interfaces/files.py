@@ -40,7 +40,7 @@ def ungenerated_candidates(package: Package) -> list[str]:
 
 
 def is_commented_out(package: Package, path: str) -> bool:
-    """Tell whether a comment of CMakeLists.txt names a file: it is left out on purpose."""
+    """Tell whether a comment of CMakeLists.txt names a file, so it is omitted on purpose."""
     cmake = package.cmake
     name = path.rpartition("/")[2]
     return any(name in cmake.text(token) for token in cmake.comments)

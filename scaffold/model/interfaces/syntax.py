@@ -64,7 +64,7 @@ class Field(NamedTuple):
     name: str
     default: Value | None
     comment: str
-    """What stands behind ``#`` on its line."""
+    """The comment after ``#`` on its line."""
     location: Location
     type_location: Location
 
@@ -76,7 +76,7 @@ class Constant(NamedTuple):
     name: str
     value: Value
     comment: str
-    """What stands behind ``#`` on its line."""
+    """The comment after ``#`` on its line."""
     location: Location
 
 

@@ -280,9 +280,9 @@ def _split_texts(text: str) -> list[str]:
 
 
 def _closing_quote(text: str) -> int:
-    """Return where rosidl_adapter sees the end of a quoted text, counted from behind its start.
+    """Return where rosidl_adapter ends a quoted text, as an offset from its opening quote.
 
-    It starts anew behind an escaped quote, and then forgets what came before: a text with
+    It starts anew after an escaped quote, and then forgets what came before: a text with
     two of them ends too early.
     """
     quote, skipped, rest = text[0], 0, text

@@ -1,4 +1,4 @@
-"""What stands in the lists of actions of a Python launch file."""
+"""The lists of actions of a Python launch file."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _returned_by(launch: LaunchFile, node: ast.expr | None) -> list[ast.expr]:
 
 
 def _literal_of(launch: LaunchFile, node: ast.expr) -> ast.expr:
-    """Return what a name stands for that has one value."""
+    """Return what a name with a single value refers to."""
     for _ in range(5):
         value = _value_of(launch, node) if isinstance(node, ast.Name) else None
         if value is None:

@@ -23,7 +23,7 @@ def set_names(
     """Return the configurations that a file sets, with those that it includes.
 
     Returns:
-        ``None`` when nobody can say: names are computed, or unknown files are included.
+        ``None`` if unknown: names are computed, or unknown files are included.
     """
     names = set(_BY_LAUNCH)
     for call in launch.calls:

@@ -22,7 +22,7 @@ _AT_ONCE = (
 _HARMLESS = ("RegisterEventHandler", "TimerAction")
 """Actions that do nothing by themselves, and set nothing."""
 _MAY_SET = ("IncludeLaunchDescription", "OpaqueFunction")
-"""Actions behind which any configuration may be set."""
+"""Actions after which any configuration may be set."""
 _DEEPEST = 6
 
 

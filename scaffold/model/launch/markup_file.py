@@ -56,7 +56,7 @@ class MarkupFile(NamedTuple):
 
 
 def markup_files(package: Package) -> list[MarkupFile]:
-    """Return the launch files in XML and YAML that can be read; tests are left out."""
+    """Return the launch files in XML and YAML that can be read; tests are skipped."""
 
     def read() -> list[MarkupFile]:
         paths = [path for path in package.files if path.endswith(_ENDINGS)]

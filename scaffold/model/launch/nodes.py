@@ -102,7 +102,7 @@ class StartedNode:
     def parameter_files(self) -> Sequence[tuple[str, ast.expr]]:
         """The parameter files of the own package, relative to its share directory.
 
-        The value that a launch argument has when nobody gives another counts too.
+        The default of a launch argument counts too.
         """
         result: list[tuple[str, ast.expr]] = []
         for node in self.parameters:
@@ -172,7 +172,7 @@ def consumers(package: Package) -> list[StartedNode]:
 
 
 def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether an action stands in the list of the LaunchDescription, or is added to it."""
+    """Tell whether an action is in the list of the LaunchDescription, or is added to it."""
     module = launch.module
     for parent in module.parents(call):
         if isinstance(parent, ast.If | ast.For | ast.While | ast.IfExp | ast.Try | ast.match_case):

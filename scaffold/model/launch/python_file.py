@@ -131,7 +131,7 @@ class LaunchEvaluator(Evaluator):
 
 
 def launch_paths(package: Package) -> list[str]:
-    """Return the Python files that import launch; those that only tests use are left out."""
+    """Return the Python files that import launch; those that only tests use are skipped."""
 
     def find() -> Iterator[str]:
         for path in package.python_files:
@@ -164,7 +164,7 @@ class LaunchFile:
 
     @classmethod
     def of_package(cls, package: Package) -> list[LaunchFile]:
-        """Return the launch files of a package; those that only tests use are left out."""
+        """Return the launch files of a package; those that only tests use are skipped."""
 
         def find() -> Iterator[LaunchFile]:
             for path in launch_paths(package):
@@ -246,7 +246,7 @@ class LaunchFile:
         return result
 
     def default_of(self, node: ast.expr | None) -> str | Unknown:
-        """Return the text that a LaunchConfiguration has when nobody sets it."""
+        """Return the text of a LaunchConfiguration that is not set."""
         call = self.call_of(node)
         if call is None or call.kind != "LaunchConfiguration":
             return UNKNOWN
@@ -354,7 +354,7 @@ def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
 
 
 def share_path(value: object) -> tuple[str, str] | None:
-    """Return the package and the path below its share directory that a value stands for."""
+    """Return the package and the path below its share directory that a value refers to."""
     text = value.text if isinstance(value, PathValue) else value
     if not isinstance(text, str) or not text.startswith(SHARE):
         return None
@@ -403,7 +403,7 @@ def _passes(statement: ast.stmt) -> bool:
 
 
 def _leaves(statement: ast.stmt) -> bool:
-    """Tell whether a statement ends the function, or may do so in a way nobody follows."""
+    """Tell whether a statement ends the function, or may do so in a way that is not analyzed."""
     match statement:
         case ast.Return() | ast.Raise() | ast.Match() | ast.While(test=ast.Constant(value=True)):
             return True

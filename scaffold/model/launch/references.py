@@ -31,7 +31,7 @@ class Reference(NamedTuple):
 
 
 class Suggestion(NamedTuple):
-    """The package that a wrong name stands for."""
+    """The package that a misspelled name refers to."""
 
     name: str
     reason: str
@@ -81,7 +81,7 @@ def exists(package: Package, name: str) -> bool:
 
 
 def meant_package(package: Package, use: Reference) -> Suggestion | None:
-    """Return the package that a name surely stands for, when no package is called so."""
+    """Return the package that an unknown package name certainly refers to."""
     if exists(package, use.name):
         return None
     own = programs_of(package).sources

@@ -85,7 +85,7 @@ def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:
-    """Return why a path is surely not there; ``None`` when it is, or nobody can say."""
+    """Return why a path certainly does not exist; ``None`` if it does or that is unknown."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
     if owner is None or not _is_file_name(named.path):
         return None

@@ -17,7 +17,7 @@ _NODE = (
 )
 _HANDLER = "target_action handle_once matcher entities target_lifecycle_node"
 
-# Behind "/" stands what can be given by name only; "*" marks what must be given.
+# Keyword-only parameters follow "/"; "*" marks required ones.
 _ACTIONS: Mapping[str, str] = {
     "AppendEnvironmentVariable": "name* value* prepend separator",
     "ComposableNodeContainer": f"/ name* namespace* executable {_NODE}",
@@ -80,7 +80,7 @@ _OTHERS: Mapping[str, str] = {
 }
 
 ACTIONS = frozenset(_ACTIONS)
-"""What can stand in the list of a LaunchDescription."""
+"""What the list of a LaunchDescription can contain."""
 
 
 class Signature(NamedTuple):

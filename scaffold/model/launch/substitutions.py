@@ -165,12 +165,12 @@ _NAMES = frozenset({*dir(builtins), *dir(math), "math"})
 
 
 def failure(launch: LaunchFile, node: ast.expr | None) -> str:
-    """Return why an expression fails when nobody gives another value to its arguments.
+    """Return why an expression fails with the defaults of its arguments.
 
     Nothing is evaluated: it is looked at whether Python can read it, and knows its names.
     """
     text = _text(launch, node)
-    if not isinstance(text, str) or len(text) > 1000:  # noqa: PLR2004  nobody writes that
+    if not isinstance(text, str) or len(text) > 1000:  # noqa: PLR2004  not written by hand
         return ""
     try:
         with warnings.catch_warnings():

@@ -29,7 +29,7 @@ _SECTION = {tag: number for number, tags in enumerate(_ORDER) for tag in tags}
 
 
 def section(tag: str) -> int | None:
-    """Return the number of the part of the manifest a tag belongs to; they stand in this order."""
+    """Return the number of the section of the manifest that a tag belongs to, in order."""
     return _SECTION.get(tag)
 
 
@@ -41,7 +41,7 @@ def insert(
 
 
 def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
-    """Add markup behind an element, on a line of its own where that one has one."""
+    """Add markup after an element, on a line of its own if the element has one."""
     return _after(manifest, element, markup)
 
 
@@ -64,7 +64,7 @@ def _insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
 
 
 def remove(manifest: Manifest, element: Element) -> Edit:
-    """Remove an element, with its line and the comment behind it when it is alone there."""
+    """Remove an element, with its line and the comment after it when it is alone there."""
     text = manifest.source.text
     start, end = element.start, _rest_of_line(manifest, element) or element.end
     line_start = text.rfind("\n", 0, start) + 1
@@ -79,9 +79,9 @@ def remove(manifest: Manifest, element: Element) -> Edit:
 
 
 def reorder(manifest: Manifest) -> Edit | None:
-    """Put what stands below the root in the order of the schema.
+    """Sort the children of the root in the order of the schema.
 
-    Comments and blank lines go with the element they stand in front of. ``None`` when the order
+    Comments and blank lines move with the element that they precede. ``None`` when the order
     is right, or when text between the elements makes a move unsafe.
     """
     source, root = manifest.source, manifest.root
@@ -178,7 +178,7 @@ def _last_run(children: Sequence[Element], tag: str) -> list[Element]:
 
 
 def _predecessor(children: Sequence[Element], tag: str) -> Element | None:
-    """Return the last element that must, or by custom does, stand before a new one."""
+    """Return the last element that must, or by custom does, precede a new one."""
     own = _SECTION.get(tag, len(_ORDER))
     result: Element | None = None
     for child in children:
@@ -211,7 +211,7 @@ def _before(manifest: Manifest, element: Element, markup: str) -> Edit:
 
 
 def _rest_of_line(manifest: Manifest, element: Element) -> int | None:
-    """Return where the line of an element ends, behind comments; None if more markup follows."""
+    """Return where the line of an element ends, after comments; None if more markup follows."""
     text = manifest.source.text
     at = element.end
     comments = {comment.start: comment.end for comment in manifest.comments}

@@ -20,5 +20,5 @@ def is_placeholder(text: str) -> bool:
 
 
 def is_placeholder_address(address: str) -> bool:
-    """Tell whether a mail address reaches nobody, such as ``user@todo.todo``."""
+    """Tell whether an email address is a placeholder, such as ``user@todo.todo``."""
     return re.fullmatch(_ADDRESSES, address.strip()) is not None

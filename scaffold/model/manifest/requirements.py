@@ -43,7 +43,7 @@ class Declared(NamedTuple):
 
 
 def required_packages(package: Package) -> list[Requirement]:
-    """Return what the package imports from others, once each; what is not known is left out."""
+    """Return what the package imports from others, once each; what is not known is skipped."""
     result: dict[str, Requirement] = {}
     local = _local_names(package)
     for module in package.modules():
@@ -68,7 +68,7 @@ def declared(package: Package, *, for_tests: bool) -> Declared:
 def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  as declared() says
     manifest = package.manifest
     direct = set(manifest.run_names)
-    # What generates code while the package is built stands among its modules, too.
+    # What generates code while the package is built is among its modules, too.
     direct |= {
         dependency.name
         for dependency in manifest.dependencies

@@ -1,4 +1,4 @@
-"""How people spell licences, and the SPDX identifiers that they mean."""
+"""How people spell licenses, and the SPDX identifiers that they mean."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may stand in a package.xml, where and how often: formats 1 to 3.
+"""The elements of package.xml, where and how often they may occur: formats 1 to 3.
 
 The verdict is that of the schemas which ament_xmllint uses, with two deliberate exceptions: a
 dot in a version is a dot (their pattern lets any character pass), and a document type declaration
@@ -45,11 +45,11 @@ class Unknown(NamedTuple):
 
 
 class Misplaced(NamedTuple):
-    """Elements of one kind, side by side, that stand in the wrong place."""
+    """Elements of one kind, side by side, that are in the wrong place."""
 
     elements: list[Element]
     after: Element | None
-    """Where they belong: behind this one."""
+    """The element that they belong after."""
     before: Element | None
     """And before this one."""
 
@@ -96,7 +96,7 @@ class Structure:
 
     @cached_property
     def repeated(self) -> list[tuple[Element, Element]]:
-        """The elements that may stand there once, with the first of their kind."""
+        """The elements that may occur once, with the first of their kind."""
         first: dict[str, Element] = {}
         for child in self.known:
             first.setdefault(child.tag, child)

@@ -28,7 +28,7 @@ def is_uri(value: str) -> bool:
     """Tell whether a value is a URI or a relative reference.
 
     As in schemas, characters that would have to be escaped (blanks, quotes, anything outside of
-    ASCII) may stand as they are.
+    ASCII) may be written as they are.
     """
     plain = re.sub(r"[ <>\"{}|\\^`]|[^\x00-\x7f]", "_", value)
     character = r"[A-Za-z0-9._~!$&'()*+,;=@:-]|%[0-9A-Fa-f]{2}"

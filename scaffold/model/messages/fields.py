@@ -406,7 +406,7 @@ class TypeMismatches:
         return counted and not self._is_watched(node.attr)
 
     def _runs_again(self, node: ast.AST) -> bool:
-        """Tell whether a loop or the executor runs a node: nobody presses a button for ever."""
+        """Tell whether a loop or the executor runs a node: input from a person does not count."""
         module, facts = self._types.module, self._types.facts
         if any(isinstance(parent, ast.While) for parent in module.parents(node)):
             return True
@@ -417,7 +417,7 @@ class TypeMismatches:
         )
 
     def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
-        """Tell whether an assignment stands in ``__init__``: it starts and resets nothing."""
+        """Tell whether an assignment is in ``__init__``: it starts and resets nothing."""
         function = self._types.module.enclosing_function(target)
         is_int = isinstance(self._types.facts.evaluator.evaluate(value), int)
         return is_int and function is not None and function.name == "__init__"

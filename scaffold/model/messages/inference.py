@@ -28,7 +28,7 @@ PARTS = {
 _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
-_MOST_BINDINGS = 200  # of one name or attribute; with more nobody knows what it is
+_MOST_BINDINGS = 200  # of one name or attribute; with more its type is unknown
 _EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
 _RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
@@ -93,7 +93,7 @@ class MessageTypes:
 
     @classmethod
     def of_package(cls, package: Package) -> Iterator[MessageTypes]:
-        """Yield the views of all files that import interfaces, those of ROS 1 left out."""
+        """Yield the views of all files that import interfaces, except those of ROS 1."""
         for path in package.python_files:
             try:
                 types = cls.of(package, path)

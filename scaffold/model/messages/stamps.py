@@ -1,4 +1,4 @@
-"""Messages that are made and published, and whose stamp surely nobody sets."""
+"""Messages that are created and published, and whose stamp is certainly never set."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.e
     if module.parent(made) is None or not isinstance(sent, ast.Name | ast.Attribute):
         raise _Doubt
     if isinstance(sent, ast.Attribute):
-        # An attribute of this name may belong to the same object wherever it stands.
+        # An attribute of this name may belong to the same object wherever it is.
         return [node for node in module.index.attributes(sent.attr) if _is_read(node)]
     scope = module.index.lookup(sent.id, sent)
     result = [

@@ -76,13 +76,13 @@ class Section(NamedTuple):
 
 
 class Misplaced(NamedTuple):
-    """A value that stands under no ``ros__parameters``."""
+    """A value that is not under ``ros__parameters``."""
 
     key: Scalar
     near: Scalar | None
-    """The key above it that is meant to be ``ros__parameters``."""
+    """The key above it that is a misspelled ``ros__parameters``."""
     depth: int
-    """How many keys stand above that one."""
+    """How many keys are above that one."""
 
 
 class Refused(NamedTuple):
@@ -160,7 +160,7 @@ def _read(package: Package, path: str) -> tuple[ParameterFile | None, ParseError
 
 
 def parameter_paths(package: Package) -> list[str]:
-    """Return the files that are meant to be parameter files: they say so, or nearly."""
+    """Return the files that are parameter files, or look like misspelled ones."""
 
     def find() -> list[str]:
         return [

@@ -32,7 +32,7 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
 def narrow_default(
     package: Package, known: Sequence[Declared], name: str, given: str
 ) -> Parameter | None:
-    """Return the parameter whose default, not the file, has a type that nobody means.
+    """Return the parameter whose default, not the file, has an unintended type.
 
     Such as ``1`` for a period, or a number in quotes. Those of other packages are judged there.
     """

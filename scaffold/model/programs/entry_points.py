@@ -97,7 +97,7 @@ def _programs(package: Package) -> Iterator[EntryPoint]:
             path = item.path
             if path is None or path not in package.python_files:
                 continue
-            # A node is meant for `ros2 run` wherever it is installed.
+            # A node is intended for `ros2 run` wherever it is installed.
             if install.destination == f"lib/{package.name}" or rclpy_file(package, path).nodes:
                 yield EntryPoint(install.rename or path.rpartition("/")[2], path, None)
 

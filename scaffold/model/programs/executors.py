@@ -1,4 +1,4 @@
-"""What programs do with executors, and what they do behind a shutdown of rclpy."""
+"""What programs do with executors, and what they do after a shutdown of rclpy."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FAR = 200
 
 
 class Shutdowns:
-    """The shutdowns of a file that are statements, by the block that they stand in."""
+    """The shutdowns of a file that are statements, by their block."""
 
     def __init__(self, file: RclpyFile) -> None:
         self._module = file.module
@@ -49,7 +49,7 @@ class Shutdowns:
 
 
 def used_of_executor(file: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
-    """Return what is used of an executor held in a local variable and given to nobody."""
+    """Return what is used of an executor that never leaves a local variable."""
     name = file.module.qualified_name(call.func) or ""
     parent = file.module.parent(call)
     if not name.startswith("rclpy.executors.") or not name.endswith("Executor"):

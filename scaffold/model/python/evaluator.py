@@ -53,7 +53,7 @@ MAX_DEPTH = 60
 MOST_ASSIGNMENTS = 200
 """Of one name; a name with more has no value that anybody knows."""
 MAX_STEPS = 20_000
-"""Expressions visited for one value: names that stand for each other multiply."""
+"""Expressions visited for one value: names that refer to each other multiply."""
 MOST_STEPS = 300_000
 """Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
 FEW_STEPS = 100
@@ -273,7 +273,7 @@ class Evaluator:
                 yield False
 
     def _changes_of(self, node: ast.Name) -> Sequence[ast.Name]:
-        """Return where the list that a name stands for is changed."""
+        """Return where the list that a name refers to is changed."""
         changes = [name for name in self.module.index.names(node.id) if self._is_change(name)]
         if not changes:
             return ()
@@ -304,7 +304,7 @@ class Evaluator:
         return None
 
     def _is_straight(self, first: ast.stmt | None, change: ast.Name) -> bool:
-        """Tell whether a change stands in the same block as the first assignment, below it."""
+        """Tell whether a change is in the same block as the first assignment, below it."""
         second = self._statement(change)
         if first is None or second is None or second.lineno < first.lineno:
             return False

@@ -48,7 +48,7 @@ class Import(NamedTuple):
     """The statement, or for ``import a, b`` the one name."""
     node: ast.Import | ast.ImportFrom
     top_level: bool
-    """Stands directly in the module, under no condition."""
+    """Whether it is at the top level of the module, under no condition."""
     in_function: bool
     guarded: bool
     """May fail or be skipped: ``try`` with ImportError, TYPE_CHECKING, platform, version."""
@@ -207,7 +207,7 @@ class PythonModule:
         return self.source.location(*self.span(node))
 
     def name_location(self, node: FunctionNode | ast.ClassDef) -> Location:
-        """Return the place of the name behind ``def`` or ``class``."""
+        """Return the place of the name after ``def`` or ``class``."""
         start, _ = self.span(node)
         at = self.source.text.find(node.name, self.source.text.find(" ", start))
         if isinstance(node, ast.AsyncFunctionDef):
@@ -232,7 +232,7 @@ class PythonModule:
         return self._words[condition]
 
     def mentions(self, *texts: str) -> bool:
-        """Tell whether any of some texts stands in the file; it is searched for each once."""
+        """Tell whether the file contains any of some texts; each is searched for once."""
         known = self._mentions
         for text in texts:
             if text not in known:
@@ -291,7 +291,7 @@ class PythonModule:
 
     @cached_property
     def passed_over(self) -> frozenset[ast.AST]:
-        """The statements that stand behind one that leaves their block, such as a ``return``."""
+        """The statements after one that leaves their block, such as a ``return``."""
         first: dict[tuple[ast.AST, str], int] = {}
         for kind in _LEAVING:
             for node in self.walk(kind):
@@ -330,7 +330,7 @@ class PythonModule:
     def defines(self, name: str) -> bool | None:
         """Tell whether an attribute of this name can be had from the module.
 
-        ``None`` when nobody can say: a star import, a module ``__getattr__``, ``globals()``.
+        ``None`` if unknown: a star import, a module ``__getattr__``, ``globals()``.
         """
         bindings = self.index.bindings(self.tree)
         kinds = {binding.kind for binding in bindings.get(name, ())} - {"annotation"}

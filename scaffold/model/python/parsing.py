@@ -13,7 +13,7 @@ from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 
 BOM = "\ufeff"
 MAX_CHARACTERS = 2_000_000
-"""Nobody writes a longer module by hand, and its tree would take a gigabyte."""
+"""Longer modules are not written by hand, and their trees would take a gigabyte."""
 
 JAZZY = (3, 12)
 """The Python of the target: syntax up to here is right whatever runs this tool."""
@@ -249,7 +249,7 @@ def _scan_f_string(text: str, at: int, quote: str, depth: int) -> tuple[bool, in
 
 
 def _scan_field(text: str, at: int, quote: str, depth: int) -> tuple[bool, int]:
-    """Like _scan_f_string, for what stands between ``{`` and ``}``."""
+    """Like _scan_f_string, for the text between ``{`` and ``}``."""
     is_new = False
     open_brackets = 0
     while at < len(text):

@@ -13,7 +13,7 @@ _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 
 def returned(function: FunctionNode) -> Sequence[ast.Return]:
-    """Return the ``return`` statements of a function, those of functions inside left out."""
+    """Return the ``return`` statements of a function, except those of functions inside."""
     return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
 
 
@@ -62,7 +62,7 @@ def _own_nodes(function: FunctionNode) -> Iterator[ast.AST]:
 
 
 def _passes(body: Sequence[ast.stmt]) -> bool:
-    """Tell whether what stands behind some statements may be reached."""
+    """Tell whether the code after some statements may be reached."""
     return all(_passes_one(statement) for statement in body)
 
 

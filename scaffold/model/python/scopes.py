@@ -29,7 +29,7 @@ _NOT_NODES = frozenset(
 Node = TypeVar("Node", bound=ast.AST)
 
 MOST_BINDINGS = 200
-"""Of one name in one scope; each look-up reads them all, and with more nobody knows its value."""
+"""Of one name in one scope; each lookup reads them all; with more its value is unknown."""
 
 
 class Binding(NamedTuple):
@@ -160,10 +160,10 @@ class ScopeIndex:
             parent = self._parents.get(parent)
 
     def place(self, statement: ast.AST) -> tuple[str, int]:
-        """Return which block of the node that holds it a statement stands in, and its number there.
+        """Return the block of the parent node that a statement is in, and its index there.
 
         The block is ``body``, ``orelse``, ``finalbody`` or ``handlers``; empty, with a number of
-        -1, for what stands in none.
+        -1, for a node that is in no block.
         """
         parent = self._parents.get(statement)
         if parent is None:

@@ -30,14 +30,14 @@ UNKNOWN: Final = Unknown.UNKNOWN
 
 
 class Glob:
-    """Stands in a list for the paths that match a pattern."""
+    """Placeholder in a list for the paths that match a pattern."""
 
     __slots__ = ("filtered", "pattern", "recursive")
 
     def __init__(self, pattern: str, *, recursive: bool = False, filtered: bool = False) -> None:
         self.pattern = pattern
         self.recursive = recursive
-        """Whether ``**`` stands for any directories."""
+        """Whether ``**`` matches any directories."""
         self.filtered = filtered
         """Only some of the paths: there is a condition."""
 

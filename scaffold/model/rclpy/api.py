@@ -91,7 +91,7 @@ def is_method(owner: str, name: str) -> bool:
 
 @cache
 def _places() -> Mapping[str, str]:
-    """Return where classes stand that a package takes from its modules, by the shorter name."""
+    """Return the modules of classes that a package re-exports, by the shorter name."""
     result: dict[str, str] = {}
     for place in known_names():
         module, _, name = place.rpartition(".")
@@ -177,7 +177,7 @@ def _is_goal_handle(file: RclpyFile, argument: ast.arg) -> bool:
 
 
 def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
-    """Return the future that is done when a callback is called with what a name stands for."""
+    """Return the future that is done when a callback is called with what a name refers to."""
     argument = file.parameter_of(node)
     if argument is None:
         return None

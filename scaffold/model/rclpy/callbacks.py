@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def resolve(file: RclpyFile, node: ast.expr) -> Callback:
-    """Return what an expression stands for as a callback."""
+    """Return what an expression evaluates to as a callback."""
     module = file.module
     if isinstance(node, ast.Call):
         if module.qualified_name(node.func) == "functools.partial" and node.args:
@@ -53,7 +53,7 @@ def _method_of(file: RclpyFile, class_: ast.ClassDef, name: str) -> FunctionNode
 
 
 def function_of(file: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | None:
-    """Return the function whose body a node stands in."""
+    """Return the function whose body contains a node."""
     child = node
     for parent in file.module.parents(node):
         if isinstance(parent, ast.Lambda):

@@ -73,7 +73,7 @@ class NodeEvaluator(AttributeEvaluator):
         for other in values[1:]:
             if value is UNKNOWN or not same(self.evaluate(other), value):
                 return UNKNOWN
-        # Nobody follows what methods do to a list that belongs to an object.
+        # What methods do to a list that belongs to an object is not tracked.
         return UNKNOWN if isinstance(value, list | dict) else value
 
     def _parameter(self, node: ast.expr) -> object:

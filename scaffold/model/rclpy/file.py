@@ -58,7 +58,7 @@ NODE_CLASSES = frozenset(
 )
 
 MAX_BASES = 40
-"""Classes that inherit from each other; nobody has so many."""
+"""Limit on classes that inherit from each other; real code has fewer."""
 
 
 class Modules(Protocol):
@@ -212,7 +212,7 @@ class RclpyFile:
         for path in _module_paths(self.module.path, module):
             if path != self.module.path and self.modules.has(path):
                 try:
-                    # What is made of the other file is kept here, for everybody who asks.
+                    # The analysis of the other file is kept here, for all callers.
                     with reads.recorded(self._reads):
                         return rclpy_file(self.modules, path)
                 except ViewError:
@@ -250,7 +250,7 @@ class RclpyFile:
         return result
 
     def owner_of(self, node: ast.expr) -> NodeDefinition | None:
-        """Return the node that an expression such as ``self`` stands for."""
+        """Return the node that an expression such as ``self`` refers to."""
         if node not in self._owners:
             self._owners[node] = self._find_owner(node)
         return self._owners[node]
@@ -387,7 +387,7 @@ class RclpyFile:
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 
     def is_conditional(self, node: ast.AST) -> bool:
-        """Tell whether a node stands under a condition or in a loop of its function."""
+        """Tell whether a node is under a condition or in a loop of its function."""
         for parent in self.module.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
                 return isinstance(parent, ast.Lambda)
@@ -419,7 +419,7 @@ class RclpyFile:
         return bool(known) and all(type(value) in {int, float} for value in known)
 
     def callback(self, node: ast.expr) -> Callback:
-        """Return what an expression stands for as a callback."""
+        """Return what an expression evaluates to as a callback."""
         if node not in self._callbacks:
             self._callbacks[node] = node_callbacks.resolve(self, node)
         return self._callbacks[node]
@@ -434,7 +434,7 @@ class RclpyFile:
         ]
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
-        """Return the calls in the body of a function, those of functions inside left out."""
+        """Return the calls in the body of a function, except those of functions inside."""
         return self._calls_by_function.get(function, ())
 
     @cached_property
@@ -445,7 +445,7 @@ class RclpyFile:
         return result
 
     def function_of(self, node: ast.AST) -> FunctionNode | ast.Lambda | None:
-        """Return the function whose body a node stands in."""
+        """Return the function whose body contains a node."""
         return node_callbacks.function_of(self, node)
 
     def reached(

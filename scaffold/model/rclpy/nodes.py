@@ -117,7 +117,7 @@ class NodeDefinition:
 
     @cached_property
     def declares_automatically(self) -> bool:
-        """Whether parameters may be used that nobody declares here."""
+        """Whether parameters may be used that are not declared here."""
         for name in (
             "allow_undeclared_parameters",
             "automatically_declare_parameters_from_overrides",

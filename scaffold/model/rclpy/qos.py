@@ -1,4 +1,4 @@
-"""The quality of service that an expression stands for, and whether two of them fit."""
+"""The quality of service that an expression evaluates to, and whether two of them fit."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 
 
 def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
-    """Return the quality of service that an expression stands for."""
+    """Return the quality of service that an expression evaluates to."""
     at = evaluator.module.location(node)
     found = _plain(evaluator, evaluator.single_value(node), at)
     return _with_later_changes(evaluator, found, node)
@@ -110,7 +110,7 @@ def _with_later_changes(evaluator: AttributeEvaluator, qos: Qos, node: ast.expr)
 
 
 def _changed(evaluator: AttributeEvaluator, qos: Qos, name: str, value: ast.expr | None) -> Qos:
-    """Return a quality of service with one field set; ``None`` for nobody knows what."""
+    """Return a quality of service with one field set; ``None`` for an unknown value."""
     if name == "depth":
         depth = evaluator.evaluate(value)
         return qos._replace(profile=None, depth=depth if type(depth) is int else UNKNOWN)

@@ -158,7 +158,7 @@ def _resolved(module: PythonModule, node: ast.expr) -> ast.expr:
 
 
 def _list_to_extend(module: PythonModule, node: ast.expr) -> ast.List | None:
-    """Return the list literal that an expression is, or that stands at its end."""
+    """Return the list literal that an expression is or ends with."""
     node = _resolved(module, node)
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         return _list_to_extend(module, node.right) or _list_to_extend(module, node.left)
@@ -177,7 +177,7 @@ def _add_keyword(setup: SetupPy, name: str, value: Block) -> Edit | None:
 def append_item(
     module: PythonModule, holder: ast.expr, items: Sequence[ast.expr], item: str | Block
 ) -> Edit:
-    """Return the edit that adds an item behind the last one inside brackets."""
+    """Return the edit that adds an item after the last one inside brackets."""
     text, newline = module.source.text, module.source.newline
     close = module.span(holder)[1] - 1
     if not items:
@@ -285,7 +285,7 @@ def _line(text: str, offset: int) -> str:
 
 
 def _line_end(module: PythonModule, offset: int) -> int:
-    """Return the offset of the line ending behind an offset."""
+    """Return the offset of the line ending after an offset."""
     text = module.source.text
     end = text.find("\n", offset)
     if end < 0:
@@ -328,7 +328,7 @@ def literal_span(setup: SetupPy, keyword: Keyword) -> tuple[int, int]:
 
 
 def span(setup: SetupPy, name: str) -> tuple[int, int] | None:
-    """Return the offsets of ``name=value`` in the call; ``None`` if it stands elsewhere."""
+    """Return the offsets of ``name=value`` in the call; ``None`` if it is elsewhere."""
     for word in setup.call.keywords if setup.call else ():
         if word.arg == name:
             return setup.module.span(word)

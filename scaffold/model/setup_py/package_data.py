@@ -21,7 +21,7 @@ def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
 
 
 def installed_data(package: Package) -> set[str] | None:
-    """Return the files that data_files install; ``None`` when nobody can say.
+    """Return the files that data_files install; ``None`` if unknown.
 
     A ``glob`` with a condition may install less than this.
     """
@@ -39,7 +39,7 @@ def installed_data(package: Package) -> set[str] | None:
 
 
 def package_data(package: Package) -> list[Glob] | None:
-    """Return what is installed beside the modules; ``None`` when nobody can say."""
+    """Return what is installed besides the modules; ``None`` if unknown."""
     setup = package.setup_py
     included = setup.keyword("include_package_data")
     elsewhere = (

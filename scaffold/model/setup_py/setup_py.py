@@ -135,7 +135,7 @@ class SetupPy:
 
     @cached_property
     def has_unknown_keywords(self) -> bool:
-        """Whether setup() gets a ``**something`` that nobody can see into."""
+        """Whether setup() gets a ``**something`` whose contents are unknown."""
         words = self.call.keywords if self.call else ()
         return any(word.arg is None and self._dict_of(word.value) is None for word in words)
 
@@ -199,7 +199,7 @@ class SetupPy:
 
     @property
     def license(self) -> str | Unknown | None:
-        """The licence."""
+        """The license."""
         return self.text("license")
 
     @cached_property
@@ -358,7 +358,7 @@ class SetupPy:
 
     @cached_property
     def _all_entry_points(self) -> Sequence[EntryPoint | None]:
-        """The entry points; ``None`` stands for what cannot be seen."""
+        """The entry points; ``None`` for those that are unknown."""
         word = self.keyword("entry_points")
         if word is None:
             return ()
@@ -435,7 +435,7 @@ class SetupPy:
         return EntryPoint(group, name, module, function, text, at, node, problem, joined)
 
     def _joined_literals(self, node: ast.expr) -> tuple[Location, ...]:
-        """Return the places of the literals that stand in a row and make one string."""
+        """Return the places of the adjacent literals that make one string."""
         if not isinstance(node, ast.Constant | ast.JoinedStr):
             return ()
         pieces = list(string_pieces(self.module, node))

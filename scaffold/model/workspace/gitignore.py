@@ -1,4 +1,4 @@
-"""Files that git leaves out: each machine makes its own, or they are of another repository."""
+"""Files that git does not track: they are ignored, or in a submodule."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class Statement(NamedTuple):
 
 
 def check(text: PythonText) -> Iterator[Finding]:
-    """Yield the import statements that stand in the wrong place."""
+    """Yield the import statements that are in the wrong place."""
     found: list[Finding] = []
     before: Statement | None = None
     for node in _nodes(text.tree):

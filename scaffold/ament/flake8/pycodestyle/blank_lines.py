@@ -104,7 +104,7 @@ class _State:
         return result
 
     def _is_one_liner(self, logical: LogicalLine) -> bool:
-        """Tell whether the definition ends on its own line: such ones may stand together."""
+        """Tell whether a definition is one line long: those need no blank lines between them."""
         lines, indent, at = self.lines, logical.indent, logical.end_row - 1
         if at >= 1 and expand_indent(lines[at - 1]) > indent:
             return False

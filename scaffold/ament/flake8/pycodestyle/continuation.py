@@ -54,7 +54,7 @@ class _Bracket:
 
     def __init__(self, indent: int, rows: list[int]) -> None:
         self.indent = indent
-        """Column that its lines align with; 0 until something stands behind the bracket."""
+        """Column that its lines align with; 0 until something follows the bracket."""
         self.hang: int | None = None
         """The hanging indentation that its lines have agreed on."""
         self.rows = rows

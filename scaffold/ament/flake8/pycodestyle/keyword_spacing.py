@@ -1,4 +1,4 @@
-"""E251, E252, E275: blanks around the ``=`` of arguments, and behind keywords.
+"""E251, E252, E275: spaces around the ``=`` of arguments, and after keywords.
 
 On Python 3.12 the ``=`` of ``f'{value = }'`` inside a call counts as that of an argument, too.
 """

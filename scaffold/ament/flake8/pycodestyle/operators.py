@@ -1,4 +1,4 @@
-"""E221 to E228, E231, E271 to E274: blanks around operators and keywords, behind punctuation.
+"""E221 to E228, E231, E271 to E274: spaces around operators and keywords, and after punctuation.
 
 ruff finds the lines, this decides which code they get: a blank on one side only is E225 for
 pycodestyle whatever the operator, and blanks before a line break do not count.
@@ -80,7 +80,7 @@ class _Scan:
         self.braces: list[str] = []
         """Open brackets, ``f`` for an f-string, ``l`` for the arguments of a lambda."""
         self.wanted: bool | tuple[Position, bool] = False
-        """A blank must follow; or a place and whether one stood in front of the operator."""
+        """A space must follow; or a place and whether a space preceded the operator."""
         self.before: Token | None = None
 
     def faults(self) -> Iterator[tuple[Position, str, str]]:
@@ -112,7 +112,7 @@ class _Scan:
             braces.pop()
 
     def _is_tight(self, token: Token) -> bool:
-        """Tell whether something stands right behind a comma, semicolon or colon."""
+        """Tell whether something comes right after a comma, semicolon or colon."""
         row, column = token.end
         following = self.logical.lines[row - 1][column : column + 1]
         if following in (" ", "\t", "\xa0") or following in "\r\n":
@@ -122,7 +122,7 @@ class _Scan:
         return not (token.string == "," and following in ")]")
 
     def _behind(self, token: Token) -> Iterator[tuple[Position, str, str]]:
-        """Judge the token behind an operator."""
+        """Judge the token after an operator."""
         before, wanted = self.before, self.wanted
         if before is None:
             return
@@ -145,7 +145,7 @@ class _Scan:
         self.wanted = False
 
     def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:
-        """Judge an operator and what stands in front of it."""
+        """Judge an operator and what precedes it."""
         wanted: bool | None = False
         if token.string == "=" and self._is_keyword_argument():
             pass
@@ -167,7 +167,7 @@ class _Scan:
 
 
 def _is_operand(token: Token) -> bool:
-    """Tell whether an operator behind the token has it as its left side."""
+    """Tell whether an operator after the token has it as its left side."""
     if token.type == OP:
         return token.string in "}])"
     return token.string not in _KEYWORDS and token.string not in _SOFT_KEYWORDS

@@ -1,4 +1,4 @@
-"""E101, E501, W191, W29x, W391: what is wrong with a line as it stands."""
+"""E101, E501, W191, W29x, W391: errors in a physical line."""
 
 from __future__ import annotations
 

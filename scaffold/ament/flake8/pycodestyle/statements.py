@@ -75,7 +75,7 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
 
 
 def _placed(logical: LogicalLine, said: Said) -> Iterator[Finding]:
-    """Yield what is said of a logical line where it stands in the file, with the fixes."""
+    """Yield the findings of a logical line at their places in the file, with the fixes."""
     brackets = _Brackets(logical)
     for offset, code, message in said:
         row, column = logical.position(offset)
@@ -94,7 +94,7 @@ def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Fi
 
 
 def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, ...]:
-    """Return what breaks a line behind its colon or at its semicolon."""
+    """Return what breaks a line after its colon or at its semicolon."""
     row = finding.line
     line = logical.lines[row - 1].rstrip("\n")
     indent = line[: len(line) - len(line.lstrip())]
@@ -169,7 +169,7 @@ def spaces(line: str) -> Said:
 
 
 def comparisons(line: str) -> Said:
-    """E711, E712, E721: equality where identity is meant."""
+    """E711, E712, E721: equality where identity is intended."""
     for item in re.finditer(_SINGLETON, line):
         value = item[1] or item[3]
         wanted = "is" if item[2] == "==" else "is not"
@@ -270,7 +270,7 @@ def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:
 
 
 def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
-    """E502: a backslash between brackets, unless a comment stands before it."""
+    """E502: a backslash between brackets, unless a comment precedes it."""
     depth = start = end = 0
     backslash: tuple[int, int] | None = None
     for token in logical.tokens:

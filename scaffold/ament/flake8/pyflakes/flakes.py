@@ -44,7 +44,7 @@ def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterat
 
 
 def plain(diagnostic: RuffDiagnostic) -> Finding:
-    """Return a finding of ruff as it stands."""
+    """Return a finding of ruff unchanged."""
     return Finding(
         diagnostic.code,
         diagnostic.line,

@@ -46,7 +46,7 @@ Place = ast.stmt | ast.ExceptHandler | ast.arg | ast.Name
 
 
 class _Binding:
-    """What a name stands for in a scope."""
+    """What a name refers to in a scope."""
 
     def __init__(self, kind: int, node: Place, full_name: str = "") -> None:
         self.kind = kind
@@ -332,7 +332,7 @@ class _Walk:
             return
 
     def use(self, name: str) -> None:
-        """Mark what a name stands for as used; class scopes are not seen from inside functions."""
+        """Mark what a name refers to as used; class scopes are not seen from inside functions."""
         inner_comprehensions = True
         for at, scope in enumerate(reversed(self.scopes)):
             if scope.is_class and at > 0 and not inner_comprehensions:

@@ -60,7 +60,7 @@ class Declarations:
                 yield Declaration(UNKNOWN, None, None, None)
 
     def _rows(self, node: ast.expr | None) -> Sequence[Mapping[str, ast.expr]]:
-        """Return what the variables of a loop stand for, turn by turn, if a name is one of them.
+        """Return the values of the variables of a loop, per iteration, if a name is one of them.
 
         Such as ``name`` and ``default`` in ``for name, default in [('rate', 1.0), ...]:``.
 

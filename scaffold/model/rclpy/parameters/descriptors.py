@@ -139,7 +139,7 @@ def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
 
 
 def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
-    """Return the assignment that a name has its value from: all stand in one block with the use."""
+    """Return the assignment a name has its value from: all are in the same block as the use."""
     found = file.module.index.lookup(node.id, node)
     block = _block(file, node)
     last: Binding | None = None
@@ -152,7 +152,7 @@ def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
 
 
 def _block(file: RclpyFile, node: ast.AST) -> tuple[ast.AST | None, str]:
-    """Return the block that the statement of a node stands in."""
+    """Return the block that contains the statement of a node."""
     module = file.module
     while not isinstance(node, ast.stmt):
         parent = module.parent(node)
@@ -171,7 +171,7 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
 
 
 def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
-    """Note what a use of the message sets; false when nobody knows."""
+    """Record what a use of the message sets; false if unknown."""
     module = file.module
     parent = module.parent(use)
     above = module.parent(parent) if parent is not None else None

@@ -247,7 +247,7 @@ def _texts(
 
 
 def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
-    """Return what a name stands for in a loop over a list that is written there."""
+    """Return what a name refers to in a loop over a literal list."""
     found = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
     loops = [file.module.parent(item.node) for item in found[1]] if found else []
     if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):

@@ -1,4 +1,4 @@
-"""Where the object of a parameter stands in place of its value."""
+"""Uses of a Parameter object in place of its value."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MOST_USES = 200
 
 
 def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
-    """Yield the calls that give a Parameter whose value is meant, and the first such place."""
+    """Yield the calls that pass a Parameter instead of its value, and the first such place."""
     for item in _objects(file):
         use = _use(file, item.call, item.variable, item.attribute)
         if use is not None:
@@ -86,7 +86,7 @@ def _objects(file: RclpyFile) -> Iterator[Entity]:
 
 
 def stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether a node stands where only the value makes sense."""
+    """Tell whether a node is where only the value makes sense."""
     parent = file.module.parent(node)
     used = False
     match parent:
