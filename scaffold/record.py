@@ -39,7 +39,7 @@ class _Record(tuple):  # type: ignore[type-arg]  # what is in it, each class say
 
 
 class _Definition(type):
-    """Makes a plain class of what stands in a class statement."""
+    """Makes a plain class from the body of a class statement."""
 
     def __new__(cls, name: str, _: tuple[type, ...], namespace: dict[str, Any]) -> Any:  # noqa: ANN401  of another class
         from _collections import _tuplegetter  # type: ignore[import-not-found]  # as namedtuple does

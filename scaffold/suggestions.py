@@ -26,11 +26,11 @@ def closest_name(package: Package, word: str, known: Collection[str], cutoff: fl
         package: What the word is found in.
         word: The word.
         known: The names.
-        cutoff: How much alike they must be, from 0 to 1.
+        cutoff: How similar they must be, from 0 to 1.
 
     Returns:
-        The name; empty when none is so much alike, or when so many words of the package have been
-        compared with so many names that nobody waits for more.
+        The name; empty if none is similar enough, or if the comparisons for this package are
+        used up, which bounds the time.
     """
     from difflib import get_close_matches
 

@@ -1,4 +1,4 @@
-"""Names that ROS knows: packages, keys of rosdep, and what they bring along."""
+"""Names that ROS knows: packages, keys of rosdep, and their transitive dependencies."""
 
 from __future__ import annotations
 

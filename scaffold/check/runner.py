@@ -137,7 +137,7 @@ class Check:
             except ViewError:
                 continue  # what the rule needs is not there
             most -= len(said)
-            self._is_whole &= most > 0  # else the other files stand in for the skipped ones
+            self._is_whole &= most > 0  # else other files decide what is omitted
 
     def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
         """Yield what is to be run of a rule, each step with the part that it belongs to."""

@@ -68,7 +68,7 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Pars
     Args:
         verb: The only verb to define in full; the others are listed but not imported. ``None``
             defines all, as tab completion needs.
-        comes_first: Nothing stands in front of the verb that might ask for the list.
+        comes_first: No option that might request the list precedes the verb.
     """
     parser = _Parser(
         prog="ros2-scaffold",

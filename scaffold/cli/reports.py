@@ -114,7 +114,7 @@ def _add_job_summary(results: Sequence[Result]) -> None:
 
 
 def write_file(path: str, content: bytes, flag: str) -> None:
-    """Write aside and rename, so that nobody reads half a report; but straight to a device.
+    """Write to a temporary file and rename it: no partial report; but straight to a device.
 
     Args:
         path: The file.

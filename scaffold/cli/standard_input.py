@@ -70,7 +70,7 @@ def read(path: str, disk: Disk) -> Target:
 def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
     """Write the text with what can be fixed in it to standard output; return what remains.
 
-    Other files stay as they are, so fixes that change one are left out.
+    Other files are not changed, so fixes that change one are skipped.
     """
     from scaffold.check.fixes import fixer
     from scaffold.check.result import Result

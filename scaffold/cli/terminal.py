@@ -123,7 +123,7 @@ def write_error(text: str) -> None:
 
 
 def flush() -> None:
-    """Write what is still kept back; else it fails when nobody can set the exit code any more."""
+    """Flush the output now, while a failure can still set the exit code."""
     try:
         sys.stdout.flush()
     except OSError as error:

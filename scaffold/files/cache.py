@@ -19,7 +19,7 @@ MAX_BYTES = 100_000_000
 KINDS = ("runs", "style", "rules", "words", "manifests", "templates_")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
 _ABANDONED_AFTER = 3600
-"""Seconds after which nobody is still writing a temporary file."""
+"""Seconds after which a temporary file is no longer being written."""
 
 _SEAL = len(digest(b""))
 

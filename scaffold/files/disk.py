@@ -91,7 +91,7 @@ class Disk:
         return read_file(path, most)
 
     def names(self, directory: str) -> Names:
-        """Return what is in a directory; links to directories are left out.
+        """Return the entries of a directory; links to directories are skipped.
 
         A directory that cannot be listed is empty.
         """
@@ -138,7 +138,7 @@ class Disk:
         return bool(self._ask("is_own", path))
 
     def is_shared(self, path: str) -> bool:
-        """Tell whether everybody may put files into a directory, as into ``/tmp``."""
+        """Tell whether a directory is world-writable, as ``/tmp`` is."""
         return bool(self._ask("is_shared", path))
 
     def owner(self, path: str) -> str:
@@ -222,7 +222,7 @@ def _names(directory: str) -> Names:
                 if entry.is_dir(follow_symlinks=False):
                     directories.append(entry.name)
                 elif not entry.is_symlink():
-                    # Pipes, sockets and devices are nobody's source.
+                    # Pipes, sockets and devices are not sources.
                     if entry.is_file():
                         files.append(entry.name)
                 elif os.path.isfile(entry.path):

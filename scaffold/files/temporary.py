@@ -1,4 +1,4 @@
-"""Temporary files and directories: names that nobody can guess, never an existing file or link."""
+"""Temporary files and directories: unguessable names, never an existing file or link."""
 
 from __future__ import annotations
 

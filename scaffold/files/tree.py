@@ -42,7 +42,7 @@ class Tree(Protocol):
 
     @property
     def nested(self) -> Sequence[str]:
-        """The directories that hold a package of their own; their files are left out."""
+        """The directories that hold a package of their own; their files are skipped."""
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
@@ -114,7 +114,7 @@ class DiskTree:
     def digest_read(self, path: str) -> str | None:
         """Return the digest of a file when it was first read; empty if it was not there then.
 
-        ``None`` if nobody has looked for it.
+        ``None`` if that is not determined yet.
         """
         question = ("content", os.path.join(self.root, path))
         if question in self.disk.seen:
@@ -150,7 +150,7 @@ class DiskTree:
 class MemoryTree:
     """Files that are not on disk: of an example, or generated and not yet written.
 
-    A path that ends in ``/`` stands for an empty directory.
+    A path that ends in ``/`` is an empty directory.
     """
 
     def __init__(self, files: Mapping[str, str | bytes], executable: Collection[str] = ()) -> None:

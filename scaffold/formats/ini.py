@@ -46,7 +46,7 @@ class IniOption(NamedTuple):
     value_start: int
     value_end: int
     end: int
-    """The offset behind the last line of the value."""
+    """The offset after the last line of the value."""
 
 
 class IniSection:
@@ -62,7 +62,7 @@ class IniSection:
         self.start = start
         """The offset of the header's line."""
         self.end = end
-        """The offset behind the last line that is not empty or a comment."""
+        """The offset after the last line that is not empty or a comment."""
         self.options: dict[str, IniOption] = {}
 
 
@@ -170,7 +170,7 @@ class _Reader:
         return self.sections
 
     def _lines(self) -> Iterator[_Line | None]:
-        """Yield the lines that matter, ``None`` for an empty one; comments are left out."""
+        """Yield the lines that matter, ``None`` for an empty one; comments are skipped."""
         text = self.source.text
         at = 0
         while at < len(text):

@@ -151,7 +151,7 @@ class Element:
 
     @property
     def open_end(self) -> int:
-        """The offset behind the start tag."""
+        """The offset after the start tag."""
         if self._open_end < 0:
             self._open_end = _tag_end(self._source.text, self.start)
         return self._open_end
@@ -168,7 +168,7 @@ class Element:
 
     @property
     def end(self) -> int:
-        """The offset behind the element."""
+        """The offset after the element."""
         if self.is_empty_tag:
             return self.open_end
         return self._source.text.index(">", self._close) + 1
@@ -204,7 +204,7 @@ class Element:
 
     @property
     def raw(self) -> str:
-        """The element as it stands in the file."""
+        """The source text of the element."""
         return self._source.text[self.start : self.end]
 
     def close_at(self, offset: int) -> None:
@@ -225,7 +225,7 @@ class Element:
 
 
 class Document(NamedTuple):
-    """What stands in an XML file."""
+    """The contents of an XML file."""
 
     source: Source
     root: Element
@@ -235,7 +235,7 @@ class Document(NamedTuple):
 
 
 def _tag_end(text: str, start: int) -> int:
-    """Return the offset behind a start tag."""
+    """Return the offset after a start tag."""
     at = start
     while True:
         end = text.index(">", at)

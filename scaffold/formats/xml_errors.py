@@ -40,7 +40,7 @@ def explain(source: Source, code: int, at: int, inside: Element | None) -> Parse
 
 
 def _text_before_declaration(text: str) -> Explanation | None:
-    """Tell whether anything stands before ``<?xml``."""
+    """Tell whether anything precedes ``<?xml``."""
     begin = 1 if text.startswith(BOM) else 0
     at = text.find("<?xml", begin, begin + 4096)
     if at <= begin or text[at + 5 : at + 6] not in {*BLANK, "?"}:
@@ -155,7 +155,7 @@ def _unbound_prefix(text: str, at: int) -> Explanation:
 
 
 def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation | None:
-    """Explain what expat has no name for from what stands around the place."""
+    """Explain an error that expat does not name, from the text around it."""
     result = _bad_character(text, at) or _ampersand(text, at) or _in_comment(text, at)
     if result is not None:
         return result

@@ -54,7 +54,7 @@ class Mapping(NamedTuple):
     """Pairs of keys and values, repeated keys too."""
 
     pairs: list[tuple[Scalar, YamlNode]]
-    """Keys that are no scalars are left out."""
+    """Keys that are not scalars are skipped."""
     location: Location
 
 

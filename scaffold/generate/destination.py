@@ -1,4 +1,4 @@
-"""Whether a new package may stand where the user wants it."""
+"""Whether a new package may be created where the user wants it."""
 
 from __future__ import annotations
 

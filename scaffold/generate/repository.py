@@ -125,7 +125,7 @@ def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
 
 
 def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
-    """Yield what the user should know of files that nobody reads where they are.
+    """Yield notes on files that are not read where they are.
 
     Args:
         place: The repository.

@@ -86,7 +86,7 @@ class Commit:
     def changed(self) -> frozenset[str]:
         """Return the paths, relative to the top, of files that are not as in the commit.
 
-        Files that git ignores are left out; new and removed ones are not.
+        Files that git ignores are skipped; new and removed ones are not.
         """
         blobs = self.files()
         there = {path for path in self.listed if os.path.lexists(os.path.join(self.top, path))}
@@ -106,7 +106,7 @@ class Commit:
         return b"\r\n" in data and _name(data.replace(b"\r\n", b"\n"), blob) == blob.name
 
     def files(self) -> dict[str, _Blob]:
-        """Return all files of the commit by path; submodules are left out."""
+        """Return all files of the commit by path; submodules are skipped."""
         listed = self._run("ls-tree", "-r", "-z", "--long", self._name) or b""
         blobs: dict[str, _Blob] = {}
         for line in listed.split(b"\0"):

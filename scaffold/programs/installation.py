@@ -20,7 +20,7 @@ def command(extra: str = "") -> str:
     """Return the command that installs the tool again from its source.
 
     Args:
-        extra: An optional part that it is to bring along, such as ``ros``.
+        extra: An optional extra to install with it, such as ``ros``.
     """
     extras = f"[{extra}]" if extra else ""
     origin = _origin()

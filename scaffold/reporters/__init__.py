@@ -29,7 +29,7 @@ class ReportOptions(NamedTuple):
     statistics: bool = False
     """Whether counts are shown instead of findings."""
     quiet: bool = False
-    """Whether the summary is left out."""
+    """Whether the summary is skipped."""
     notes: tuple[str, ...] = ()
     """Lines above the summary: what is not in the report, and why."""
 

@@ -1,4 +1,4 @@
-"""What is documented about the rules behind some findings, and where."""
+"""The documentation of the rules behind some findings, and where it is."""
 
 from __future__ import annotations
 

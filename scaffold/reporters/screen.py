@@ -47,7 +47,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     """Write to a terminal.
 
     Style findings are counted in one line while there are errors, and always for a package that
-    does not run that linter itself. What is left out keeps its part in the exit code.
+    does not run that linter itself. Skipped findings still count for the exit code.
     """
     console = Console(file=out, highlight=False, soft_wrap=True)
     folded = _fold(results, options)

@@ -139,7 +139,7 @@ def variables(environment: Environment, scratch: Path) -> dict[str, str]:
         **environment.variables,
         # Defaults and mixins of the user would make it another build.
         "COLCON_HOME": str(scratch / "colcon"),
-        # setup.py may import modules that stand beside it: nothing is written to the sources.
+        # setup.py may import modules next to it: nothing is written to the sources.
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     path = environment.variables.get("PATH")

@@ -64,7 +64,7 @@ def _publications(
 ) -> Iterator[Publication]:
     for owner in owners:
         if owner.is_lifecycle:
-            continue  # it publishes once it is activated, which nobody does here
+            continue  # it publishes once it is activated, which does not happen here
         alone = owner.facts is file and not (isinstance(owner, NodeClass) and owner.base)
         reaches = PublishReach(owner.facts, starts, alone=alone)
         for publisher in _made(owner, starts, lambda item: item.publishers):

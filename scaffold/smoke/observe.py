@@ -56,7 +56,7 @@ async def observing(
     Raises:
         ObserverError: the probe does not start.
     """
-    # A copy: beside the original stand modules that would shadow those of ROS.
+    # A copy: modules next to the original would shadow those of ROS.
     script = directory / PROBE.name
     with process.writing(script) as copy:
         copy.write(PROBE.read_bytes())

@@ -33,7 +33,7 @@ from scaffold.smoke.run import NodeRun, RunSettings
 Result = TypeVar("Result")
 
 Progress = Callable[[str], None]
-"""Is told what goes on, in a few words."""
+"""Called with what is going on, in a few words."""
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _EARLY_STATIONS = 4
@@ -74,8 +74,8 @@ def smoke(
         sources: The packages; they are not changed.
         options: How it is done.
         variables: The environment variables to start from; those of this process.
-        progress: Is told what goes on.
-        announce: Is told what the user should know, such as what a run waits for.
+        progress: Called with what is going on.
+        announce: Called with what the user should know, such as what a run waits for.
         interruption: Takes the signals that ask for the end; without it, only this run does.
 
     Raises:

@@ -81,7 +81,7 @@ def _take_owner(descriptor: int, old: os.stat_result) -> int:
                 os.fchown(descriptor, -1, old.st_gid)
     mode = stat.S_IMODE(old.st_mode)
     if os.fstat(descriptor).st_uid != old.st_uid:
-        mode &= ~(stat.S_ISUID | stat.S_ISGID)  # nobody is to run it as somebody else
+        mode &= ~(stat.S_ISUID | stat.S_ISGID)  # not to be run as another user
     return mode
 
 

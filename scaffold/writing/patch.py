@@ -87,7 +87,7 @@ def _escaped(byte: int) -> str:
 
 
 def _ended(path: str) -> str:
-    """Return a path as git writes it behind dashes: a tab tells where one with spaces ends."""
+    """Return a path as git writes it after ``---``: a tab ends a path with spaces."""
     return f"{path}\t" if " " in path and not path.startswith('"') else path
 
 

@@ -129,7 +129,7 @@ class WritePlan:
         """Return the changes as a patch that ``git apply`` takes; see `patch.of`.
 
         Args:
-            hidden: Paths of files that nobody reads.
+            hidden: Paths of files that are not read.
             relative_to: The directory to which the paths in the patch are relative; by default
                 that of `patch.base`.
         """

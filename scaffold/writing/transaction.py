@@ -162,7 +162,7 @@ class Stage:
         try:
             lock = try_lock(stage.path)
         except OSError:
-            lock = None  # no locks on this file system: nobody sweeps there
+            lock = None  # no locks on this file system: no cleanup there
         else:
             if lock is None:  # swept before it was locked
                 with cls.made(parent) as another:
@@ -271,7 +271,7 @@ def _rename_to_free_place(tree: str, root: str) -> None:
 
 @contextmanager
 def _hidden(tree: str) -> Iterator[None]:
-    """Let nobody else change a directory when it appears; file systems without locks cannot."""
+    """Lock a directory as soon as it appears, on file systems with locks."""
     with suppress(OSError):
         descriptor = try_lock(tree)
         if descriptor is not None:

@@ -176,7 +176,7 @@ def _blank_after_summary(definition: Definition) -> Iterator[Splice]:
 
 
 def _indentation(definition: Definition) -> Iterator[Splice]:
-    """Indent all lines after the first one by the same amount, so that ``help`` shows the same text."""
+    """Shift all lines after the first by the same amount, so ``help`` shows the same text."""
     literal, indent = definition.docstring, definition.indent
     rows = literal.split("\n")
     closes = rows[-1].strip() in ('"""', "'''")

@@ -149,7 +149,7 @@ def _screen() -> tuple[int, int] | None:
 def tool() -> str:
     """Return a digest of the tool: every file of the engine and the rules, and Python's packages.
 
-    Those are known by their size and times: an edit between two runs changes these.
+    They are identified by size and times, which an edit between two runs changes.
     """
     parts = [sys.version, sys.executable]
     engine = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))

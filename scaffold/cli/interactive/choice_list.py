@@ -15,7 +15,7 @@ from prompt_toolkit.layout import FormattedTextControl, HSplit, Layout, Window
 from scaffold.cli.interactive.screen import STYLE, columns, ended
 
 NAME_WIDTH = 20
-"""Columns for the names of choices, so that their summaries stand below each other."""
+"""Columns for the names of choices, so that their summaries line up."""
 _MOST_FOOT = 3
 """Lines for the summary of a choice that is cut off in the list."""
 

@@ -43,7 +43,7 @@ def line(
 
     Raises:
         KeyboardInterrupt: the user wants no more questions.
-        EOFError: nobody is there to answer.
+        EOFError: the input ended without an answer.
     """
     start = default
     while True:
@@ -102,7 +102,7 @@ def _read_plainly(text: str) -> str:
 
 
 def _on_one_line() -> KeyBindings:
-    """Return bindings that put pasted lines behind each other: an answer is one line.
+    """Return bindings that join pasted lines: an answer is one line.
 
     Escape does nothing; it would take the next letter with it.
     """

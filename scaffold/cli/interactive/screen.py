@@ -60,7 +60,7 @@ def say(text: str) -> None:
 
 
 def ended(question: str) -> str:
-    """Return a question with the colon that a noun needs behind it."""
+    """Return a question, with a colon if it is a noun."""
     return question if question.endswith("?") else f"{question}:"
 
 

@@ -99,7 +99,7 @@ class _Interview:
         self._answers: dict[str, Any] = {}
 
     def answers(self) -> dict[str, Any]:
-        """Ask what is not given; return the answers that are no defaults of nobody."""
+        """Ask what is not given; return the answers that are not defaults."""
         self._settle("package")
         self._settle("build_type")
         if not self._given.keys() & {parts.ADD, "node_kind", "node_name"}:
@@ -119,7 +119,7 @@ class _Interview:
                 self._answers[name] = value
 
     def _wrong(self, name: str, known: Given) -> bool:
-        """Tell whether what git says of the user cannot stand in a package."""
+        """Tell whether git's name and email of the user are unusable in a package."""
         return name in self._base and self._fault(self._base[name], known.value) is not None
 
     @property

@@ -89,7 +89,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
-    """Return the package that is meant, and what is to be added to it."""
+    """Return the selected package, and what to add to it."""
     from scaffold.configuration import config, content
     from scaffold.errors import InputError
     from scaffold.generate import parts
@@ -146,7 +146,7 @@ def _given(
 
 
 def _directory(given: str | None) -> str:
-    """Return the directory of the package that is meant."""
+    """Return the directory of the selected package."""
     from scaffold.errors import InputError
     from scaffold.files.disk import Disk
     from scaffold.files.tree import MANIFEST
@@ -178,7 +178,7 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
 
 
 def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:
-    """Return what the checker says only now, and what nobody expects."""
+    """Return the findings that are new and unexpected."""
     from scaffold.generate.add import add
 
     diagnostics = add.new_diagnostics(before, session.check(added.package))

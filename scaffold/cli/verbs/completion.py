@@ -29,7 +29,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def complete(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell that asks for completions; one that a terminal would obey is left out."""
+    """Print completions for the shell; those with control characters are skipped."""
     from argcomplete.finders import CompletionFinder
 
     class Finder(CompletionFinder):

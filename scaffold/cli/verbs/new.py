@@ -236,7 +236,7 @@ def _write(
         plan.write(force=options.force, around=above)
         return plan
     with writing.held(plan.root, is_dry=False):
-        # Of what is there now that nobody else changes it.
+        # So that nothing else changes the existing files.
         plan = _plan(options, made, left)
         plan.write(force=options.force, around=above)
     return plan

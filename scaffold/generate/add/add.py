@@ -50,14 +50,14 @@ class Added(NamedTuple):
     package: Package
     """The package as it will be."""
     unedited: Package
-    """The package with the new files alone: what is found there, no edit has brought about."""
+    """The package with only the new files: its findings are not caused by edits."""
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
     has_header: bool
     """Whether the new files have a license header."""
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
-        """Tell whether a finding follows from what the user is told, or is left to do."""
+        """Tell whether a finding is due to what is left for the user to do."""
         if any(item.path == diagnostic.location.path for item in self.by_hand):
             return True
         in_part = diagnostic.location.path in self.new
@@ -66,11 +66,11 @@ class Added(NamedTuple):
     def without_own(
         self, said: Sequence[Diagnostic], unedited: Sequence[Diagnostic]
     ) -> list[Diagnostic]:
-        """Return what is said because of the edits or of the new files.
+        """Return the findings caused by the edits or the new files.
 
-        The rest is said of lines that were there, and without any edit as well: some files are
-        looked at only when there is a program or a launch directory. A message that is about a
-        new file shows an edit that does not do enough; behind a semicolon it only advises.
+        The rest is reported for existing lines, and without any edit as well: some files are
+        checked only when there is a program or a launch directory. A message that
+        mentions a new file reveals an incomplete edit; after a semicolon it is only advice.
 
         Args:
             said: Of the package as it will be.

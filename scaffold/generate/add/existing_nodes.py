@@ -35,7 +35,7 @@ def find(
 
     Args:
         package: The package as it is.
-        recorded: The nodes that it was made with; those that are gone are left out.
+        recorded: The nodes that it was created with; removed ones are skipped.
         compiled: The C++ programs that it was made with; they are no nodes.
     """
     programs = programs_of(package)

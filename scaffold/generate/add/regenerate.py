@@ -1,4 +1,4 @@
-"""Adds to a package of ours: where nobody has changed it, it becomes what `new` makes."""
+"""Adds to a generated package: files not changed since become what `new` generates."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ class Piece(NamedTuple):
     addition: Addition
     """What the other files must know of."""
     others: Sequence[str] = ()
-    """Programs that a launch file does not start: nobody can say whether they are nodes."""
+    """Programs that a launch file does not start: they may or may not be nodes."""
 
     @property
     def built(self) -> str | None:

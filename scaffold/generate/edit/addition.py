@@ -67,7 +67,7 @@ class Addition(NamedTuple):
 
 
 def inside(addition: Addition, directory: str) -> list[str]:
-    """Return the new files that stand in a directory itself."""
+    """Return the new files directly in a directory."""
     return [path for path in addition.shared if path.rpartition("/")[0] == directory]
 
 

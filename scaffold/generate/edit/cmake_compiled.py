@@ -154,7 +154,7 @@ def _refuse_conflict(lists: CMakeLists) -> None:
 
 
 def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | None:
-    """Add a file behind the last one of its kind."""
+    """Add a file after the last one of its kind."""
     ending = path.rpartition(".")[2]
     like = [file for file in generation.files if file.path.endswith(f".{ending}")]
     last = (like or generation.files)[-1].argument
@@ -166,7 +166,7 @@ def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | 
 
 
 def _holder(lists: CMakeLists, argument: Argument) -> Command | None:
-    """Return the command that an argument stands in."""
+    """Return the command that an argument belongs to."""
     for command in lists.commands:
         if command.start <= argument.start < command.end:
             return command

@@ -143,7 +143,7 @@ def _added(body: Sequence[ast.stmt], variable: str) -> Iterator[tuple[ast.stmt, 
 
 
 def _action(launch: LaunchFile, description: _Description, action: str | Block) -> Edit:
-    """Return the edit that starts something behind all others."""
+    """Return the edit that starts something after everything else."""
     entities = description.entities
     if entities is None or description.added:
         call = _inside(f"{description.variable}.add_action(", action, ")")

@@ -22,9 +22,9 @@ _FOR_TESTS = ("build", "run", "test")
 """Whatever is there for one of these is there when the tests run."""
 _SINGLE = {"build": "build_depend", "build_export": "build_export_depend", "run": "exec_depend"}
 _FIRST_WITH_EXEC = 2
-"""The format that brought ``exec_depend`` and ``depend``."""
+"""The format that introduced ``exec_depend`` and ``depend``."""
 _BEFORE_EXEC = ("depend", "build_export_depend", "build_depend", "buildtool_depend")
-"""What a first ``exec_depend`` stands behind, best first."""
+"""The elements to insert a first ``exec_depend`` after, best first."""
 
 
 def add_to_manifest(source: Source, addition: Addition) -> Outcome:

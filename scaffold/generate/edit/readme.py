@@ -38,7 +38,7 @@ class Section(NamedTuple):
     lines: tuple[str, ...]
     """The lines below it, without blank ones at the start and the end."""
     end: int
-    """The number of the line behind the last of them, from 0."""
+    """The number of the line after the last of them, from 0."""
 
 
 def tables(source: Source) -> Iterator[Table]:
@@ -135,7 +135,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
     lines = [f"{_BELOW}{new.title}", "", *new.lines]
     behind = [block for block in blocks[1:] if any(map(_is_row, block.lines))]
     if head is None and behind and behind[-1] is blocks[-1]:
-        # Programs stand in a table below the nodes.
+        # Programs have a table below that of the nodes.
         at = source.offset(behind[-1].start + 1)
         text = "".join(f"{line}{source.newline}" for line in [*lines, ""])
         return spliced(source, [Edit(source.path, at, at, text)])

@@ -48,7 +48,7 @@ def add_to_setup(
 
 
 def installs_package(setup: SetupPy, name: str) -> bool | None:
-    """Tell whether an import package is installed; ``None`` if nobody can say."""
+    """Tell whether an import package is installed; ``None`` if unknown."""
     packages = setup.packages
     if isinstance(packages, FindPackages):
         if not isinstance(packages.include, tuple) or not isinstance(packages.exclude, tuple):
@@ -144,7 +144,7 @@ class _Editor:
             self._edit(lambda s: setup_edit.add_import(s.module, "from glob import glob"))
 
     def _add_file(self, file: str, path: str, share: str) -> None:
-        """Install a file that the entries for its directory leave out."""
+        """Install a file that the entries for its directory do not match."""
         before, module = self.setup, self.setup.module
         where, written = self._destination(path, share), self._quoted(file)
         written_out = [
@@ -218,7 +218,7 @@ def _package_edit(setup: SetupPy, expression: str) -> Edit | None:
 
 
 def _text_entry(setup: SetupPy, program: Program) -> Edit | None:
-    """Add a line to console scripts that stand in one long string."""
+    """Add a line to console scripts that are written as a single string."""
     points = setup.console_scripts
     if not points or not setup.entry_points_complete:
         return None

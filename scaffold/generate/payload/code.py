@@ -139,7 +139,7 @@ class Block:
         """Yield the lines of one level and those of its loops.
 
         Args:
-            clock: What stands for the time.
+            clock: The expression for the time.
             width: Columns of a line.
         """
         sine = _SINE.format(self._counter)
@@ -219,9 +219,9 @@ def _in_brackets(code: str, margin: str, width: int) -> Iterator[str]:
 
 
 def _split(text: str, *marks: str) -> Iterator[str]:
-    """Yield the pieces of a text between marks that stand in no further bracket or quote.
+    """Yield the pieces of a text between marks that are not inside a bracket or quote.
 
-    A mark that is a word or an operator starts the piece behind it.
+    A mark that is a word or an operator starts the piece after it.
     """
     depth, start, quote = 0, 0, ""
     for at, character in enumerate(text):

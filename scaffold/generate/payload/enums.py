@@ -87,6 +87,6 @@ def _by_name(section: Section, field: Field) -> list[Constant]:
 
 
 def _is_next_to(constant: Constant, field: Field, section: Section) -> bool:
-    """Tell whether no other field stands between a constant and the field below it."""
+    """Tell whether no other field is between a constant and the field below it."""
     at, line = constant.location.line, field.location.line
     return at < line and not any(at < other.location.line < line for other in section.fields)

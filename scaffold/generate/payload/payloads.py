@@ -87,7 +87,7 @@ class SectionPayload(NamedTuple):
     checks: tuple[str, ...]
     """Python expressions that are true of it, with the same variables as the statements."""
     imports: tuple[str, ...] = ()
-    """Import statements that the statements need, that of the interface left out."""
+    """Import statements that the statements need, except the one of the interface."""
     packages: tuple[str, ...] = ()
     """The interface packages that the imports need, in alphabetical order."""
     is_stamped: bool = False
@@ -101,7 +101,7 @@ class SectionPayload(NamedTuple):
 
     @property
     def check_imports(self) -> tuple[str, ...]:
-        """Import statements that the checks need, that of the interface left out."""
+        """Import statements that the checks need, except the one of the interface."""
         return _needed(self.imports, self.checks)
 
 

@@ -13,7 +13,7 @@ FRAME = "base_link"
 
 
 class Recipe(NamedTuple):
-    """How to fill one message: what stands in the method that publishes it.
+    """How to fill one message: the body of the method that publishes it.
 
     A ``header`` is filled without being mentioned; what the code uses is imported by itself.
     Names of other messages and of ``math`` and ``struct`` may be used.

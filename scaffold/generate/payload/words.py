@@ -101,7 +101,7 @@ _SUFFIXES = {
     "mps": "meters per second", "kmh": "kilometers per hour",
     "pa": "pascals", "hpa": "hectopascals",
 }  # fmt: skip
-"""Units that stand behind a name, as in ``range_mm``."""
+"""Units at the end of a name, as in ``range_mm``."""
 
 
 def split(name: str) -> list[str]:
@@ -124,7 +124,7 @@ def quantity(name: str) -> Quantity:
 
 
 def _keys(name: str) -> Iterator[str]:
-    """Yield runs of words of a name: longer ones first, then those further behind."""
+    """Yield runs of words of a name: longer ones first, then later ones."""
     words = split(name)
     for length in (3, 2, 1):
         for start in range(len(words) - length, -1, -1):

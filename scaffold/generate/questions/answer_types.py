@@ -27,9 +27,9 @@ MAX_RATE = 10_000.0
 """Hertz; no Python node publishes faster."""
 MIN_RATE = 0.001
 MAX_TEXT = 3000
-"""Characters of any other text: it stands on one line of package.xml."""
+"""Limit on any other text, which is on one line of package.xml."""
 MAX_PERSON = 60
-"""Characters of a name or a mail address: it stands on one line with its key."""
+"""Limit on a name or an email address, which is on one line with its key."""
 
 _ENCODING = r"coding[:=]\s*[-\w.]"
 """What Python takes for the encoding of a file, in a comment on its first two lines."""
@@ -62,7 +62,7 @@ def person(given: object) -> str:
     """Return the name of a person or an organization.
 
     Raises:
-        InputError: it cannot stand in a comment, in XML and in Python.
+        InputError: it cannot be written in a comment, in XML and in Python.
     """
     name = text(given)
     if len(name) > MAX_PERSON:

@@ -13,7 +13,7 @@ from scaffold.model.interfaces.types import FieldType
 from scaffold.source import Source
 
 _OWN = "own_package"
-"""Stands for the package of the new interface, whose name does not matter here."""
+"""Placeholder for the package of the new interface, whose name does not matter here."""
 _MOST = 2**32 - 1
 """Elements of an array or characters of a text that generated code can count everywhere."""
 _TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"

@@ -16,7 +16,7 @@ from scaffold.errors import InputError
 MAX_LENGTH = 48
 """Characters of a package or a node: a CMake line with two of them has its limit at 140."""
 MAX_TOPIC = 64
-"""Characters of a topic in full: it stands on one line with its type."""
+"""Limit on a fully qualified topic, which is on one line with its type."""
 
 _NAME = r"[a-z][a-z0-9]*(_[a-z0-9]+)*"
 _CMAKE_TARGETS = frozenset(

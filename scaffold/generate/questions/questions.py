@@ -44,7 +44,7 @@ def unique(templates: Iterable[Template]) -> list[Question]:
 def shared(templates: Iterable[Template]) -> list[Question]:
     """Return the questions with what all their templates say: the help of a flag.
 
-    A default in which the templates differ is left out.
+    A default in which the templates differ is skipped.
     """
     result: dict[str, Question] = {}
     for template in templates:
@@ -121,7 +121,7 @@ def completer(question: Question) -> Callable[..., Sequence[str]] | None:
 
 
 def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Sequence[str]]:
-    """Return what offers kinds for ``--add``, and behind a name the questions and answers."""
+    """Return the completer of ``--add``: kinds, and after a name questions and answers."""
 
     def offer(prefix: str, **_: object) -> list[str]:
         before, blank, word = prefix.rpartition(" ")
@@ -164,7 +164,7 @@ def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
     """Return the answers in a YAML file.
 
     Raises:
-        InputError: it cannot be read, is not a mapping, or answers what nobody asks.
+        InputError: it cannot be read, is not a mapping, or answers a question that does not exist.
     """
     entries = yaml_file.read(path)
     if not isinstance(entries, dict):
@@ -299,4 +299,4 @@ def _no_choice(word: str, choices: Sequence[str]) -> str:
 
 
 _TELLING = 3
-"""Letters at the start of a word that tell what is meant: ``GPLv3``, ``BSD``."""
+"""Letters at the start of a word that identify it: ``GPLv3``, ``BSD``."""

@@ -89,7 +89,7 @@ def import_block(lines: Iterable[str]) -> str:
     """Return import statements in the order of ament_flake8: by module, not by kind.
 
     Args:
-        lines: Statements, with or without a comment behind; what is imported twice counts once.
+        lines: Statements, with or without a comment; duplicate imports count once.
     """
     groups: tuple[list[str], list[str]] = ([], [])
     for line in _merged(lines):

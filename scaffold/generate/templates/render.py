@@ -139,7 +139,7 @@ def _are_built_in(roots: Sequence[str]) -> bool:
 
 
 def _sources(directory: str) -> Iterator[str]:
-    """Yield the paths of a template's files without their ending, partials left out."""
+    """Yield the paths of a template's files without their extension, except partials."""
     for parent, directories, names in os.walk(directory):
         directories.sort()
         for name in directories:

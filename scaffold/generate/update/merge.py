@@ -11,7 +11,7 @@ from scaffold.errors import InputError
 from scaffold.programs import git
 
 LABELS = ("yours", "template before", "template now")
-"""What stands behind the marks of a conflict."""
+"""The labels after the markers of a conflict."""
 MARKS = (f"<<<<<<< {LABELS[0]}", f">>>>>>> {LABELS[2]}")
 """The lines around a conflict."""
 _FAILED = 128

@@ -52,7 +52,7 @@ class Provenance(NamedTuple):
     """How a package was made."""
 
     date: date
-    """The day that stands in its files."""
+    """The date in its files."""
     answers: Mapping[str, Any]
     """As in an answers file."""
     rendered: Mapping[str, str]
@@ -267,7 +267,7 @@ def _refuse_newer(version: str, path: str) -> None:
 
 
 def _release(version: str) -> list[int]:
-    """Return the numbers of a release, those of betas and the like left out."""
+    """Return the numbers of a release, except those of betas and the like."""
     release = re.match(r"\d+(\.\d+)*", version)
     numbers = [int(number) for number in release[0].split(".")] if release else []
     while numbers and not numbers[-1]:

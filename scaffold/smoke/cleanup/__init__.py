@@ -1,1 +1,1 @@
-"""Leaving nothing behind, however a run ends."""
+"""Cleanup: leaves nothing behind, however a run ends."""

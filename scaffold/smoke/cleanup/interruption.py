@@ -44,7 +44,7 @@ class Interruption:
         if threading.current_thread() is threading.main_thread():
             for number in SIGNALS:
                 previous = signal.getsignal(number)
-                # With nohup, a run is meant to outlive its terminal.
+                # With nohup, a run is supposed to outlive its terminal.
                 if not (number == signal.SIGHUP and previous == signal.SIG_IGN):
                     self._previous[number] = previous
                     signal.signal(number, self._on_signal)

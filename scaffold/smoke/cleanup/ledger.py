@@ -24,7 +24,7 @@ _ATTEMPTS = 3
 
 @dataclass
 class Entries:
-    """The contents of a ledger; what is damaged in it is left out."""
+    """The contents of a ledger; damaged entries are skipped."""
 
     mark: str
     is_of_this_boot: bool = False

@@ -1,4 +1,4 @@
-"""What killed runs have left behind: found in their ledgers, and removed by the next run."""
+"""What killed runs have left behind: listed in their ledgers, removed by the next run."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def recorded_run(*, keep: bool = False) -> Iterator[Run]:
 
 
 def _clean_up(mark: str, path: Path | None) -> None:
-    """Remove what the supervisors of a run should have removed, had nobody killed them."""
+    """Remove what the supervisors of a run should have removed, had they not been killed."""
     process.sweep(mark)
     if path is None:
         return
@@ -70,7 +70,7 @@ def sweep() -> None:
     """Remove what dead runs of this user have left: processes, shared memory, directories.
 
     Only what is provably theirs: processes with the recorded start time or the mark of the run,
-    segments that those had in use and nobody uses now, and directories that hold the mark.
+    segments that those used and that are unused now, and directories that hold the mark.
     """
     with ledger.abandoned() as ledgers:
         for path, entries in ledgers:

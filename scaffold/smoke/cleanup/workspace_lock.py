@@ -24,7 +24,7 @@ def locked(workspace: Path, wait: float, tell: Callable[[str], None]) -> Iterato
     Args:
         workspace: The directory; made if it is not there.
         wait: Seconds to wait for another run to end.
-        tell: Is told whom this run waits for.
+        tell: Called with what this run waits for.
 
     Raises:
         InputError: another run holds it, or it cannot be written to.
@@ -66,7 +66,7 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
 
 
 def _try(path: Path) -> int | None:
-    """Lock the file, if nobody else has; write down who we are."""
+    """Lock the file, if it is not locked; record which process holds it."""
     flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
     descriptor = os.open(path, flags, 0o644)
     try:

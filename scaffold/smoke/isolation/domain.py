@@ -21,7 +21,7 @@ _PORTS = 250
 
 @contextmanager
 def reserved() -> Iterator[int]:
-    """Hold a domain that nobody on this machine uses.
+    """Hold a domain that is not in use on this machine.
 
     It is held by a name in the abstract socket namespace: that is as large as the loopback
     network itself, is shared by all users, and is given back by the kernel when the process ends

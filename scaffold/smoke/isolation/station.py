@@ -96,7 +96,7 @@ class Stations:
             yield station
 
     async def close(self) -> None:
-        """Close the stations that nobody has asked for."""
+        """Close the stations that were never requested."""
         while self._waiting:
             task = self._waiting.pop()
             task.cancel()
@@ -111,7 +111,7 @@ class Stations:
         try:
             return await asyncio.shield(task)
         except BaseException:
-            self._waiting.append(task)  # nobody has the station: ``close`` sees to it
+            self._waiting.append(task)  # the station is not handed over: ``close`` closes it
             raise
 
     async def _open(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:

@@ -35,7 +35,7 @@ _COMPLAINT = re.compile(
 """What colcon itself complains about."""
 _NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
 _OWN_DOING = "byte-compiling is disabled"
-"""setuptools says so because the build is told to write nothing into the sources."""
+"""A message of setuptools, because the build must not write into the sources."""
 _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
@@ -44,7 +44,7 @@ def read(path: Path, start: int = 0) -> str:
 
     Args:
         path: The file; of a large one, the end is read.
-        start: Bytes to leave out at its beginning.
+        start: Bytes to skip at its beginning.
     """
     try:
         with path.open("rb") as file:

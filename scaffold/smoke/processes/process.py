@@ -77,7 +77,7 @@ class Running:
         self.exit_code: int | None = None
         """Negative for a signal that killed it; ``None`` while it runs."""
         self.lost_supervisor = False
-        """Whether the supervisor was killed, which nobody but the command does."""
+        """Whether the supervisor was killed, which only the command does."""
         self._supervisor = supervisor
         self._events, self._requests = control
         self._left: list[str] = []
@@ -131,7 +131,7 @@ class Running:
         await self.ended_within(GRACE_OF_KILL)
 
     async def finish(self, grace: float = GRACE_OF_CHILDREN) -> list[str]:
-        """End all that the command has left behind; return the command lines of that.
+        """End all processes that the command has left behind; return their command lines.
 
         Args:
             grace: Seconds in which it may end by itself.

@@ -232,7 +232,7 @@ class Supervisor:
             os.close(descriptor)
 
     def _bound_output(self) -> None:
-        """Give back the disk space of output that nobody will read."""
+        """Free the disk space of output that will not be read."""
         for descriptor in (1, 2):
             status = os.fstat(descriptor)
             if status.st_blocks * 512 > 2 * MOST_OUTPUT:
