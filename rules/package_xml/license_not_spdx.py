@@ -30,11 +30,14 @@ class LicenseNotSpdx(Rule):
         ),
         Example(
             "another spelling",
+            {"package.xml": "<package>\n  <license>MIT License</license>\n</package>\n"},
+            Report("2:12", "the SPDX identifier of 'MIT License' is MIT", fix="write MIT"),
+            fixed={"package.xml": "<package>\n  <license>MIT</license>\n</package>\n"},
+        ),
+        Example(
+            "this version alone, or later ones as well?",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
-            Report(
-                "2:12", "the SPDX identifier of 'GPLv3' is GPL-3.0-only", fix="write GPL-3.0-only"
-            ),
-            fixed={"package.xml": "<package>\n  <license>GPL-3.0-only</license>\n</package>\n"},
+            Report("2:12", "'GPLv3' may be any of GPL-3.0-only, GPL-3.0-or-later"),
         ),
         Example(
             "which BSD?",

@@ -105,7 +105,8 @@ class Session:
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
         found = [*rules.found, *(item for path in sorted(everything) for item in everything[path])]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
-        return Result(target.package, rules.files, self._report(target, found), verdict)
+        files = rules.files if target.only is None else len(target.only)
+        return Result(target.package, files, self._report(target, found), verdict)
 
     def check(self, package: Package, style: StyleCheck | None = None) -> list[Diagnostic]:
         """Check one package, for instance one in memory; see `run_batch`."""

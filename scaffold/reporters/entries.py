@@ -75,7 +75,8 @@ def is_style(diagnostic: Diagnostic) -> bool:
     return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
 
 
-def _rank(entry: Entry) -> tuple[int, bool, bool]:
+def _rank(entry: Entry) -> tuple[int, bool, bool, bool]:
     first = entry.first
     is_last = first.code.startswith(_LAST) or first.cause.startswith(DEPENDENCY)
-    return SEVERITIES.index(entry.severity), is_last, first.code.startswith(_LATER)
+    is_later = first.code.startswith(_LATER)
+    return SEVERITIES.index(entry.severity), is_style(first), is_last, is_later

@@ -18,7 +18,7 @@ from scaffold.record import NamedTuple
 from scaffold.reporters import ReportOptions
 from scaffold.reporters.entries import SEVERITIES, Entry, by_cause, in_order, is_style
 from scaffold.reporters.excerpt import excerpt
-from scaffold.reporters.summary import by_severity, count, summary
+from scaffold.reporters.summary import by_severity, count, fixable, summary
 from scaffold.reporters.text import place
 
 _COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
@@ -191,29 +191,30 @@ def _named(numbers: Counter[str]) -> str:
 
 
 def _footer(results: Sequence[Result], folded: _Folded, options: ReportOptions) -> list[Text]:
-    lines = [_style_line(result) for result in folded.results]
+    lines = [_style_line(result, unsafe=options.unsafe) for result in folded.results]
     if len(lines) > _MAX_NAMED:
         style = folded.all
         lines = [
             Text.assemble(
                 ("style: ", "bold"),
-                f"{count(len(style), 'finding')} in {count(len(folded.results), 'package')}, ",
-                _fixable(style),
+                f"{count(len(style), 'finding')} in {count(len(folded.results), 'package')}",
+                _hints(style, unsafe=options.unsafe),
             )
         ]
     notes = [Text(printable(note)) for note in options.notes]
     return [*lines, *notes, Text(summary(results, unsafe=options.unsafe), style="bold")]
 
 
-def _style_line(result: Result) -> Text:
+def _style_line(result: Result, *, unsafe: bool) -> Text:
     found = result.diagnostics
     return Text.assemble(
         (f"{printable(result.package.name)}: ", "bold"),
-        f"{count(len(found), 'style finding')}, ",
-        _fixable(found),
+        count(len(found), "style finding"),
+        _hints(found, unsafe=unsafe),
     )
 
 
-def _fixable(diagnostics: Iterable[Diagnostic]) -> str:
-    number = sum(item.fix is not None for item in diagnostics)
-    return f"{number:,} fixable with --fix; --style shows them"
+def _hints(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
+    """Return what can be done about style findings, and what shows them."""
+    fixes = fixable(diagnostics, unsafe=unsafe)
+    return f", {fixes}; --style shows them" if fixes else "; --style shows them"

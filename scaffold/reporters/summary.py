@@ -23,7 +23,8 @@ def summary(results: Sequence[Result], *, unsafe: bool) -> str:
     found = [diagnostic for result in results for diagnostic in result.diagnostics]
     if not found:
         return f"{checked}: no findings"
-    return f"{checked}: {by_severity(found)}{_fixable(found, unsafe=unsafe)}"
+    fixes = fixable(found, unsafe=unsafe)
+    return "; ".join(filter(None, (f"{checked}: {by_severity(found)}", fixes)))
 
 
 def by_severity(diagnostics: Iterable[Diagnostic]) -> str:
@@ -37,8 +38,8 @@ def count(number: int, noun: str) -> str:
     return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
 
 
-def _fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
-    """Say how many fixes there are, and which flags apply them."""
+def fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
+    """Return how many fixes there are, and which flags apply them; empty if there are none."""
     fixes = [item.fix for item in diagnostics if item.fix is not None]
     careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
     others = len(fixes) - careful
@@ -46,4 +47,4 @@ def _fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
     if others:
         what = "more" if careful else "fixable"
         parts.append(f"{others:,} {what} with --fix --unsafe-fixes")
-    return f"; {', '.join(parts)}" if parts else ""
+    return ", ".join(parts)

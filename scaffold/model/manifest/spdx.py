@@ -16,26 +16,26 @@ _SPELLINGS = {
     "bsl 1.0": ("BSL-1.0",),
     "bsd": ("BSD-2-Clause", "BSD-3-Clause"),
     "bsd 2 clause": ("BSD-2-Clause",),
-    "bsd 2.0": ("BSD-2-Clause",),
+    "bsd 2.0": ("BSD-2-Clause", "BSD-3-Clause"),
     "bsd 3 clause": ("BSD-3-Clause",),
     "bsd 3": ("BSD-3-Clause",),
     "3 clause bsd": ("BSD-3-Clause",),
     "2 clause bsd": ("BSD-2-Clause",),
     "cc0": ("CC0-1.0",),
     "gpl": ("GPL-2.0-only", "GPL-3.0-only"),
-    "gpl 2": ("GPL-2.0-only",),
-    "gpl 2.0": ("GPL-2.0-only",),
-    "gplv2": ("GPL-2.0-only",),
-    "gpl 3": ("GPL-3.0-only",),
-    "gpl 3.0": ("GPL-3.0-only",),
-    "gplv3": ("GPL-3.0-only",),
-    "gnu gpl 3.0": ("GPL-3.0-only",),
+    "gpl 2": ("GPL-2.0-only", "GPL-2.0-or-later"),
+    "gpl 2.0": ("GPL-2.0-only", "GPL-2.0-or-later"),
+    "gplv2": ("GPL-2.0-only", "GPL-2.0-or-later"),
+    "gpl 3": ("GPL-3.0-only", "GPL-3.0-or-later"),
+    "gpl 3.0": ("GPL-3.0-only", "GPL-3.0-or-later"),
+    "gplv3": ("GPL-3.0-only", "GPL-3.0-or-later"),
+    "gnu gpl 3.0": ("GPL-3.0-only", "GPL-3.0-or-later"),
     "lgpl": ("LGPL-2.1-only", "LGPL-3.0-only"),
-    "lgpl 2.1": ("LGPL-2.1-only",),
-    "lgplv2.1": ("LGPL-2.1-only",),
-    "lgpl 3": ("LGPL-3.0-only",),
-    "lgpl 3.0": ("LGPL-3.0-only",),
-    "lgplv3": ("LGPL-3.0-only",),
+    "lgpl 2.1": ("LGPL-2.1-only", "LGPL-2.1-or-later"),
+    "lgplv2.1": ("LGPL-2.1-only", "LGPL-2.1-or-later"),
+    "lgpl 3": ("LGPL-3.0-only", "LGPL-3.0-or-later"),
+    "lgpl 3.0": ("LGPL-3.0-only", "LGPL-3.0-or-later"),
+    "lgplv3": ("LGPL-3.0-only", "LGPL-3.0-or-later"),
     "mit": ("MIT",),
     "expat": ("MIT",),
     "mit 0": ("MIT-0",),
@@ -49,7 +49,8 @@ _NOISE = r"\b(?:the|license|licence|licensed|version|software|new|modified|simpl
 def spdx_of(text: str) -> tuple[str, ...]:
     """Return the SPDX identifiers that a spelling may mean; nothing if it is not known.
 
-    ``Apache License, Version 2.0`` means ``Apache-2.0``; ``BSD`` may be one of two.
+    ``Apache License, Version 2.0`` means ``Apache-2.0``; ``BSD`` may be one of two, and ``GPLv3``
+    does not say whether later versions are permitted.
     """
     plain = re.sub(r"[,;()\-_]+", " ", text.lower())
     plain = re.sub(r"\bv(?=\d)", "", plain)
