@@ -43,8 +43,6 @@ def validate(options: argparse.Namespace, disk: Disk) -> None:
     Raises:
         InputError: flags contradict each other, or there is no such baseline.
     """
-    from scaffold.reporters import baseline
-
     options.accepted = None
     if options.write_baseline is not None:
         for flag in ("baseline", "fix", "diff", "reference", "stdin_filename", "output_file"):
@@ -52,6 +50,8 @@ def validate(options: argparse.Namespace, disk: Disk) -> None:
                 name = flag.replace("_", "-")
                 raise InputError(f"--write-baseline writes all findings: leave out --{name}")
     elif options.baseline is not None:
+        from scaffold.reporters import baseline
+
         options.accepted = baseline.read(options.baseline, disk)
 
 
@@ -82,10 +82,10 @@ def hide(
     session: Session,
 ) -> list[Result]:
     """Return results without what the baseline has; note for the report how many that are."""
-    from scaffold.reporters import baseline
-
     if options.accepted is None:
         return [*results]
+    from scaffold.reporters import baseline
+
     kept, note = baseline.hide(options.accepted, results, targets, session, options.baseline)
     options.notes += (note,)
     return kept

@@ -6,7 +6,6 @@ import os
 from typing import TYPE_CHECKING
 
 from scaffold.errors import InputError
-from scaffold.programs.git_tree import Commit
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -44,6 +43,8 @@ class Since:
     """
 
     def __init__(self, directory: str, revision: str, targets: Sequence[Target]) -> None:
+        from scaffold.programs.git_tree import Commit
+
         self._commit = Commit(directory, revision)
         self._revision = revision
         self._all = targets

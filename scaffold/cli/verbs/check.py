@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from scaffold.check.cache.runs import CacheEntry
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
+    from scaffold.check.rule import Rule
     from scaffold.check.session import Session
+    from scaffold.cli.choices import Choices
     from scaffold.files.disk import Disk
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
@@ -137,8 +139,6 @@ def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
     from scaffold.check.cache.results import ResultCache
-    from scaffold.check.fixes.noqa import SuppressingSession
-    from scaffold.check.session import Session
     from scaffold.cli import reports, standard_input
     from scaffold.cli.choices import Choices
     from scaffold.cli.interactive import progress
@@ -158,8 +158,7 @@ def run(options: argparse.Namespace) -> int:
     warn(settings.warnings)
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
-    kind = SuppressingSession if options.add_noqa else Session
-    session = kind(rules, choices.selection(options.select, options.ignore), choices.adjustments())
+    session = _session(options, rules, choices)
     if is_unsaved:
         return _check_unsaved(options, session, disk)
     targets = _targets(options, session, disk)
@@ -186,6 +185,17 @@ def run(options: argparse.Namespace) -> int:
     if slot is not None:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
+
+
+def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choices) -> Session:
+    selection = choices.selection(options.select, options.ignore)
+    if options.add_noqa:
+        from scaffold.check.fixes.noqa import SuppressingSession
+
+        return SuppressingSession(rules, selection, choices.adjustments())
+    from scaffold.check.session import Session
+
+    return Session(rules, selection, choices.adjustments())
 
 
 def _validate_noqa(options: argparse.Namespace) -> None:
