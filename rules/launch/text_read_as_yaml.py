@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import started_nodes, value_given
+from scaffold.api.launch import LaunchCall, LaunchFile, started_nodes, value_given
 from scaffold.api.parameters import declared_by
 
 _LAUNCH = (
@@ -52,6 +53,15 @@ class TextReadAsYaml(Rule):
             },
         ),
         Example(
+            "one of certain texts",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("text").replace(
+                    "default_value='hello'", "default_value='hello', choices=['hello', 'bye']"
+                ),
+            },
+        ),
+        Example(
             "read as YAML",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("text")},
             Report(
@@ -70,6 +80,8 @@ class TextReadAsYaml(Rule):
                 call = node.launch.call_of(value)
                 if call is None or call.kind != "LaunchConfiguration":
                     continue
+                if _has_choices(node.launch, call):
+                    continue
                 given = value_given(node.launch, value)
                 if declared is None or declared.types.get(name) != "string":
                     continue
@@ -79,3 +91,23 @@ class TextReadAsYaml(Rule):
                         "wrap it in ParameterValue(..., value_type=str)"
                     )
                     yield self.report(node.launch.location(value), message)
+
+
+def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
+    """Return whether an argument takes certain texts alone, none of them something else in YAML."""
+    name = launch.evaluator.evaluate(configuration.given.get("variable_name"))
+    for call in launch.calls:
+        if call.kind == "DeclareLaunchArgument" and "choices" in call.given:
+            choices = launch.evaluator.evaluate(call.given["choices"])
+            if launch.evaluator.evaluate(call.given.get("name")) == name:
+                return isinstance(choices, list | tuple) and all(map(_is_text, choices))
+    return False
+
+
+def _is_text(value: object) -> bool:
+    """Return whether YAML reads a word as text."""
+    return (
+        isinstance(value, str)
+        and re.fullmatch(r"[A-Za-z_][\w-]*", value) is not None
+        and value.lower() not in {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
+    )
