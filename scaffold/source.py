@@ -76,7 +76,7 @@ class Source:
 
     @cached_property
     def has_lone_returns(self) -> bool:
-        r"""Whether there is a ``\r`` without ``\n``: Python ends a line there, ``lines`` does not."""
+        r"""Whether a ``\r`` is not part of ``\r\n``: Python ends a line there, ``lines`` do not."""
         return "\r" in self.text.replace("\r\n", "")
 
     @property

@@ -34,14 +34,14 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
-            "brought along by what stands for several",
+            "transitive dependency of a metapackage",
             {
                 "package.xml": _MANIFEST.format("  <depend>common_interfaces</depend>\n"),
                 "CMakeLists.txt": _LISTS.format("std_srvs"),
             },
         ),
         Example(
-            "brought along by a package of the workspace",
+            "transitive dependency of a package of the workspace",
             {
                 "package.xml": _MANIFEST.format("  <depend>common</depend>\n"),
                 "CMakeLists.txt": _LISTS.format("nav_msgs"),

@@ -36,7 +36,7 @@ class FoundWhenRunOnly(Rule):
             },
         ),
         Example(
-            "brought along by what the build has",
+            "transitive dependency of a build dependency",
             {
                 "package.xml": _MANIFEST.format("  <depend>sensor_msgs</depend>\n" + _EXEC),
                 "CMakeLists.txt": _LISTS,
@@ -95,7 +95,7 @@ class FoundWhenRunOnly(Rule):
 
 
 def _there(package: Package) -> set[str]:
-    """Return what the dependencies for the build and the tests bring along."""
+    """Return the transitive dependencies of those for the build and the tests."""
     manifest = package.manifest
     result: set[str] = set()
     pending = [
@@ -116,5 +116,5 @@ def _there(package: Package) -> set[str]:
                 pending += neighbour.manifest.run_names if neighbour is not None else ()
             except ViewError:
                 continue
-    # Whatever has messages brings along what is needed to use them.
+    # A package with messages depends on what is needed to use them.
     return result | transitive_dependencies(result) | {"rosidl_default_runtime"}

@@ -14,7 +14,7 @@ _LISTS = "project(talker)\n{}ament_package()\n"
 class InstalledForTestsOnly(Rule):
     """A node is installed only when tests are built.
 
-    **Why.** Releases are built with ``BUILD_TESTING`` off: ``No executable found`` for everybody
+    **Why.** Releases are built with ``BUILD_TESTING`` off: ``No executable found`` for everyone
     but the author.
 
     **Fix.** Move ``install`` out of ``if(BUILD_TESTING)``.

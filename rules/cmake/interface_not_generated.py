@@ -28,7 +28,7 @@ class InterfaceNotGenerated(Rule):
     other_severities = {Severity.WARNING: "nothing in the package uses the interface"}
     examples = (
         Example(
-            "listed; left out on purpose, as a comment says; a file for tests",
+            "listed; omitted on purpose, as a comment says; a file for tests",
             {
                 "CMakeLists.txt": _LISTS % "msg/Beat.msg\n  # msg/Old.msg",
                 "msg/Beat.msg": "int32 count\n",

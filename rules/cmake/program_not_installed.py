@@ -37,7 +37,7 @@ class ProgramNotInstalled(Rule):
     }
     examples = (
         Example(
-            "both listed, and a module that nobody starts",
+            "both listed, and a module that is not a program",
             {
                 "CMakeLists.txt": _LISTS.format("    talker/other.py\n"),
                 "talker/node.py": _NODE,
@@ -46,7 +46,7 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
-            "started by a script or an entry point; left out; data; a module that shows itself",
+            "started by a script or an entry point; excluded; data; a module with a demo",
             {
                 "CMakeLists.txt": _LISTS.format("    # talker/old.py\n").replace(
                     "ament_p",

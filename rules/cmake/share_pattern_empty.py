@@ -51,7 +51,7 @@ class SharePatternEmpty(Rule):
             ),
         ),
         Example(
-            "all left out",
+            "all excluded",
             {"CMakeLists.txt": _LISTS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
             Report(
                 "CMakeLists.txt:2:19",

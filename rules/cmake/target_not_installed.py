@@ -42,7 +42,7 @@ class TargetNotInstalled(Rule):
             return
         targets = [install for install in cmake.installs if install.kind == "TARGETS"]
         installed = {item.value for target in targets for item in target.items}
-        # Nothing of an application is left out by mistake if nothing at all is installed.
+        # An application that installs nothing at all has not forgotten this one.
         if not installed or None in installed:
             return
         for command in cmake.find("add_executable"):

@@ -47,7 +47,7 @@ class TargetUndefined(Rule):
             Report("CMakeLists.txt:2:22", "nothing defines the target 'listen': CMake stops"),
         ),
         Example(
-            "of a command that nobody here knows",
+            "of an unknown command",
             {
                 "CMakeLists.txt": "project(talker)\nfind_package(maker REQUIRED)\n"
                 "make_some(talk)\ninstall(TARGETS talk DESTINATION lib/${PROJECT_NAME})\n"

@@ -1,4 +1,4 @@
-"""CM024: tests, and the packages that only they need, are left out of release builds."""
+"""CM024: tests, and the packages that only they need, stay out of release builds."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
 
 
 def _is_unknown(args: ast.expr, items: list[ast.expr]) -> bool:
-    """Tell whether nobody knows how many arguments there are."""
+    """Tell whether the number of arguments is unknown."""
     listed = isinstance(args, ast.List | ast.Tuple)
     return not listed or any(isinstance(item, ast.Starred) for item in items)
 

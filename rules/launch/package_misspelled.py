@@ -36,7 +36,7 @@ class PackageMisspelled(Rule):
     name = "package-misspelled"
     examples = (
         Example(
-            "itself, a known one, a declared one, and one that nobody can judge",
+            "itself, a known one, a declared one, and one unlike any known name",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("talker_demo", "talk"),

@@ -38,7 +38,7 @@ def _command(command: str) -> dict[str, str]:
 class WordsRunTogether(LaunchRule):
     """Two words of a command line are one text: a comma or a space is missing between them.
 
-    **Why.** Python joins texts that stand side by side: ``'--ros-args' '-r'`` is ``--ros-args-r``.
+    **Why.** Python joins adjacent string literals: ``'--ros-args' '-r'`` is ``--ros-args-r``.
     ``'--ros-args -r a:=b'`` is one argument with spaces in it. The program ignores both, most often
     silently. ``Command(['xacro', path])`` looks for a program ``xacro/opt/...``.
 

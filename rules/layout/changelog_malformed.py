@@ -16,7 +16,7 @@ class ChangelogMalformed(Rule):
     """CHANGELOG.rst has a section whose heading is not a version.
 
     **Why.** ``catkin_prepare_release`` and bloom read the sections by their headings,
-    ``0.1.0 (2026-11-21)``; what does not fit is left out of the release.
+    ``0.1.0 (2026-11-21)``; what does not fit is missing from the release.
 
     **Fix.** Write the heading as version and date, or ``Forthcoming``.
 

@@ -22,7 +22,7 @@ class DependencyMisspelled(Rule):
     name = "dependency-misspelled"
     examples = (
         Example(
-            "right, and one that nobody knows",
+            "correct, and an unknown one",
             {
                 "package.xml": "<package>\n  <depend>std_msgs</depend>\n"
                 "  <depend>our_own_msgs</depend>\n</package>\n"

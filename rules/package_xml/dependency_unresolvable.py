@@ -14,7 +14,7 @@ KINDS = frozenset(
     {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
     | {"build_export_depend", "buildtool_export_depend"}
 )
-"""What rosdep installs; what the documentation alone needs, it leaves out."""
+"""Tags whose packages rosdep installs; it skips those of the documentation."""
 _MANIFEST = "<package>\n  <name>talker</name>\n  <depend>{}</depend>\n</package>\n"
 _KEYS = ("python3-serial", "libserial-dev")
 
@@ -28,7 +28,7 @@ class DependencyUnresolvable(Rule):
     what is installed: else it may come from a repository that is not at hand.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. So do
-    the build farm and everybody who installs the package with its dependencies.
+    the build farm and everyone who installs the package with its dependencies.
 
     **Fix.** Write the key that ``rosdep search`` finds, get the missing package into the
     workspace, or add a rule to rosdep.

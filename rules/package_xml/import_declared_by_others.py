@@ -32,7 +32,7 @@ class ImportDeclaredByOthers(Rule):
     examples = (
         Example("declared", {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)}),
         Example(
-            "brought along by launch_ros",
+            "transitive dependency of launch_ros",
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
             Report(
                 "package.xml:3:4",

@@ -11,7 +11,7 @@ from scaffold.api.manifest import is_placeholder
 class LicensePlaceholder(Rule):
     """``<license>`` is empty or a placeholder.
 
-    **Why.** Without a license nobody may use the package, and rosdistro refuses its release. colcon
+    **Why.** Without a license no one may use the package, and rosdistro refuses its release. colcon
     does not build a package whose license is empty.
 
     **Fix.** Write an SPDX identifier such as ``Apache-2.0``. No automatic fix: the choice is the

@@ -78,7 +78,7 @@ class DataDestinationDiffers(Rule):
         if package.build_type != "ament_python" or not package.manifest.name:
             return
         if setup.name != package.name and setup.name is not None:
-            return  # SP009 says so, or nobody knows
+            return  # SP009 reports it, or it is unknown
         share = f"share/{package.name}"
         for data in setup.data_files:
             if data.malformed:

@@ -35,7 +35,7 @@ class MetadataDiffers(Rule):
     **Why.** ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things;
     ``catkin_prepare_release`` stops at two versions.
 
-    **Fix.** Write the same in both, or read package.xml in setup.py. No automatic fix: nobody but
+    **Fix.** Write the same in both, or read package.xml in setup.py. No automatic fix: only
     the author knows which one is right.
 
     **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)": "match
@@ -100,7 +100,7 @@ def _or_all(values: list[str]) -> list[str]:
 
 
 def _means_one_of(license_: str, wanted: list[str]) -> bool:
-    """Tell whether two spellings stand for the same license."""
+    """Tell whether two spellings mean the same license."""
     meant = set(spdx_of(license_))
     return any(not meant.isdisjoint(spdx_of(item)) for item in wanted)
 

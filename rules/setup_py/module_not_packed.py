@@ -43,7 +43,7 @@ class ModuleNotPacked(Rule):
             Report("setup.py:3:1", "packages leaves out 'talker', which the entry points start"),
         ),
         Example(
-            "left out",
+            "excluded",
             {
                 "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
                 **_FILES,

@@ -40,7 +40,7 @@ class PackageDataMissing(Rule):
             {**_FILES, "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n")},
         ),
         Example(
-            "left out",
+            "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
             Report(
                 "setup.py:5:14",

@@ -106,5 +106,5 @@ def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
 
 
 def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether a name stands for a plain node that is made in the file."""
+    """Tell whether a name refers to a plain node that is created in the file."""
     return constructed_class(module, node) in {"rclpy.node.Node", "rclpy.create_node"}

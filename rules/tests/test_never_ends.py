@@ -38,7 +38,7 @@ class TestNeverEnds(Rule):
             "once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
         ),
         Example(
-            "an answer that nobody spins for",
+            "a response that nothing spins for",
             {
                 "test/test_node.py": _TEST.format(
                     "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
@@ -105,7 +105,7 @@ def _waits(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _text_around(module: PythonModule, call: ast.Call) -> str:
-    """Return the text of the file without the test that a call stands in."""
+    """Return the text of the file without the test that contains a call."""
     function = module.enclosing_function(call)
     start, end = module.span(function) if function is not None else (0, 0)
     return module.source.text[:start] + module.source.text[end:]
