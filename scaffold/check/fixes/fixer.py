@@ -121,11 +121,7 @@ def apply(
     Returns:
         The files afterwards, and how many fixes were applied.
     """
-    fixes = [
-        diagnostic.fix
-        for diagnostic in diagnostics
-        if diagnostic.fix and _is_wanted(diagnostic.fix, unsafe=unsafe)
-    ]
+    fixes = _ready([item for item in diagnostics if _is_wanted(item.fix, unsafe=unsafe)])
     inside = [fixed for item in fixes if (fixed := _inside(item, overlay)) is not None]
     chosen, texts = _sound(package, _compatible(inside))
     result = overlay.copy()
@@ -144,6 +140,29 @@ def apply(
 
 def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
     return fix is not None and (unsafe or fix.safety is Safety.SAFE)
+
+
+def _ready(diagnostics: Sequence[Diagnostic]) -> list[Fix]:
+    """Return the fixes that need not wait for others.
+
+    One that edits another file than its diagnostic is about waits while that line is edited: an
+    unused import is removed before anybody declares what it imports.
+    """
+    lines = {
+        (item.location.path, item.location.line) for item in diagnostics if _edits_own_file(item)
+    }
+    return [
+        item.fix
+        for item in diagnostics
+        if item.fix is not None
+        and (_edits_own_file(item) or (item.location.path, item.location.line) not in lines)
+    ]
+
+
+def _edits_own_file(diagnostic: Diagnostic) -> bool:
+    return diagnostic.fix is not None and any(
+        change.path == diagnostic.location.path for change in diagnostic.fix.changes
+    )
 
 
 def _changes(fixes: Iterable[Fix]) -> list[Change]:

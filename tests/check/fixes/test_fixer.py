@@ -219,6 +219,16 @@ def test_the_summary_tells_safe_fixes_from_others(
     assert capsys.readouterr().out.endswith("; 2 fixable with --fix --unsafe-fixes\n")
 
 
+def test_nothing_is_declared_for_an_import_that_is_removed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fill(tmp_path, package("talker", "#!/usr/bin/env python3\nimport nav_msgs.msg\nimport os\n"))
+    main(["check", "--fix", "--select", "F401,PX020", "talker"])
+    assert (tmp_path / "talker" / "node.py").read_text() == "#!/usr/bin/env python3\n"
+    assert "nav_msgs" not in (tmp_path / "talker" / "package.xml").read_text()
+
+
 def test_a_single_file_is_fixed_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     fill(tmp_path, {**package("a", "import os\nX = 1\n"), "a/other.py": b"import os\n"})
