@@ -540,7 +540,7 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MOST_BYTES", 5000)]
+    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MAX_BYTES", 5000)]
 )
 @pytest.mark.usefixtures("package")
 def test_old_runs_are_dropped(
