@@ -3,7 +3,7 @@
 Shown as they are: letters, digits, punctuation, symbols and the space of every language. Spelled
 out, as in a Python literal: control characters (C0, C1, among them NUL, ESC and CR), marks that
 turn the direction of text or have no width, other spaces, line and paragraph separators, bytes that
-are no text, and what Unicode has not assigned.
+are not text, and what Unicode has not assigned.
 """
 
 from __future__ import annotations
@@ -52,6 +52,6 @@ def write_lines(text: str, out: TextIO) -> None:
 
 def _spelled(character: str) -> str:
     if "\udc80" <= character <= "\udcff":
-        # A byte of a file name that is no text.
+        # A byte of a file name that is not a text.
         return f"\\x{ord(character) - 0xDC00:02x}"
     return character.encode("unicode_escape").decode("ascii")

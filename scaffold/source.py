@@ -112,7 +112,7 @@ class ViewError(Exception):
 
 
 class MissingFileError(ViewError):
-    """The package does not have the file that the view is made of."""
+    """The package does not have the file that the view is built from."""
 
 
 class ParseError(ViewError):

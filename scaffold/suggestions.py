@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 MOST_COMPARED = 50_000
 """Pairs of words in one package; a comparison takes some microseconds."""
 LONGEST = 200
-"""Characters of a word worth comparing; the time goes by the square."""
+"""Limit on the length of a word to compare; the time grows with its square."""
 
 
 class _Budget:

@@ -50,7 +50,7 @@ class AbsoluteDestination(Rule):
 
 
 def _is_asked_for(command: Command) -> bool:
-    """Tell whether a condition says who wants it, such as whoever makes a Debian package."""
+    """Tell whether a condition opts in, such as one for Debian packages."""
     at = command.parent
     while at is not None and at.name != "if":
         at = at.parent

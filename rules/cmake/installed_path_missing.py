@@ -94,5 +94,5 @@ class InstalledPathMissing(Rule):
         return None
 
     def _is_own(self, path: str) -> bool:
-        """Tell whether a path surely lies in the package."""
+        """Tell whether a path certainly lies in the package."""
         return not path.startswith(("/", "..")) and path != "." and not set("$<*") & set(path)

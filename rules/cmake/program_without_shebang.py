@@ -131,7 +131,7 @@ def _starts_python(line: str) -> bool:
     if words[:1] == ["/usr/bin/env"] and len(words) > 1:
         if words[1] == "-S":
             return len(words) > ENV_WORDS and words[2].startswith("python3")
-        # The kernel hands over all after the first blank as one word.
+        # The kernel passes everything after the first space as one argument.
         return words[1] in {"python3", "python3.12"} and len(words) == ENV_WORDS
     if words[:1] == ["/bin/env"]:
         return words[1:] == ["python3"]

@@ -1,4 +1,4 @@
-"""LF047: actions are made of what they need, and lists of actions are lists."""
+"""LF047: actions get the arguments they need, and lists of actions are lists."""
 
 from __future__ import annotations
 
@@ -134,6 +134,6 @@ def _problem(launch: LaunchFile, call: LaunchCall) -> str:
 
 
 def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether a program is named that is surely not on the path of programs."""
+    """Tell whether the named program is certainly not on ``PATH``."""
     name = launch.text(call, "executable")
     return isinstance(name, str) and name.endswith(".py") and "/" not in name

@@ -84,7 +84,7 @@ class ExecutableMissing(Rule):
             yield self.report(use.executable_location, message)
 
     def _is_script(self, package: Package, name: str) -> bool:
-        """Tell whether the package has such a script: that it is not installed is said there."""
+        """Tell whether the package has such a script: another rule reports that it is missing."""
         return any(
             path.rpartition("/")[2] == name and package.module(path).is_script
             for path in package.python_files

@@ -96,7 +96,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
 
 
 def _wrong(launch: LaunchFile, value: ast.expr | None) -> str | None:
-    """Return what is returned, if that is surely no LaunchDescription."""
+    """Return the returned expression, if it is certainly not a LaunchDescription."""
     if value is None or (isinstance(value, ast.Constant) and value.value is None):
         return "None"
     if isinstance(value, ast.List | ast.Tuple | ast.ListComp):

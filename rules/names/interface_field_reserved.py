@@ -1,4 +1,4 @@
-"""NM024: names of interfaces are no keywords or macros of the generated languages."""
+"""NM024: names of interfaces are not keywords or macros of the generated languages."""
 
 from __future__ import annotations
 

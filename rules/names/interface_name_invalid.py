@@ -29,7 +29,7 @@ class InterfaceNameInvalid(Rule):
 
     **Fix.** Types are files in CamelCase; fields are lower-case words with single underscores
     between them; constants are written in capitals; a default comes after the name of a field
-    without ``=``. No automatic fix: whoever uses the name must follow.
+    without ``=``. No automatic fix: anyone who uses the name must follow.
 
     **Source.** ``rosidl_adapter/parser.py``, ``VALID_MESSAGE_NAME_PATTERN``,
     ``VALID_FIELD_NAME_PATTERN``, ``VALID_CONSTANT_NAME_PATTERN``, ``MessageSpecification``.

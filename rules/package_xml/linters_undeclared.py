@@ -28,7 +28,7 @@ _LISTS = (
 class LintersUndeclared(Rule):
     """CMake runs the linters that package.xml declares, and it declares none.
 
-    **Why.** ``colcon test`` passes, and no linter has looked at anything:
+    **Why.** ``colcon test`` passes, and no linter has checked anything:
     ``ament_lint_auto_find_test_dependencies()`` runs what ``<test_depend>`` names.
 
     **Fix.** ``<test_depend>ament_lint_common</test_depend>``, or the linters one by one.

@@ -1,4 +1,4 @@
-"""SP057: package_dir and py_modules name what is there."""
+"""SP057: package_dir and py_modules name what exists."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ class AssertMethodMisused(TestRule):
 
 
 def _compares(given: list[ast.expr]) -> bool:
-    """Tell whether a second argument is surely a value to compare with, not a message."""
+    """Tell whether a second argument is certainly a value to compare with, not a message."""
     if len(given) != 2:  # noqa: PLR2004  a value and a message
         return False
     first, second = given

@@ -30,7 +30,7 @@ _OWN_CODES = {UNPARSABLE: "unparsable-file", CRASHED: "rule-crashed"}
 
 
 def _identity() -> str:
-    """Return what the findings about a file depend on beside its content."""
+    """Return what the findings about a file depend on besides its content."""
     top = os.path.dirname(__file__)
     own = []
     for folder, _, files in os.walk(top):
@@ -177,7 +177,7 @@ class StyleCheck:
     def _place(self, package: Package, file: _File, number: int) -> str:
         """Return where ruff finds the file.
 
-        A package in memory is written out for it, and so is a file whose name is no text: ruff
+        A package in memory is written out for it, and so is a file whose name is not a text: ruff
         does not give such a name back.
         """
         if package.root is not None and _is_text(package.root) and _is_text(file.path):
@@ -200,7 +200,7 @@ def _is_text(path: str) -> bool:
 
 
 def _failure(error: Exception, linters: int) -> Finding:
-    """Return the one finding of a file whose check failed: its own fault, or a defect of ours."""
+    """Return the one finding of a file whose check failed: its own error, or a bug in this tool."""
     if isinstance(error, EXHAUSTED):
         return Finding(UNPARSABLE, 1, 1, exhausted(error), linters=linters)
     return Finding(CRASHED, 1, 1, crash_message("the check of its style", error), linters=linters)

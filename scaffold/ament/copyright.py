@@ -46,7 +46,7 @@ class Header(NamedTuple):
 def headers(package: Package) -> list[Header]:
     """Return the headers of the source files that ament_copyright looks at.
 
-    These are C, C++, CMake and Python files except empty ones and the ``setup.py`` beside
+    These are C, C++, CMake and Python files except empty ones and the ``setup.py`` next to
     package.xml.
     """
     return package.remember("copyright", lambda: _headers(package))
@@ -64,7 +64,7 @@ def _headers(package: Package) -> list[Header]:
                 package.data(path)  # which makes it known as too large
             continue
         except OSError:
-            continue  # SC001 of whoever needs the file
+            continue  # SC001, if a rule needs the file
         if data:
             result.append(read(path, data))
     for path in broken_links(package):
@@ -191,7 +191,7 @@ def _begins_line(block: str, at: int, floor: int) -> bool:
 
 
 def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
-    """Tell whether the blanks from ``before`` to ``at`` begin a line, or its second character."""
+    """Tell whether the spaces from ``before`` to ``at`` begin a line, or its second character."""
     if before == floor or "\n" in block[before:at]:
         return True
     return before - 1 == floor or block[before - 2] == "\n"
@@ -232,7 +232,7 @@ def known_texts() -> dict[str, list[Known]]:
 
 @lru_cache(maxsize=256)
 def identify(text: str) -> str | None:
-    """Return the SPDX identifier of the known header that is in a text, blanks joined."""
+    """Return the SPDX identifier of the known header that is in a text, spaces joined."""
     for known in known_texts()["header"]:
         if _in_order(text, known.sections):
             return known.licence

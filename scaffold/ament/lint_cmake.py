@@ -287,7 +287,7 @@ class Outline(NamedTuple):
     """What in a CMake file must not be touched, and where its commands are."""
 
     literals: list[tuple[int, int]]
-    """The quoted and the bracket arguments, in order: blanks inside of them have a meaning."""
+    """The quoted and the bracket arguments, in order: spaces inside them are significant."""
     commands: frozenset[int]
     """The offsets of the names of commands."""
 

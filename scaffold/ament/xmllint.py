@@ -255,7 +255,7 @@ def _read(package: Package, path: str) -> bytes:
         return package.bytes_of(path, MAX_BYTES)
     if package.root is None:
         raise FileNotFoundError(path)
-    # beside the package, in the same repository
+    # next to the package, in the same repository
     return package.outside.read(os.path.join(package.root, path), MAX_BYTES)
 
 

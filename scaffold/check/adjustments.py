@@ -1,4 +1,4 @@
-"""What the configuration makes of findings: other severities, and less style."""
+"""Adjustments of findings by the configuration: other severities, and less style."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from scaffold.record import NamedTuple
 ALL = "ALL"
 """What means every code."""
 UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
-"""What says that something was not checked: whoever selects other codes must hear it, too."""
+"""Codes that report unchecked input: shown even if other codes are selected."""
 
 
 class Selection(NamedTuple):

@@ -55,7 +55,7 @@ class Choices:
         return Selection(chosen["select"], chosen["ignore"], per_path)
 
     def adjustments(self) -> Adjustments:
-        """Return what else the configuration makes of findings.
+        """Return the other adjustments of findings by the configuration.
 
         Raises:
             ConfigError: a word means no rule.

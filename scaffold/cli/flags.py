@@ -15,7 +15,7 @@ ANSWERED_BY_FILE = "; their questions are answered with --answers"
 
 
 def add_looking(parser: Parser) -> None:
-    """Define the flags of verbs that write, for users who want to look first."""
+    """Define the flags of verbs that write, for users who want a preview."""
     parser.add_argument(
         "--dry-run", action="store_true", help="show what would be written, and write nothing"
     )

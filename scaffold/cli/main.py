@@ -85,7 +85,7 @@ def _run(given: list[str]) -> int:
 
     options = build_parser(verb, comes_first=given[:1] == [verb]).parse_args(given)
     options.slot = slot
-    os.getcwd()  # where it is gone, each verb would find something else to complain about
+    os.getcwd()  # if it was removed, each verb would report something else
     return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
 
 

@@ -37,7 +37,7 @@ class _Parser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
-        """Refuse a word that is no choice, with the nearest one."""
+        """Refuse a word that is not a choice, with the nearest one."""
         choices = [*map(str, action.choices or ())]
         if choices and value not in choices:
             hint = nearest(str(value), choices) or f" (choose from {', '.join(choices)})"

@@ -48,7 +48,7 @@ def write(
     Args:
         options: The flags of `check`.
         results: Of all packages, in the order to report them in.
-        shown: What of them the user wants to see.
+        shown: Which of them to show.
 
     Returns:
         What standard output got; ``None`` where the same run would also write something else.

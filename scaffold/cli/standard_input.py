@@ -46,7 +46,7 @@ def read(path: str, disk: Disk) -> Target:
 
     Args:
         path: The file; it need not be there.
-        disk: Notes what was looked at outside of the package.
+        disk: Records what was accessed outside of the package.
 
     Raises:
         InputError: the path is in no package and not one of a Python file, or there is too much.

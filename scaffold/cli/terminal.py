@@ -1,4 +1,4 @@
-"""The one way to standard output and standard error; ``tests/cli/test_terminal.py`` sees to that.
+"""The only access to standard output and error; ``tests/cli/test_terminal.py`` ensures that.
 
 Foreign text is neutralized on its way (``scaffold.printable``). Standard output that cannot be
 written ends the run; standard error that cannot be written changes nothing but what is seen.

@@ -67,7 +67,7 @@ def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
         notes.append(line)
 
     got: set[str] = set()
-    # In the same order in every process: two that wait for each other would wait for ever.
+    # In the same order in every process: two that wait for each other would wait forever.
     for root in sorted(roots, key=os.path.realpath):
         try:
             stack.enter_context(transaction.exclusive(root, note))

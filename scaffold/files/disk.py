@@ -43,7 +43,7 @@ class Disk:
     def __init__(self) -> None:
         self.seen: dict[Question, Answer] = {}
         self.is_settled = True
-        """False when something was looked at that is not noted, or changed meanwhile."""
+        """False when something was accessed that is not noted, or changed meanwhile."""
 
     def note(self, seen: Mapping[Question, Answer], *, is_settled: bool = True) -> None:
         """Add answers that another Disk was given."""
@@ -61,7 +61,7 @@ class Disk:
 
         Raises:
             LargeFileError: it has more; it counts by its stamp.
-            OSError: it cannot be read. Reading a pipe would wait for ever, and a device may have
+            OSError: it cannot be read. Reading a pipe would wait forever, and a device may have
                 no end.
         """
         try:
@@ -180,7 +180,7 @@ def read_file(path: str, most: int = MAX_BYTES) -> bytes:
 
     Raises:
         LargeFileError: it has more bytes than are read.
-        OSError: it cannot be read, or is no regular file.
+        OSError: it cannot be read, or is not a regular file.
     """
     # Opening a device may do something; what takes the file's place meanwhile must not block.
     if not os.path.isfile(path):

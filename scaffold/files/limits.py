@@ -56,7 +56,7 @@ def too_large(size: int, path: str) -> str:
 
 
 def _words(data: bytes) -> int:
-    """Count what code is made of, as time and memory go by that and not by bytes."""
+    """Count the tokens of code, as time and memory depend on these and not on bytes."""
     import re
 
     return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))

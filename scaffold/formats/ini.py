@@ -21,7 +21,7 @@ _COMMENTS = ("#", ";")
 
 
 class IniLine(NamedTuple):
-    """One line of a value, without blanks around it."""
+    """One line of a value, without spaces around it."""
 
     text: str
     location: Location
@@ -132,7 +132,7 @@ class IniFile:
 
 
 class _Line(NamedTuple):
-    """A line that is neither empty nor a comment, without blanks around it."""
+    """A line that is neither empty nor a comment, without spaces around it."""
 
     text: str
     start: int

@@ -185,14 +185,14 @@ class Element:
 
     @property
     def text_location(self) -> Location:
-        """The place of the text, without blanks around it; of the element for ``<tag/>``."""
+        """The place of the text, without spaces around it; of the element for ``<tag/>``."""
         if self.is_empty_tag:
             return self.location
         return self._source.location(*self.text_span)
 
     @property
     def text_span(self) -> tuple[int, int]:
-        """The offsets of the text, without blanks around it."""
+        """The offsets of the text, without spaces around it."""
         runs = [run for run in self._runs() if run.text.strip(BLANK)]
         if not runs:
             return self.open_end, self.open_end

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 _TYPED = {"service_name": "service", "action_name": "action", "topic": "message"}
-"""The types of questions for names, and of those for what goes by such a name."""
+"""The types of questions for names, and of those for the type behind such a name."""
 
 
 class Use(NamedTuple):
@@ -65,7 +65,7 @@ def uses(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) 
 
 
 def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
-    """Yield the questions for names, each with the one for the type that goes by the name."""
+    """Yield the questions for names, each with the one for the type behind the name."""
     questions = list(questions)
     for question in questions:
         typed = _type_question(question, questions)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _PYTHON = "python3-"
 _SHORT = 5
-"""Letters from which on a digit more or other is no slip: turtlebot4 is not turtlebot3."""
+"""Length from which a different digit is not a typo: turtlebot4 is not turtlebot3."""
 _SHORTEST = 3
 _MOST_HINTS = 3
 
@@ -100,7 +100,7 @@ class _Here:
 
     @cached_property
     def packages(self) -> frozenset[str]:
-        """The names of the packages of the workspace, and of those beside the new one."""
+        """The names of the packages of the workspace, and of those next to the new one."""
         from scaffold.generate import destination
         from scaffold.model.package import Package
 

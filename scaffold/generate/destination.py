@@ -20,7 +20,7 @@ def check(destination: str, package: str) -> None:
 
     Raises:
         ConflictError: the place is inside a package, or another package has the name.
-        InputError: the destination is no directory.
+        InputError: the destination is not a directory.
     """
     top = os.path.realpath(destination)
     while not os.path.lexists(top):

@@ -1,4 +1,4 @@
-"""What a package is made of besides its frame: nodes, interfaces, programs."""
+"""The parts of a package besides its frame: nodes, interfaces, programs."""
 
 from __future__ import annotations
 

@@ -280,7 +280,7 @@ def is_near(name: str, other: str) -> bool:
 def similar_package(name: str) -> str | None:
     """Return the known package that a misspelt name means, if it is near enough to be sure.
 
-    Near is one letter more, less, other or swapped, or other separators; a digit is no misspelling
+    Near is one letter added, missing, changed or swapped, or other separators; a digit is no typo
     (``turtlebot4_msgs`` is not ``turtlebot3_msgs``).
     """
     if name in ROS_PACKAGES:

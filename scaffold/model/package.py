@@ -88,7 +88,7 @@ class Package:
         Args:
             directory: The directory.
             workspace: What is around it.
-            disk: Notes what was looked at in it, if the package itself is not to.
+            disk: Records what was accessed in it, if the package itself is not to.
         """
         tree = DiskTree(directory, disk)
         return cls(tree, directory=tree.root, workspace=workspace)
@@ -362,7 +362,7 @@ class Package:
         return [error for error in self._views.values() if isinstance(error, ParseError)]
 
     def remember(self, key: object, build: Callable[[], View]) -> View:
-        """Return what ``build`` makes of the package; it is made once for a key.
+        """Return what ``build`` makes of the package; it is built once per key.
 
         For facts that several rules share and no view of this class has. What it reads only when
         it is used, it must note itself, as ``RclpyFile`` does.
@@ -467,7 +467,7 @@ class Package:
         return first.startswith(b"#!") and b"python" in first
 
     def _path_of(self, key: object) -> str | None:
-        """Return the file that a view is made of, if its key names one."""
+        """Return the file that a view is built from, if its key names one."""
         words = key if isinstance(key, tuple) else (key,)
         for word in words:
             if isinstance(word, tuple):

@@ -21,7 +21,7 @@ class Reads:
 
     def __init__(self) -> None:
         self.files: set[str] = set()
-        """The files whose content was looked at."""
+        """The files whose content was accessed."""
         self.imports: set[str] = set()
         """The files of which it was only asked what they import."""
         self.views: set[Reads] = set()
@@ -53,12 +53,12 @@ def recorded(reads: Reads) -> Iterator[None]:
 
 
 def current() -> Reads:
-    """Return where it is noted what is looked at now."""
+    """Return the current record of accesses."""
     return _recorders[-1] if _recorders else Reads()
 
 
 def note_file(path: str) -> None:
-    """Note that the content of a file was looked at."""
+    """Note that the content of a file was accessed."""
     if _recorders:
         _recorders[-1].files.add(path)
 
@@ -70,7 +70,7 @@ def note_imports(path: str) -> None:
 
 
 def note_view(reads: Reads) -> None:
-    """Note that something was used that is made of ``reads``."""
+    """Note that something derived from ``reads`` was used."""
     if _recorders and _recorders[-1] is not reads:
         _recorders[-1].views.add(reads)
 

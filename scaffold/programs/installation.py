@@ -1,6 +1,6 @@
 """How this tool was installed, for the commands that its messages advise.
 
-It is on no package index. A message that names it there would send people to whoever takes the
+It is on no package index. A message that names it there would send users to whoever takes the
 name, so a command names the source that the tool came from, or a clone.
 """
 

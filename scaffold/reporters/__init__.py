@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class ReportOptions(NamedTuple):
-    """What the user wants to see; nothing of it changes what a program reads."""
+    """Display options; none of them changes machine-readable output."""
 
     unsafe: bool = False
     """Whether unsafe fixes are counted with the others: the user asked for them."""

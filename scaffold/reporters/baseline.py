@@ -34,7 +34,7 @@ class Entry(NamedTuple):
 
 
 class Filtered(NamedTuple):
-    """Results without what a baseline has, and what is to be said of it."""
+    """Results without the findings of a baseline, and notes on it."""
 
     results: list[Result]
     note: str
@@ -65,7 +65,7 @@ def read(path: str, disk: Disk) -> list[Entry]:
         disk: Notes what it holds, so that no remembered result outlives a change of it.
 
     Raises:
-        InputError: there is no such file, or it is no baseline.
+        InputError: there is no such file, or it is not a baseline.
     """
     try:
         data = json.loads(disk.read(path))

@@ -34,7 +34,7 @@ class Fingerprints:
     agree in all of it are counted.
 
     Args:
-        path_of: Returns the path of a file of a package that fingerprints are made of.
+        path_of: Returns the path of a file of a package that fingerprints are computed from.
     """
 
     def __init__(self, path_of: Callable[[Package, str], str] = in_repository) -> None:

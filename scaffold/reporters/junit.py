@@ -17,7 +17,7 @@ _TOOL = "ros2_scaffold"
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
-    """Write a suite per package; advice is no failure, as it is none of the exit code."""
+    """Write a suite per package; advice is not a failure, as it does not affect the exit code."""
     root = ET.Element("testsuites", name=_TOOL)
     for result in results:
         root.append(_suite(result))

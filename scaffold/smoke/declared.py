@@ -124,7 +124,7 @@ def _made(
 
 
 def _resolved(topic: str | Unknown, owner: NodeDefinition) -> str | None:
-    """Return the full name of a topic; ``None`` if that cannot be told."""
+    """Return the full name of a topic; ``None`` if that is unknown."""
     if not isinstance(topic, str) or not topic or "{" in topic:
         return None
     root = owner

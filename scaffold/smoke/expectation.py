@@ -31,7 +31,7 @@ class Publication:
     type: str | None = None
     """Such as ``std_msgs/msg/String``."""
     rate_hz: float | None = None
-    """``None``: how often cannot be told."""
+    """``None`` if the number is unknown."""
     certain: bool = False
     """It publishes without anything having to happen before."""
     never: bool = False
@@ -132,7 +132,7 @@ def _not_offered(expectation: Expectation, observation: Observation) -> Iterator
 def _finished_early(
     expectation: Expectation, observation: Observation, seconds: float
 ) -> list[Problem]:
-    """Return the problem of a program that should have gone on."""
+    """Return the problem of a program that should have kept running."""
     if expectation.runs_nothing:
         return [Problem(f"finished by itself: nothing in {expectation.source} runs its node")]
     for publication in expectation.publications:

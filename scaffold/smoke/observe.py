@@ -45,7 +45,7 @@ class ObserverError(Exception):
 async def observing(
     python: str, variables: Mapping[str, str], directory: Path, origin: Origin
 ) -> AsyncIterator[Observer]:
-    """Run the probe; it is ready when the block begins, and gone when it ends.
+    """Run the probe; it is ready when the block begins, and has ended when the block ends.
 
     Args:
         python: The interpreter that has rclpy.
@@ -80,7 +80,7 @@ async def observing(
 
 
 class Observer:
-    """What the probe has told so far."""
+    """What the probe has reported so far."""
 
     def __init__(self, probe: process.Running) -> None:
         self._stdin = cast("asyncio.StreamWriter", probe.stdin)

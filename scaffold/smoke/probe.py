@@ -25,7 +25,7 @@ from importlib import import_module
 from typing import Any
 
 Ros = Any
-"""Whatever rclpy hands out: it has no types."""
+"""Whatever rclpy returns: it has no types."""
 
 NAME = "_ros2_scaffold_probe"
 """The name of the observing node; a leading underscore hides it from ``ros2 node list``."""

@@ -49,7 +49,7 @@ class NodeRun:
     problems: list[Problem] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     joined: bool = False
-    """Whether something of it was seen and it was running until it was told to stop."""
+    """Whether something of it was seen and it was running until it was asked to stop."""
     seconds: float = 0.0
     """From its start to the end of the observation."""
     doubtful: Problem | None = None

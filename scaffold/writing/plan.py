@@ -1,6 +1,6 @@
 """Writing files: everything is decided first, then all of it happens or nothing.
 
-All verbs that write do it through a plan. A new directory appears whole: it is written beside its
+All verbs that write do it through a plan. A new directory appears whole: it is written next to its
 place under a hidden name and renamed. Changes of an existing one are a transaction, which compares
 each file with what was read when the plan was made.
 """
@@ -60,7 +60,7 @@ class PlannedFile(NamedTuple):
 
 
 class WritePlan:
-    """Files to write below a directory, compared with what is there."""
+    """Files to write below a directory, compared with the existing ones."""
 
     def __init__(self, root: str, files: list[PlannedFile], *, is_new: bool) -> None:
         self.root = root
@@ -168,7 +168,7 @@ class WritePlan:
             raise InputError(message) from error
 
     def _write_whole(self, around: Sequence[transaction.Replacement]) -> None:
-        """Write a directory beside its place and rename it."""
+        """Write a directory next to its place and rename it."""
         parent = os.path.dirname(self.root)
         while not os.path.lexists(parent):
             parent = os.path.dirname(parent)

@@ -1,6 +1,6 @@
 """Changing files of a package: all of them or none, even if the process is killed.
 
-What is written waits in a hidden directory, the stage, beside a journal. Each file is then
+What is written waits in a hidden directory, the stage, next to a journal. Each file is then
 exchanged with the one that it replaces: new content goes to its place and the old file to the
 stage in one step of the kernel, and what came out is compared with what was read. Removing the
 journal is what makes the changes final; until then they can be taken back, by the process itself
@@ -42,7 +42,7 @@ _NEW_JOURNAL = "journal.new"
 _MARK = "mark"
 _SPARE = ".old"
 _OTHER = "other"
-"""The state of what is no regular file or cannot be read."""
+"""The state of what is not a regular file or cannot be read."""
 
 _held: set[str] = set()
 """The directories that this process has locked."""
@@ -126,7 +126,7 @@ def is_unfinished(directory: str) -> bool:
 def state(path: str) -> str | None:
     """Return what tells the state of a file: its content and whether it is executable.
 
-    ``None`` for no file. What is no regular file or cannot be read is like no file of ours.
+    ``None`` if there is no file. Anything irregular or unreadable is not a file of ours.
     """
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
@@ -300,7 +300,7 @@ def _staged(
                 like=_join(root, file.path),
                 is_durable=True,
             )
-        # Some file systems have no executable bits: what is there is what comes out.
+        # Some file systems have no executable bits: the actual mode is the result.
         changes.append(Change(file.path, file.before, state(slot)))
     directories = _missing_directories(root, changes)
     return _Transaction(root, stage, changes, directories, is_forward=is_forward)

@@ -1,6 +1,6 @@
 """C400 to C419: calls that a literal or a comprehension would replace.
 
-flake8-comprehensions goes by names and shapes alone; ruff also asks whether the name still refers
+flake8-comprehensions looks at names and syntax alone; ruff also asks whether the name still refers
 to the builtin, and places some findings at the argument instead of the call.
 """
 

@@ -20,7 +20,7 @@ _NO_SENTENCE = r">>>|[:@*-]|(?=[^\s./]*[./])\S+$"
 
 
 def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str]:
-    """Return what fixes a finding, and a title; nothing where a person has to decide."""
+    """Return what fixes a finding, and a title; nothing if a person has to decide."""
     if not definition.is_docstring or "\f" in definition.docstring:
         return (), ""
     if code in _AROUND:
@@ -110,7 +110,7 @@ def _quotes(definition: Definition) -> tuple[int, int]:
 
 
 def _text(definition: Definition) -> tuple[int, int]:
-    """Return where the text without the blanks around it starts and ends."""
+    """Return the start and end of the stripped text."""
     literal = definition.docstring
     start, end = _quotes(definition)
     inner = literal[start:end]

@@ -1,7 +1,7 @@
 """D2xx to D4xx: the form of docstrings, with pydocstyle's verdict.
 
 Each check yields codes with their messages for one definition. The sections of docstrings are
-looked at in ``sections``.
+checked in ``sections``.
 """
 
 from __future__ import annotations

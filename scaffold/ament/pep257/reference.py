@@ -1,4 +1,4 @@
-"""Runs pydocstyle itself beside our port of its rules, for ``check --reference``.
+"""Runs pydocstyle itself along with our port of its rules, for ``check --reference``.
 
 Slow by design: pydocstyle is imported and every file is read again. What differs is a defect of
 ros2-scaffold, never of the checked package.

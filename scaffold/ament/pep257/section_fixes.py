@@ -50,7 +50,7 @@ def _is_numpy_afterwards(definition: Definition) -> bool:
     """Tell whether nothing of Google's style is left once all names are alone above dashes.
 
     Sections that only Google has keep their colons, and descriptions below names stay indented:
-    dashes beside those would mix two conventions that no tool reads.
+    dashes next to those would mix two conventions that no tool reads.
     """
     if any(section.title not in NUMPY for section in google_sections(definition)):
         return False

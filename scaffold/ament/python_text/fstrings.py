@@ -1,6 +1,6 @@
 """Cuts f-strings open for Pythons older than 3.12, whose tokenizer takes them as one string.
 
-The tokens are those of Python 3.12, on which the linters run on Jazzy: blanks, operators and
+The tokens are those of Python 3.12, on which the linters run on Jazzy: spaces, operators and
 line breaks inside the braces count there.
 """
 

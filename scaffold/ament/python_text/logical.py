@@ -1,4 +1,4 @@
-"""Logical lines: statements and comment lines, cut the way flake8 hands them to pycodestyle."""
+"""Logical lines: statements and comment lines, split as flake8 passes them to pycodestyle."""
 
 from __future__ import annotations
 

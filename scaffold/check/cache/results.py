@@ -87,7 +87,7 @@ class ResultCache:
         edited: set[str] = set()
         for kind, path in changed:
             full = package.full_path(path[start:])
-            # What is no file any more has another name in its directory, or is another kind.
+            # A former file is missing from its directory, or is of another kind there.
             if kind != "content" or path != full or not is_followed(path):
                 return None
             edited.add(full)
@@ -136,7 +136,7 @@ class ResultCache:
 
         Args:
             slot: Where.
-            disk: What was looked at outside of the packages.
+            disk: What was accessed outside of the packages.
             results: Of all packages, in their order.
             code: The exit code.
             output: What standard output got; ``None`` if something was written elsewhere, too.
@@ -190,7 +190,7 @@ def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:
 
 
 def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
-    """Return what was looked at in a package; ``None`` if its verdict is not to be kept."""
+    """Return what was accessed in a package; ``None`` if its verdict is not to be kept."""
     disk = disk_of(package)
     disk.note(before)
     crashed = any(diagnostic.code == RuleCrashed.code for diagnostic in result.diagnostics)

@@ -1,4 +1,4 @@
-"""What earlier runs of `check` found, and what they looked at (docs/adr/0006).
+"""What earlier runs of `check` found, and what they accessed (docs/adr/0006).
 
 One small file per command line and directory, in the user's cache. A file that is damaged, of
 another version of the tool or of another Python is as good as none. This module is imported by
@@ -47,12 +47,12 @@ _MAGIC = b"scaffold-run-3\n"
 
 
 class CachedRun:
-    """A run as it is remembered; everything in it is made of what marshal can write.
+    """A remembered run; it contains only what marshal can write.
 
     Args:
-        outside: What was looked at outside of the packages.
-        trees: What was looked at in each package; ``None`` for one that is never remembered.
-        results: What ``scaffold.check.cache.results`` wants to know of each package.
+        outside: What was accessed outside of the packages.
+        trees: What was accessed in each package; ``None`` for one that is never remembered.
+        results: What ``scaffold.check.cache.results`` stores of each package.
         code: The exit code.
         output: What standard output got; ``None`` if something was written elsewhere, too.
         warnings: What was written to standard error: what of the configuration is ignored.

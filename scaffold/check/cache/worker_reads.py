@@ -83,7 +83,7 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
     """Return the places of the packages that one looked up, and whether all or interfaces.
 
     Packages that have no place, because they only lie around the checked ones, are looked
-    through: what was looked at in them is noted, but they may in turn have used checked ones.
+    through: what was accessed in them is noted, but they may in turn have used accessed ones.
     """
     result: set[int] = set()
     uses_all = uses_interfaces = False
@@ -103,7 +103,7 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
 
 
 def disk_of(package: Package) -> Disk:
-    """Return what was looked at in a package that lies on disk."""
+    """Return what was accessed in a package that lies on disk."""
     tree = package.tree
     assert isinstance(tree, DiskTree)  # noqa: S101  discovery makes no others
     return tree.disk

@@ -1,7 +1,7 @@
 """Fixes the packages of a workspace in memory, until nothing more can be fixed in any of them.
 
 A fix in one package may change what is found in another. So all packages are checked, then all
-are fixed, and those that changed or that looked at a changed one are checked again.
+are fixed, and those that changed or that accessed a changed one are checked again.
 """
 
 from __future__ import annotations

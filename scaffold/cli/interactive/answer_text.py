@@ -15,7 +15,7 @@ _TOGETHER = {"fields": ";", "dependencies": " "}
 
 
 def shown(question: Question, known: object) -> str:
-    """Return the default as text to edit; one that is made of other answers is not shown."""
+    """Return the default as text to edit; one that is derived from other answers is not shown."""
     if isinstance(known, bool):
         return "yes" if known else "no"
     if isinstance(known, list | tuple):

@@ -1,4 +1,4 @@
-"""A progress bar where people wait: on a terminal, for long work, and gone afterwards."""
+"""A progress bar where people wait: on a terminal, for long work, and removed afterward."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def shown(items: Iterable[Item], total: int, unit: str) -> Iterator[Item]:
 class Bar:
     """A bar for work in several parts, the length of which is not known before.
 
-    It is a context: the bar is gone after it.
+    It is a context manager: the bar is removed at its end.
     """
 
     def __init__(self) -> None:

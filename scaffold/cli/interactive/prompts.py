@@ -21,7 +21,7 @@ from scaffold.cli.interactive.screen import STYLE, columns, ended, is_dumb, say
 from scaffold.printable import printable
 
 _LEAST_INPUT = 24
-"""Columns that a line of text gets beside its question; else it starts a line of its own."""
+"""Columns that a line of text gets next to its question; else it starts a line of its own."""
 
 
 def line(
@@ -74,7 +74,7 @@ def several(question: str, choices: Sequence[Choice]) -> list[str]:
 
 
 def _read(question: str, default: str, completions: Sequence[str]) -> str:
-    """Read a line that starts as the default; around it blanks do not count."""
+    """Read a line that starts as the default; around it spaces do not count."""
     lines = textwrap.wrap(f"? {ended(question)}", max(columns() - 1, 2))
     if len(lines) > 1 or len(lines[0]) + _LEAST_INPUT > columns():
         lines.append(">")
@@ -97,7 +97,7 @@ def _read_plainly(text: str) -> str:
     try:
         return input(text).strip()
     except (EOFError, KeyboardInterrupt):
-        terminal.show("")  # what is said next has a line of its own
+        terminal.show("")  # the next output starts on its own line
         raise
 
 

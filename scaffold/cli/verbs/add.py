@@ -163,7 +163,7 @@ def _directory(given: str | None) -> str:
 
 
 def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -> None:
-    """Raise if a file of the package cannot be parsed; ``--force`` wants only those it edits."""
+    """Raise if a file of the package cannot be parsed; ``--force`` needs only those it edits."""
     from scaffold.check.engine_rules import UnparsableFile
     from scaffold.errors import InputError
 
@@ -186,7 +186,7 @@ def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diag
 
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
-    """Compare with what is there; files of others are edited, files of the part are not."""
+    """Compare with the existing files; shared files are edited, files of the part are not."""
     from scaffold.files.tree import DiskTree
     from scaffold.writing.plan import WritePlan
 
@@ -218,7 +218,7 @@ def _refuse_differing(
 def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
     """Tell whether an edit or a template made something that the checker calls an error.
 
-    What it says of other files is not: they may be looked at only now that there is a program.
+    What it says of other files is not: they may be checked only now that there is a program.
     Nor is what it would say of the package's own lines without any edit.
     """
     from scaffold.diagnostic import Severity

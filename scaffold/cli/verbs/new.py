@@ -142,7 +142,7 @@ def _ask(
 def _dependencies(
     options: argparse.Namespace, given: Mapping[str, Given]
 ) -> tuple[Sequence[str], Sequence[str]]:
-    """Return the dependencies that the user wants, and what to say of them.
+    """Return the dependencies that the user wants, and notes on them.
 
     Raises:
         InputError: one is certainly wrong.
@@ -208,7 +208,7 @@ def _left_to_owners(
 
 
 def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> WritePlan:
-    """Compare with what is there; an existing package is left alone without ``--force``."""
+    """Compare with the existing files; an existing package is left alone without ``--force``."""
     from scaffold.generate import repository
     from scaffold.generate.update import provenance
     from scaffold.writing.plan import WritePlan

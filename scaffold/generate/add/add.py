@@ -74,7 +74,7 @@ class Added(NamedTuple):
 
         Args:
             said: Of the package as it will be.
-            unedited: What is said of `unedited`.
+            unedited: The findings of `unedited`.
         """
         known = Counter(map(_said, unedited))
         diagnostics: list[Diagnostic] = []

@@ -14,7 +14,7 @@ from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.python.values import Unknown
 
 CONFIG = "config"
-"""Where launch files of ours look for parameter files."""
+"""Where generated launch files look for parameter files."""
 
 
 class FoundNodes(NamedTuple):
@@ -36,7 +36,7 @@ def find(
     Args:
         package: The package as it is.
         recorded: The nodes that it was created with; removed ones are skipped.
-        compiled: The C++ programs that it was made with; they are no nodes.
+        compiled: The C++ programs that it was made with; they are not nodes.
     """
     programs = programs_of(package)
     kept = [

@@ -23,7 +23,7 @@ OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_ema
 
 
 def provenance_of(package: Package) -> Provenance | None:
-    """Return how a package was made, if it is one of ours.
+    """Return how a package was created, if it was generated.
 
     Raises:
         InputError: the record is damaged.
@@ -70,7 +70,7 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
         piece: What is added.
 
     Raises:
-        InputError: the piece does not fit what is there.
+        InputError: the part does not fit the package.
     """
     answers = _with_piece(old, piece)
     if answers == old.answers:

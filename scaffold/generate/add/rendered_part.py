@@ -89,7 +89,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
 
     Args:
         target: The package.
-        old: How it was made, if it is one of ours.
+        old: How it was created, if it was generated.
         wanted: What is added.
         day: The date for its files; today by default.
 
@@ -158,7 +158,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         # Better the header of the author's other files, or none, than one with another license.
         composed.context["header"] = existing_answers.own_header(package)
     elif not {"copyright_holder", "maintainer_name"} & {*known}:
-        composed.context["header"] = ""  # whoever runs this need not be the holder
+        composed.context["header"] = ""  # the user need not be the copyright holder
     return composed
 
 

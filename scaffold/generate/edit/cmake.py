@@ -183,7 +183,7 @@ def _read(source: Source) -> CMakeLists:
     return lists
 
 
-# -- what is there
+# -- what exists
 
 
 def _covers(lists: CMakeLists, install: Install, path: str) -> bool:

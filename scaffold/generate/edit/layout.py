@@ -1,4 +1,4 @@
-"""Where a package keeps its Python programs and tests: new ones go beside them."""
+"""Where a package keeps its Python programs and tests: new ones go next to them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Layout(NamedTuple):
     new_files: tuple[str, ...] = ()
     """Empty files that the directories need."""
     installs_python: bool = False
-    """Whether CMake has to be told to install the Python package."""
+    """Whether CMakeLists.txt has to install the Python package explicitly."""
 
 
 def layout_of(package: Package) -> Layout:

@@ -28,7 +28,7 @@ _BEFORE_EXEC = ("depend", "build_export_depend", "build_depend", "buildtool_depe
 
 
 def add_to_manifest(source: Source, addition: Addition) -> Outcome:
-    """Declare what an addition needs, beside its kind, unless a dependency covers it already.
+    """Declare what an addition needs, next to its kind, unless a dependency covers it already.
 
     Raises:
         ParseError: the manifest is not well-formed.

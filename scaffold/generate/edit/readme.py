@@ -146,7 +146,7 @@ def _extend(source: Source, old: Section, new: Section) -> Source:
     """Add to a block what it does not say yet, above its table."""
     if _says(old.lines, new):
         return source
-    # What both begin with is said of all parts, and rows of tables are added one by one.
+    # What both begin with applies to all parts, and rows of tables are added one by one.
     shared = 0
     for one, two in zip(old.lines, new.lines, strict=False):
         if one != two or one.startswith(_FENCE):

@@ -69,7 +69,7 @@ class Block:
         A local name that is taken for something else gets the name of the target before it.
         """
         text = (
-            # linear: blanks with two line ends among them match
+            # linear: spaces with two line ends among them match
             re.sub(r"\n\s*\n", "\n", dedent(code))
             .strip()
             .replace(COUNTER, COUNT)

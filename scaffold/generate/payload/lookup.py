@@ -1,4 +1,4 @@
-"""Finds the interfaces that users name, with every message that they are made of."""
+"""Finds the interfaces that users name, with every message that they contain."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ VECTOR = "geometry_msgs/msg/Vector3"
 
 
 class Types:
-    """An interface and the messages that its fields are made of, all of them readable."""
+    """An interface and the messages of its fields, all of them readable."""
 
     def __init__(
         self, interface: Interface, messages: Mapping[str, Interface], definitions: Definitions
@@ -77,7 +77,7 @@ class Types:
     def full_name(self, class_name: str) -> str | None:
         """Return the message that a name in code means; ``None`` if it means none.
 
-        The interface itself goes first, then the messages that it is made of, then those of
+        The interface itself goes first, then the messages of its fields, then those of
         the same packages.
         """
         own = self.interface

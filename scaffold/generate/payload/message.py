@@ -80,7 +80,7 @@ def changes(lines: Iterable[str]) -> bool:
 
 
 def _words(types: Types, walk: Walk) -> Recipe:
-    """Return what is said about a message: by its recipe, that of its only part, or its fields."""
+    """Return the log text of a message: by its recipe, that of its only part, or its fields."""
     own = types.interface
     result = recipe.find(own.full_name)
     header = own.section("message").field("header")

@@ -81,7 +81,7 @@ class SectionPayload(NamedTuple):
     fields. They may use ``self.count``, ``self.frame_id`` and ``self.get_clock()``."""
     log: str
     """The inside of an f-string in single quotes, such as ``{response.sum}``; without braces
-    (then it is no f-string) if there are no fields."""
+    (then it is not an f-string) if there are no fields."""
     says: str
     """What it holds, to be read after "the request holds"; empty if there are no fields."""
     checks: tuple[str, ...]

@@ -139,7 +139,7 @@ def _progress(field: Field) -> str | None:
 
 
 def _first_scalar(section: Section) -> str:
-    """Return a replacement field for the log; the length of an array for want of a number."""
+    """Return a replacement field for the log; the length of an array if there is no number."""
     for field in section.fields:
         if field.type.is_primitive and not field.type.is_array:
             return f"{{{section.name}.{field.name}}}"

@@ -255,7 +255,7 @@ class Walk:
             self.checks.append(check.format(target))
 
     def _show(self, target: str, form: str, behind: str = "", *, last: bool = False) -> None:
-        """Note what the log may say; ``last``: for want of anything better."""
+        """Note what the log may contain; ``last``: only if there is nothing better."""
         if self._is_root(target.removeprefix("len(")):
             (self._spare if last else self._shown).append(f"{{{target}{form}}}{behind}")
 

@@ -39,7 +39,7 @@ _ADDRESS = r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2
 
 
 def text(given: object) -> str:
-    """Return a text on one line; line breaks and runs of blanks become one blank.
+    """Return a text on one line; line breaks and runs of spaces become one space.
 
     Raises:
         InputError: nothing is left, or it holds what XML cannot.
@@ -75,7 +75,7 @@ def person(given: object) -> str:
 
 
 def address(given: object) -> str:
-    """Return a mail address that colcon and bloom accept.
+    """Return an email address that colcon and bloom accept.
 
     Raises:
         InputError: they would not.

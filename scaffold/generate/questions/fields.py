@@ -25,7 +25,7 @@ class Fields(NamedTuple):
 
     lines: tuple[str, ...]
     packages: tuple[str, ...]
-    """The packages of the types that are no primitive ones, in alphabetical order."""
+    """The packages of the types that are not primitive ones, in alphabetical order."""
     own_types: tuple[str, ...]
     """The types that the package itself must define."""
 

@@ -18,7 +18,7 @@ from scaffold.record import NamedTuple
 MAX_DEPTH = 10_000
 MAX_SECONDS = 1_000_000.0
 CONSTANT = "QOS"
-"""The name in the module of a quality of service that is made of settings."""
+"""The name in the module of a quality of service that is built from settings."""
 _MAX_COLUMNS = 99
 
 

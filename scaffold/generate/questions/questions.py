@@ -176,7 +176,7 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
     """Return entries of a file by the names of questions, written with ``_`` or ``-``.
 
     Raises:
-        InputError: a key is no question.
+        InputError: a key is not a question.
     """
     known = {question.name for question in questions}
     result: dict[str, Given] = {}

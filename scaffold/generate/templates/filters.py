@@ -11,7 +11,7 @@ MAX_COLUMNS = 99
 
 
 def literal(text: str, column: int = 0, indent: int = 0) -> str:
-    """Return a Python string literal with the quotes that ament_flake8 wants.
+    """Return a Python string literal with the quotes that ament_flake8 requires.
 
     Args:
         text: The value.
@@ -44,7 +44,7 @@ def _escape(character: str) -> str:
 
 
 def _split(text: str, width: int) -> Iterator[str]:
-    """Yield literals, one below the other, that break the text after blanks where it has any."""
+    """Yield literals, one below the other, that break the text after spaces where it has any."""
     start = 0
     while start < len(text):
         end = start + 1

@@ -1,4 +1,4 @@
-"""What templates may do: nothing of Python's inside, no file beside theirs, nothing without end."""
+"""Limits of templates: no Python internals, no files but their own, no endless loops."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Templates: directories with a ``template.yaml`` and ``*.jinja`` files.
 
-A package is made of layers: the one for every package, one for its build type, those of its parts
+A package is built from layers: that of every package, one for its build type, those of its parts
 (nodes, interfaces, programs) and of its extras. The name of a directory is the name of the
 template, and the folder that it lies in is its role; a later content directory replaces a
 template of the same name.
@@ -26,7 +26,7 @@ ENDING = ".jinja"
 MAX_BYTES = 1_000_000
 """Of a file of a template, and of one with answers; ours have a few kB."""
 BASE = "package"
-"""The template that every package is made of."""
+"""The template that every package is built on."""
 DEPEND_KINDS = ("buildtool", "build", "build_export", "depend", "exec", "test")
 """The kinds of dependencies that a template may declare; ``depend`` is the tag of that name."""
 
@@ -61,7 +61,7 @@ PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
 
 
 class Question(NamedTuple):
-    """Something that a template wants to know."""
+    """Something that a template asks for."""
 
     name: str
     type: str
@@ -91,7 +91,7 @@ class Template(NamedTuple):
     build_types: Sequence[str]
     """The build types that it is for; all when empty."""
     depends: Mapping[str, Sequence[str]]
-    """Dependencies by kind: Jinja texts of names with blanks between them."""
+    """Dependencies by kind: Jinja templates of names separated by spaces."""
     groups: Sequence[str]
     """What the package is a member of, for package.xml."""
     installs: Sequence[str]

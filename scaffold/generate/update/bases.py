@@ -18,7 +18,7 @@ from scaffold.errors import InputError
 from scaffold.writing.transaction import BASES, RECORD
 
 MOST = 20_000_000
-"""Bytes of the files in a record; more is no package of ours."""
+"""Bytes of the files in a record; larger ones are not of a generated package."""
 
 _ABOUT = (
     "# What the templates gave for each file, for `ros2-scaffold update`. "

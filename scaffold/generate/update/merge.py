@@ -15,7 +15,7 @@ LABELS = ("yours", "template before", "template now")
 MARKS = (f"<<<<<<< {LABELS[0]}", f">>>>>>> {LABELS[2]}")
 """The lines around a conflict."""
 _FAILED = 128
-"""The least exit code of ``git merge-file`` that is no number of conflicts."""
+"""The least exit code of ``git merge-file`` that is not a number of conflicts."""
 
 
 class Merged(NamedTuple):

@@ -1,6 +1,6 @@
 """What a package remembers of its making: the answers, and a hash of each file as it was written.
 
-``update`` merges what changed in the templates since then. The templates of that day may be gone
+``update`` merges what changed in the templates since then. The templates of that time may be gone
 when it runs, so a sidecar holds what they gave (docs/adr/0007-packages-keep-their-origin.md).
 """
 
@@ -141,7 +141,7 @@ def parse(text: str, path: str, sidecar: str | None = None) -> Provenance:
     Args:
         text: What is in it.
         path: For messages.
-        sidecar: The file beside it; ``None`` if there is none.
+        sidecar: The file next to it; ``None`` if there is none.
 
     Raises:
         InputError: it is damaged, a merge has left a conflict in it, or a newer version of this
@@ -276,11 +276,11 @@ def _release(version: str) -> list[int]:
 
 
 _MOST_DEEP = 10
-"""Levels of answers; those of ours have four."""
+"""Levels of answers; generated ones have four."""
 
 
 def _depth(value: object) -> int:
-    """Return how deep lists and mappings are nested; what is too deep is not looked at.
+    """Return how deep lists and mappings are nested; what is too deep is skipped.
 
     A tuple, which is an entry that two sides of a merge differ in, is too deep anywhere.
     """

@@ -60,7 +60,7 @@ def update(
         where: Its directory, for messages.
         roots: The ``templates`` directories; a later one wins.
         templates: The templates in them.
-        user: Knows what new questions may want.
+        user: Supplies answers to new questions.
         place: The git repository that the package is in.
 
     Raises:

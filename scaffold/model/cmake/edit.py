@@ -19,7 +19,7 @@ _INDENT = "  "
 
 
 def insert_find_package(lists: CMakeLists, name: str, *, testing: bool = False) -> Edits | None:
-    """Find a package: beside the others, in its sorted place when they are sorted.
+    """Find a package: next to the others, in its sorted place when they are sorted.
 
     Args:
         lists: The file.

@@ -421,7 +421,7 @@ def _shown(value: str) -> str:
 
 
 def _asks_for_testing(condition: Command) -> bool | None:
-    """Tell whether a condition wants tests to be built, or not to be; else ``None``."""
+    """Tell whether a condition requires or excludes tests; else ``None``."""
     values = condition.values
     for number, value in enumerate(values):
         if value in {"BUILD_TESTING", "${BUILD_TESTING}"}:

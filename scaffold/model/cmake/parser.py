@@ -235,7 +235,7 @@ def parse(source: Source) -> Parsed:
     parser.run()
     nesting = _Nesting(source)
     nesting.run(parser.commands)
-    # Where a parenthesis is missing, what is said of blocks would only mislead.
+    # If a parenthesis is missing, errors about blocks would only mislead.
     errors = sorted({*lexical, *parser.errors} or nesting.errors)
     return Parsed(
         tokens,

@@ -75,7 +75,7 @@ def _targets(command: Command) -> list[Argument]:
 
 
 def _words(cmake: CMakeLists, command: Command, taken: list[Argument]) -> Iterator[str]:
-    """Yield what a command names beside the targets that it takes: they may be made of it."""
+    """Yield what a command names besides its targets, which may be built from it."""
     for argument in command.arguments:
         if argument not in taken:
             value = cmake.expand(argument, command) or argument.value

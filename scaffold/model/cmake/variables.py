@@ -17,7 +17,7 @@ _SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r", ";": "\\;"}
 _MOST_TURNS = 20_000  # of loops that are followed in a file
 _LONGEST_VALUE = 20_000
-_MOST_ENTRIES = 16  # that are looked at for one value
+_MOST_ENTRIES = 16  # that are examined for one value
 _DEEPEST = 200  # blocks around a command; a deeper one is taken for unknown
 
 _HARMLESS = frozenset(
@@ -283,7 +283,7 @@ def split_list(value: str) -> list[str]:
 
 
 def _reaches(setter: Command, reader: Command | None) -> str:
-    """Tell whether what a command sets is ``surely``, ``perhaps`` or ``never`` seen by another."""
+    """Tell whether what a command sets reaches another: ``certainly``, ``perhaps``, ``never``."""
     if max(setter.depth, reader.depth if reader is not None else 0) > _DEEPEST:
         return "perhaps"
     opens_own_scope = setter.name in {"foreach", "function", "macro"}

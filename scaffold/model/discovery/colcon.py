@@ -19,7 +19,7 @@ ENVIRONMENT = "pyvenv.cfg"
 """The file at the top of a virtual environment: packages in it are installed, not sources."""
 
 _RESULTS = ("install", "build")
-"""What colcon makes beside the sources."""
+"""What colcon makes next to the sources."""
 
 
 def package_directories(
@@ -31,7 +31,7 @@ def package_directories(
     markers are looked for, so that the answer stays the same when other files of it change.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         top: The directory; it is searched whether it is hidden from colcon or not.
         ignored: Search hidden directories as well.
         most: Directories to search at most; a larger tree is taken to hold none.
@@ -64,7 +64,7 @@ def package_around(disk: Disk, directory: str) -> str | None:
     """Return the innermost package that a directory lies in, or is.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         directory: An absolute path.
     """
     for parent in _upwards(directory):
@@ -76,10 +76,10 @@ def package_around(disk: Disk, directory: str) -> str | None:
 def sources_around(disk: Disk, directory: str) -> str | None:
     """Return the directory with the sources of the workspace that a directory lies in, or is.
 
-    The one beside the results of colcon, else the innermost that is called ``src``.
+    The one next to the results of colcon, else the innermost that is called ``src``.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         directory: An absolute path without links.
     """
     found = [upward for upward in _upwards(directory) if os.path.basename(upward) == SOURCES]
@@ -96,7 +96,7 @@ def sources_at(disk: Disk, directory: str) -> str | None:
     Those below it, else those around it.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         directory: An absolute path without links.
     """
     below = os.path.join(directory, SOURCES)

@@ -52,7 +52,7 @@ def find(
 
     Args:
         paths: Directories and files.
-        disk: Notes what was looked at, now and later, outside of the packages.
+        disk: Records what was accessed, now and later, outside of the packages.
         are_saved: Whether files must be there; those of an editor may be new.
         whole_packages: A file selects its package, if colcon finds that around or below the
             current directory; other files are skipped.
@@ -115,10 +115,10 @@ def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
 def _surroundings(
     disk: Disk, workspace: Workspace, given: Sequence[str], tops: Sequence[str]
 ) -> UncheckedPackages | None:
-    """Return the packages beside those given, unless the whole workspace was given.
+    """Return the packages next to those given, unless the whole workspace was given.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         workspace: The packages given.
         given: The directories that were searched for them.
         tops: Directories whose packages belong together, besides those of the workspace.

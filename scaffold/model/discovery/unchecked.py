@@ -1,4 +1,4 @@
-"""The packages beside those that are checked, in the same colcon workspace.
+"""The packages next to those that are checked, in the same colcon workspace.
 
 Who gives one package, such as a hook does, still has the others around it: what it takes from them
 is judged as if all had been given. They are looked for only when a name is not known otherwise,

@@ -1,4 +1,4 @@
-"""Which files of a package its Python modules read from beside themselves."""
+"""Which files of a package its Python modules read from next to themselves."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _READERS = frozenset(
 
 
 class OwnFile(NamedTuple):
-    """A file that a module reads from beside itself."""
+    """A file that a module reads from next to itself."""
 
     path: str
     """Relative to the root of the package."""

@@ -288,7 +288,7 @@ def _likeness(text: str, other: str) -> float:
 
 
 def closest_word(word: str, known: Sequence[str]) -> str:
-    """Return the end of a message, ``; did you mean ...``; empty if nothing comes near."""
+    """Return the end of a message, ``; did you mean ...``; empty if nothing is similar."""
     from difflib import get_close_matches
 
     if len(known) > _MOST_KNOWN or len(word) > _LONGEST:

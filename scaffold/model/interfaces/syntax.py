@@ -108,7 +108,7 @@ class Definition(NamedTuple):
 
 class _Line(NamedTuple):
     text: str
-    """Without its ending and trailing blanks, tabs as spaces."""
+    """Without its ending and trailing spaces, tabs as spaces."""
     start: int
     """Offset in the file."""
     end: int

@@ -58,7 +58,7 @@ class FieldType(NamedTuple):
 
     @property
     def is_primitive(self) -> bool:
-        """Whether it is no interface (nor an array of one)."""
+        """Whether it is not an interface (nor an array of one)."""
         return self.package is None
 
     @property

@@ -37,7 +37,7 @@ class Entity(NamedTuple):
     holder: str
     """What takes it, for people."""
     is_alone: bool = False
-    """It is no item: a handler takes lists and functions as well."""
+    """It is not an item of a list: a handler takes lists and functions as well."""
 
 
 def entities(launch: LaunchFile) -> Iterator[Entity]:
@@ -102,7 +102,7 @@ def function_of(launch: LaunchFile, node: ast.expr | None) -> FunctionNode | Non
 
 
 def describe(launch: LaunchFile, node: ast.expr) -> str:
-    """Return what an expression surely is, if it is no action: ``this is a list``."""
+    """Return what an expression certainly is, if it is not an action: ``this is a list``."""
     node = _literal_of(launch, node)
     if isinstance(node, ast.Name) and function_of(launch, node) is not None:
         return "this is a function"

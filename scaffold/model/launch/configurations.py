@@ -45,7 +45,7 @@ def set_names(
 def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
     """Tell whether another launch file of the workspace includes this one and sets the name.
 
-    Or includes, beside this one, a third file that sets it.
+    Or includes, next to this one, a third file that sets it.
     """
     basename = launch.path.rpartition("/")[2]
     including = [text for _, text in _others(package, launch) if basename in text]

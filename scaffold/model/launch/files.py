@@ -1,4 +1,4 @@
-"""Which files of a package are launch files, and which others belong beside them at run time."""
+"""Which files of a package are launch files, and which others belong next to them at run time."""
 
 from __future__ import annotations
 

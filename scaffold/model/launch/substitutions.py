@@ -167,7 +167,7 @@ _NAMES = frozenset({*dir(builtins), *dir(math), "math"})
 def failure(launch: LaunchFile, node: ast.expr | None) -> str:
     """Return why an expression fails with the defaults of its arguments.
 
-    Nothing is evaluated: it is looked at whether Python can read it, and knows its names.
+    Nothing is evaluated: only its syntax and its names are checked.
     """
     text = _text(launch, node)
     if not isinstance(text, str) or len(text) > 1000:  # noqa: PLR2004  not written by hand

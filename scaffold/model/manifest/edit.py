@@ -231,7 +231,7 @@ def _rest_of_line(manifest: Manifest, element: Element) -> int | None:
 
 
 def _indent_of(manifest: Manifest, element: Element) -> str:
-    """Return the blanks in front of the line that an element begins on."""
+    """Return the indentation of the line that an element begins on."""
     text = manifest.source.text
     first = text.rfind("\n", 0, element.start) + 1
     line = text[first : element.start]

@@ -171,7 +171,7 @@ class Manifest:
     def depends(self, *kinds: str) -> dict[str, Dependency]:
         """Return the dependencies of some kinds (of all, if none is given) by name.
 
-        Of several on one package it is the first. Conditions are not looked at.
+        Of several on one package it is the first. Conditions are not checked.
         """
         if kinds not in self._depends:
             result: dict[str, Dependency] = {}

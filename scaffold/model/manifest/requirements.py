@@ -61,7 +61,7 @@ def required_packages(package: Package) -> list[Requirement]:
 
 
 def declared(package: Package, *, for_tests: bool) -> Declared:
-    """Return what is there when the package runs, or when its tests run."""
+    """Return what is available when the package runs, or when its tests run."""
     return package.remember(("declared", for_tests), lambda: _declared(package, for_tests))
 
 
@@ -109,7 +109,7 @@ def is_shipped(package: Package, module: PythonModule) -> bool:
     if directory and package.has(f"{directory}/requirements.txt"):
         return False  # a tool for itself
     if directory and package.has(f"{directory}/__init__.py"):
-        # "talker copy" is no package: nothing can import it.
+        # "talker copy" is not a package: nothing can import it.
         return directory.replace("/", "").replace("-", "").isidentifier()
     # The directory as a whole, not ``console_scripts`` and not another file of it.
     whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
@@ -174,7 +174,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
 
 
 def _local_names(package: Package) -> frozenset[str]:
-    """Return the names of own modules: scripts import what lies beside them.
+    """Return the names of own modules: scripts import what lies next to them.
 
     A directory counts when it is a Python package, or when no ROS package has its name: nearly
     every package has a ``launch/``, which is not what ``import launch`` means.

@@ -194,7 +194,7 @@ class Structure:
     # -- values
 
     def values(self, tag: str) -> Iterator[tuple[Element, str]]:
-        """Yield the elements with a tag that hold text only, and their text, blanks joined."""
+        """Yield the elements with a tag that hold text only, and their text, spaces joined."""
         for child in self.known:
             if child.tag == tag and not child.children:
                 text = "".join(item.text for item in child.content if isinstance(item, Text))
@@ -207,7 +207,7 @@ def structure(package: Package) -> Structure:
 
 
 def collapse(text: str) -> str:
-    """Join the blanks of XML, not those of Unicode, as schemas do for every value."""
+    """Join the spaces of XML, not those of Unicode, as schemas do for every value."""
     for blank in "\t\r\n":
         text = text.replace(blank, " ")
     return " ".join(word for word in text.split(" ") if word)

@@ -17,7 +17,7 @@ URL_TYPES = ("website", "bugtracker", "repository")
 
 
 def fits(pattern: str, value: str) -> bool:
-    """Tell whether a whole value, its blanks joined, has the form of a pattern."""
+    """Tell whether a whole value, its spaces joined, has the form of a pattern."""
     return re.fullmatch(pattern, value) is not None
 
 
@@ -27,7 +27,7 @@ _HIGHEST_PORT = 2**31 - 1
 def is_uri(value: str) -> bool:
     """Tell whether a value is a URI or a relative reference.
 
-    As in schemas, characters that would have to be escaped (blanks, quotes, anything outside of
+    As in schemas, characters that would have to be escaped (spaces, quotes, anything outside of
     ASCII) may be written as they are.
     """
     plain = re.sub(r"[ <>\"{}|\\^`]|[^\x00-\x7f]", "_", value)

@@ -35,7 +35,7 @@ class ActionMessages:
         self._feedback = dict(self._feedback_arguments())
 
     def wrapped(self, node: ast.expr) -> Wrapped | None:
-        """Return what an expression surely is, if a client is given it."""
+        """Return what an expression certainly is, if a client is given it."""
         if not self._clients:
             return None
         value = self._facts.evaluator.single_value(node)

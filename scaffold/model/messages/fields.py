@@ -74,7 +74,7 @@ _NOW = 1.7e18
 def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
     """Return the message that ``to_msg()`` of an rclpy Time or Duration would give.
 
-    ``None`` for what is not surely one: ``builtin_interfaces/msg/Time`` and so on.
+    ``None`` for what is not certainly one: ``builtin_interfaces/msg/Time`` and so on.
     """
     value = types.facts.evaluator.single_value(node)
     if not isinstance(value, ast.Call):
@@ -97,7 +97,7 @@ def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
 
 
 class ValueTypes:
-    """Finds out which kind of Python value an expression surely has."""
+    """Finds out which kind of Python value an expression certainly has."""
 
     def __init__(self, types: MessageTypes) -> None:
         self._types = types
@@ -373,7 +373,7 @@ class TypeMismatches:
         return False
 
     def _endless_counter(self, node: ast.expr) -> ast.expr | None:
-        """Return the attribute in a sum that is counted up for ever, and never compared."""
+        """Return the attribute in a sum that is incremented forever, and never compared."""
         for part in _summands(node):
             if isinstance(part, ast.Attribute) and self._counts_up(part):
                 return self._counting(part)

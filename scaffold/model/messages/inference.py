@@ -145,7 +145,7 @@ class MessageTypes:
     # -- objects
 
     def type_of(self, node: ast.expr) -> MessageClass | None:
-        """Return the message that an expression surely is."""
+        """Return the message that an expression certainly is."""
         result = self._type(node)
         if isinstance(result, FieldType):
             if result.is_primitive or result.is_array:
@@ -154,7 +154,7 @@ class MessageTypes:
         return result
 
     def field_type_of(self, node: ast.expr) -> FieldType | None:
-        """Return the type of the field that an expression surely reads."""
+        """Return the type of the field that an expression certainly reads."""
         found = self._type(node)
         return found if isinstance(found, FieldType) else None
 
@@ -323,7 +323,7 @@ class MessageTypes:
         index += int(callback.is_bound)
         return parameters[index] if index < len(parameters) else None
 
-    # -- where nothing is said
+    # -- where nothing is reported
 
     def is_tolerated(self, node: ast.AST) -> bool:
         """Tell whether a mistake here is expected: a negative test, a handler for it."""
@@ -416,7 +416,7 @@ def _last_names(node: ast.expr) -> Iterator[str]:
 
 
 def _expects_error(node: ast.With | ast.Call) -> bool:
-    """Tell whether a ``with`` or a call such as ``assertRaises`` wants an error."""
+    """Tell whether a ``with`` or a call such as ``assertRaises`` expects an error."""
     calls = [item.context_expr for item in node.items] if isinstance(node, ast.With) else [node]
     return any(
         isinstance(call, ast.Call) and not _RAISES.isdisjoint(_last_names(call.func))

@@ -27,7 +27,7 @@ class Unstamped(NamedTuple):
     sent: ast.Call
 
 
-class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
+class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
     """Something else may set the stamp."""
 
 
@@ -72,7 +72,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
 
 
 def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
-    """Tell whether a method surely is that of a publisher, or of a broadcaster of transforms."""
+    """Tell whether a method certainly is that of a publisher, or of a broadcaster of transforms."""
     made = types.facts.evaluator.single_value(method.value)
     if not isinstance(made, ast.Call):
         return False

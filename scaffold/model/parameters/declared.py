@@ -1,4 +1,4 @@
-"""Which parameters a node declares, and whether these are surely all."""
+"""Which parameters a node declares, and whether the list is certainly complete."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
     """Return the type that all nodes agree on, and the name with where it is declared.
 
     Args:
-        package: The package that is looked at.
+        package: The package that is checked.
         known: What the nodes declare that are given the parameter.
         name: The name of the parameter.
     """

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 _FAR = 200
-"""Statements in between: what they do is not looked at."""
+"""Statements in between: what they do is not checked."""
 
 
 class Shutdowns:

@@ -31,7 +31,7 @@ _MAX_CALLS = 4
 """Functions between a timer and what publishes, and mentions of each."""
 
 
-class _Doubt(Exception):  # noqa: N818  it is no error, it ends a search
+class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
     """Something else may happen as well."""
 
 
@@ -328,7 +328,7 @@ class Reach(Enum):
 
 
 def _most(reaches: Iterable[Reach]) -> Reach:
-    """Return the most that is said of several places."""
+    """Return the strongest verdict on several places."""
     reached = set(reaches)
     order = (Reach.ALWAYS, Reach.PERHAPS)
     return next((item for item in order if item in reached), Reach.NEVER)

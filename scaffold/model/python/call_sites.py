@@ -116,7 +116,7 @@ def given_argument(
 ) -> ast.expr | None:
     """Return the expression that a parameter gets in a call, its default if it is not given.
 
-    ``None`` if that cannot be told: ``*args``, ``**kwargs``, a variadic parameter.
+    ``None`` if that is unknown: ``*args``, ``**kwargs``, a variadic parameter.
     """
     signature = function.args
     positional = [*signature.posonlyargs, *signature.args]

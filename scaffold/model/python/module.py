@@ -353,7 +353,7 @@ class PythonModule:
 
         ``Node`` becomes ``rclpy.node.Node``; a name that nothing binds is a builtin and stays
         as it is; relative imports keep their dots. ``None`` for what the module makes itself
-        and for what cannot be told.
+        and for what is unknown.
         """
         if node not in self._name:
             names = self.qualified_names(node)
@@ -363,7 +363,7 @@ class PythonModule:
     def qualified_names(self, node: ast.AST) -> frozenset[str]:
         """Return all full names that an expression may have: imports in ``try`` give several.
 
-        Empty for what the module makes itself and for what cannot be told.
+        Empty for what the module makes itself and for what is unknown.
         """
         result = self._names.get(node)
         if result is None:

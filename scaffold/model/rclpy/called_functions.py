@@ -1,4 +1,4 @@
-"""Which function of one's own a call is of, where that is sure."""
+"""The function of the package that a call refers to, where that is certain."""
 
 from __future__ import annotations
 

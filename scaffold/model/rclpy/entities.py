@@ -24,7 +24,7 @@ class Argument(NamedTuple):
     name: str
     node: ast.expr
     value: object
-    """Evaluated; ``UNKNOWN`` for what is no constant."""
+    """Evaluated; ``UNKNOWN`` for what is not a constant."""
     location: Location
 
 
@@ -124,7 +124,7 @@ class Endpoint(Entity):
     ) -> None:
         super().__init__(created)
         self.interface = interface
-        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        """``std_msgs/msg/String``; ``None`` if that is unknown."""
         self.name = name
         """As written: not expanded, not remapped."""
         self.from_parameter = from_parameter
@@ -151,7 +151,7 @@ class Publisher(Endpoint):
 
     @property
     def message_type(self) -> str | None:
-        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        """``std_msgs/msg/String``; ``None`` if that is unknown."""
         return self.interface
 
     @property
@@ -165,7 +165,7 @@ class Subscription(Endpoint):
 
     @property
     def message_type(self) -> str | None:
-        """``std_msgs/msg/String``; ``None`` if that cannot be told."""
+        """``std_msgs/msg/String``; ``None`` if that is unknown."""
         return self.interface
 
     @property
@@ -253,7 +253,7 @@ class Parameter(Entity):
 
     @property
     def type(self) -> str | None:
-        """The ROS type: ``double``, ``string_array`` ...; ``None`` if that cannot be told.
+        """The ROS type: ``double``, ``string_array`` ...; ``None`` if that is unknown.
 
         An empty list is a ``byte_array`` for rclpy.
         """

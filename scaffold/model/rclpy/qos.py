@@ -131,7 +131,7 @@ def _is_same_object(evaluator: AttributeEvaluator, first: ast.expr, second: ast.
 
 
 def _order(evaluator: AttributeEvaluator, change: ast.AST, use: ast.AST) -> str:
-    """Return whether a statement is surely run ``before`` or ``after`` a use, else ``""``."""
+    """Return whether a statement is certainly run ``before`` or ``after`` a use, else ``""``."""
     function = evaluator.module.enclosing_function(change)
     if function is not evaluator.module.enclosing_function(use):
         return ""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
-    """Return the files that ``glob.glob`` would find, run beside setup.py."""
+    """Return the files that ``glob.glob`` would find, run next to setup.py."""
     expression = _expression(posixpath.normpath(pattern.pattern), recursive=pattern.recursive)
     return [path for path in files if re.fullmatch(expression, path)]
 

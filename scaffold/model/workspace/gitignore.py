@@ -19,7 +19,7 @@ _SUBMODULES = ".gitmodules"
 def is_untracked(package: Package, path: str) -> bool:
     """Tell whether a ``.gitignore`` names a file of a package.
 
-    Patterns for directories and for places are not looked at.
+    Patterns for directories and for paths are not supported.
     """
     from fnmatch import fnmatchcase  # few packages name a file that is not there
 

@@ -67,7 +67,7 @@ def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> Rosdep
     """Return the keys of rosdep's cache; ``None`` if it does not hold all that Jazzy needs.
 
     Args:
-        disk: Notes what was looked at.
+        disk: Records what was accessed.
         variables: The environment: ``ROS_HOME``, ``HOME``.
     """
     home = variables.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")

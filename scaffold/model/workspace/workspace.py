@@ -21,7 +21,7 @@ class Workspace:
     def __init__(self, packages: Iterable[Package] = (), disk: Disk | None = None) -> None:
         self._packages = list(packages)
         self.disk = disk or Disk()
-        """What is looked at outside of the packages."""
+        """What is accessed outside of the packages."""
         self.around: UncheckedPackages | None = None
         """The packages that were not given, but lie in the same workspace on disk."""
 
@@ -103,7 +103,7 @@ class WorkspaceView:
 
     @property
     def disk(self) -> Disk:
-        """What is looked at outside of the packages."""
+        """What is accessed outside of the packages."""
         return self._workspace.disk
 
     @property

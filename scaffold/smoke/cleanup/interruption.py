@@ -17,7 +17,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class InterruptedBySignalError(BaseException):
-    """The run was asked to end; all it had started is gone. ``number`` is the signal."""
+    """The run was asked to end; all that it started has ended. ``number`` is the signal."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)

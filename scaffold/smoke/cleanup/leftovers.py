@@ -83,7 +83,7 @@ def sweep() -> None:
 
 
 def remove_scratch(scratch: Path, mark: str) -> bool:
-    """Remove the directory of a run, if it is that; tell whether it is gone."""
+    """Remove the directory of a run, if it is one; return whether it is gone."""
     if not _is_scratch(scratch, mark):
         return not os.path.lexists(scratch)
     for unlock in (False, True):

@@ -11,7 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-DIRECTORY = "/dev/shm"  # noqa: S108  not a temporary file of ours: where Linux keeps them
+DIRECTORY = "/dev/shm"  # noqa: S108  not our temporary file: where Linux keeps them
 _NAME = re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)_[\w.-]+)")
 _SUFFIXES = ("_mutex", "_el", "_sl")
 _LOCKS = ("_el", "_sl")

@@ -20,9 +20,9 @@ _LIBRARY = re.compile(
     r"/rclpy/|/colcon_|/setuptools/|<frozen |load_entry_point|"
     r"/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
 )
-"""Frames that are not of the user; the last but one is in the scripts that setuptools writes."""
+"""Frames outside the user's code; the second to last is in the scripts of setuptools."""
 PASSED_ON = "CalledProcessError"
-"""An exception that only says that another program has failed, and has told why itself."""
+"""An exception that only says that another program failed, which printed why itself."""
 _CMAKE_ERROR = re.compile(r"CMake Error")
 _CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
 _ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
@@ -32,7 +32,7 @@ _COMPLAINT = re.compile(
     r"(?P<text>.*(?:\n(?!\[|---|[A-Z][a-z]+ (?:>>>|<<<)|\s).+)*)",
     re.MULTILINE,
 )
-"""What colcon itself complains about."""
+"""What colcon itself reports."""
 _NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
 _OWN_DOING = "byte-compiling is disabled"
 """A message of setuptools, because the build must not write into the sources."""

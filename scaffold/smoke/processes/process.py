@@ -317,7 +317,7 @@ def capture(
             events = []
             err += f"\nit did not end within {timeout:g} s\n".encode()
         finally:
-            ours.close()  # whatever has happened: the supervisor sees to the rest
+            ours.close()  # in any case: the supervisor takes care of the rest
     reported = {name: value for event in events for name, value in event.items()}
     if "errno" in reported:
         raise OSError(reported["errno"], os.strerror(reported["errno"]))

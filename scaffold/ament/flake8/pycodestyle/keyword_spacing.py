@@ -22,7 +22,7 @@ CANDIDATES = r"\s=\s*[}!:]|=\s+[}!:]"
 
 
 def check(logical: LogicalLine) -> Iterator[Finding]:
-    """Yield the places of a logical line where blanks are missing or too many."""
+    """Yield the places of a logical line where spaces are missing or too many."""
     for (row, column), code in _around_equals(logical):
         if code == "E251":
             said = "whitespace around the '=' of a keyword argument or default"

@@ -1,7 +1,7 @@
 """E221 to E228, E231, E271 to E274: spaces around operators and keywords, and after punctuation.
 
 ruff finds the lines, this decides which code they get: a blank on one side only is E225 for
-pycodestyle whatever the operator, and blanks before a line break do not count.
+pycodestyle whatever the operator, and spaces before a line break do not count.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ CANDIDATES = (
     r"|\S(?:  | ?\t)[ \t]*[-+*/|!<=>%&^:]"
     r"|[-+*/|!<=>%&^](?:  | ?\t)"
 )
-"""What ruff passes over: a comma before a backslash, a format within a format, blanks at ``->``."""
+"""What ruff passes over: a comma before a backslash, a format within a format, spaces at ``->``."""
 
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
@@ -53,7 +53,7 @@ _ONE_SIDED = "whitespace is missing on a side of an operator"
 
 
 def check(logical: LogicalLine) -> Iterator[Finding]:
-    """Yield the places of a logical line where blanks are missing."""
+    """Yield the places of a logical line where spaces are missing."""
     for (row, column), code, message in _Scan(logical).faults():
         yield Finding(code, row, column + 1, message)
     for pattern, codes, what in (

@@ -113,12 +113,12 @@ def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, .
 def _without_blanks(
     logical: LogicalLine, place: Position, around: Sequence[str]
 ) -> tuple[Replacement, ...]:
-    """Return what takes the blanks at a place out; those around the colon of a slice as well."""
+    """Return the edits that remove spaces; those around the colon of a slice as well."""
     row, column = place
     line = logical.lines[row - 1].rstrip("\n")
     matched = re.compile(r"[ \t]+").match(line, column)
     if matched is None or not line[:column].strip() or "f" in around:
-        # In f'{x = }' the blanks are seen.
+        # In f'{x = }' the spaces are part of the output.
         return ()
     start = len(line[:column].rstrip(" \t"))
     end = matched.end()
@@ -157,7 +157,7 @@ class _Brackets:
 
 
 def spaces(line: str) -> Said:
-    """E201, E202, E203: blanks inside brackets and before punctuation."""
+    """E201, E202, E203: spaces inside brackets and before punctuation."""
     for item in re.finditer(_SPACE, line):
         character = item[0].strip()
         at = item.start()

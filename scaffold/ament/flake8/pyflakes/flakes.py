@@ -59,7 +59,7 @@ def plain(diagnostic: RuffDiagnostic) -> Finding:
 
 
 def worded(message: str) -> str:
-    """Return a message of ruff in the form of ours: lower case start, no full stop."""
+    """Return a message of ruff in our form: lower case start, no period at the end."""
     message = message.rstrip(".")
     return message[:1].lower() + message[1:] if message[1:2].islower() else message
 

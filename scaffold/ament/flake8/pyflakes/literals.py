@@ -44,7 +44,7 @@ def _repeated(text: PythonText, node: ast.Dict) -> Iterator[Finding]:
 
 
 def _value(node: ast.expr | None) -> Hashable:
-    """Return something that is equal for nodes that surely have the same value."""
+    """Return something that is equal for nodes that certainly have the same value."""
     if isinstance(node, ast.Constant):
         # 1, 1.0 and True are the same key; b'' and '' are not.
         return ("constant", isinstance(node.value, bytes), node.value)

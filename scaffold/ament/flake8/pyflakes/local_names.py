@@ -96,7 +96,7 @@ def deleted_unused(text: PythonText) -> Iterator[Finding]:
 
 
 def deletions(text: PythonText) -> Iterator[tuple[ast.Name, bool, list[ast.AST]]]:
-    """Yield each name that ``del`` deletes, whether it surely does, and the nodes around it."""
+    """Yield each name that ``del`` deletes, whether it certainly does, and the nodes around it."""
     for name in text.nodes(ast.Name):
         if isinstance(name.ctx, ast.Del):
             parents = [*text.parents(name)]

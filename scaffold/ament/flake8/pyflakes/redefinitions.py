@@ -342,7 +342,7 @@ class _Walk:
             if binding is not None:
                 binding.used = True
                 if binding.kind == IMPORTED and binding.full_name in scope.names:
-                    # `import x` beside `import x as y`: the use of `y` is one of `x`.
+                    # `import x` next to `import x as y`: the use of `y` is one of `x`.
                     scope.names[binding.full_name].used = True
                 if binding.kind != ANNOTATED:
                     return

@@ -65,7 +65,7 @@ class Declarations:
         Such as ``name`` and ``default`` in ``for name, default in [('rate', 1.0), ...]:``.
 
         Returns:
-            One turn without variables when it is no loop over what is written there.
+            One iteration without variables if it is not a loop over a literal list.
         """
         index = self._facts.module.index
         found = index.lookup(node.id, node) if isinstance(node, ast.Name) else None

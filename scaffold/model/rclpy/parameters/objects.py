@@ -79,7 +79,7 @@ def is_of_node(file: RclpyFile, created: Entity) -> bool:
 
 
 def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is surely a list of rclpy's parameters."""
+    """Tell whether an expression is certainly a list of rclpy's parameters."""
     made = file.evaluator.single_value(node)
     match made:
         case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
@@ -226,7 +226,7 @@ def names_used(file: RclpyFile) -> Iterator[NameUsed]:
 
 
 def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]:
-    """Return what `names_used` says of one node; a file is looked at once for all of its nodes."""
+    """Return what `names_used` says of one node; a file is checked once for all of its nodes."""
 
     def by_owner() -> dict[NodeDefinition, list[NameUsed]]:
         result: dict[NodeDefinition, list[NameUsed]] = {}
