@@ -86,7 +86,7 @@ def read(path: str, data: bytes) -> Header:
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     start = _behind_first_lines(text)
     if start is None:
-        return Header(path, at, unreadable="the file ends behind its first line")
+        return Header(path, at, unreadable="the file ends after its first line")
     for block in (_line_comments(text, start), _block_comment(text, start)):
         notices, rest = _notices(block)
         if notices:

@@ -45,7 +45,7 @@ def _of_headers(
             message = f"{explain(header, -1)}: ament_copyright fails"
             yield diagnostic(code, header.location, message, cause=_CAUSE)
     if passed_over:
-        why = use.why_not or "it is told to exclude them"
+        why = use.why_not or "it is configured to exclude them"
         first, others = passed_over[0], len(passed_over) - 1
         message = f"{explain(first, others)}: ament_copyright would fail, but {why}"
         yield diagnostic(code, first.location, message, severity=Severity.INFO, cause=_CAUSE)

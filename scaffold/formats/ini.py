@@ -198,7 +198,7 @@ class _Reader:
         delimiter = _DELIMITER.search(line.text)
         key = line.text[: delimiter.start()].rstrip() if delimiter else ""
         if delimiter is None or not key:
-            what = 'a key expected before "="' if delimiter else '"=" expected behind the key'
+            what = 'a key expected before "="' if delimiter else '"=" expected after the key'
             raise ParseError(locate(line.start, line.end), what)
         if key in self.section.options:
             first = self.section.options[key].key_location.line

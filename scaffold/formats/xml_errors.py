@@ -52,7 +52,7 @@ def _text_before_declaration(text: str) -> Explanation | None:
         what = "text" if "<!--" not in before else "a comment"
     else:
         what = "a blank line" if "\n" in before else "a blank"
-    return begin, at, f'{what} stands before "<?xml": nothing may'
+    return begin, at, f'{what} before "<?xml": it must come first'
 
 
 def _junk(text: str, at: int) -> Explanation:
@@ -63,8 +63,8 @@ def _junk(text: str, at: int) -> Explanation:
         return at, at + len(name), f"{name} closes nothing: the root element is closed already"
     if text.startswith("<", at):
         name = f"<{_word(text, at + 1)}"
-        return at, at + len(name), f"{name}> stands behind {closing}, the end of the file"
-    return at, at + 1, f"text stands behind {closing}, the end of the file"
+        return at, at + len(name), f"{name}> after {closing}, the end of the root element"
+    return at, at + 1, f"text after {closing}, the end of the root element"
 
 
 def _duplicate_attribute(text: str, at: int) -> Explanation:
@@ -79,11 +79,11 @@ def _undefined_entity(text: str, at: int) -> Explanation:
 
 def _bad_reference(text: str, at: int) -> Explanation:
     name = _reference(text, at)
-    return at, at + len(name), f'"{name}" stands for no character that XML allows'
+    return at, at + len(name), f'"{name}" is not a character that XML allows'
 
 
 def _misplaced_declaration(_text: str, at: int) -> Explanation:
-    return at, at + len("<?xml"), '"<?xml" may only stand at the very start of the file'
+    return at, at + len("<?xml"), '"<?xml" is allowed only at the very start of the file'
 
 
 def _broken_declaration(text: str, at: int) -> Explanation:
@@ -172,7 +172,7 @@ def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation 
     if opening >= 0 and ">" not in _outside_quotes(text[opening:at]):
         return _in_tag(text, opening, at)
     if inside is None:
-        return at, at + 1, "text stands outside of the root element"
+        return at, at + 1, "text outside of the root element"
     return None
 
 
@@ -204,7 +204,7 @@ def _in_tag(text: str, opening: int, at: int) -> Explanation:
     if text.startswith("<!", opening):
         return opening, opening + 2, '"<!" begins neither a comment nor a CDATA section'
     if not re.match(r"[/?]?(?:[^\W\d]|:)", text[opening + 1 : opening + 3]):
-        return opening, opening + 1, 'write "&lt;" for "<", or a tag name behind it'
+        return opening, opening + 1, 'write "&lt;" for "<", or a tag name after it'
     tag, here = f"<{_word(text, opening + 1)}", text[at : at + 1]
     before = text[opening:at].rstrip(BLANK)
     width = 1

@@ -96,7 +96,7 @@ def test_defaults_hold_for_every_section() -> None:
     [
         ("a=1\n", "1:1", "a section such as [develop] expected before this line"),
         ("\ufeff[a]\n", "1:1", "a section such as [develop] expected before a byte order mark"),
-        ("[a]\nb\n", "2:1", '"=" expected behind the key'),
+        ("[a]\nb\n", "2:1", '"=" expected after the key'),
         ("[a]\n = b\n", "2:2", 'a key expected before "="'),
         ("[a]\n[b]\n[a]\n", "3:1", "the section [a] is in line 1 already"),
         ("[a]\nb=1\nb : 2\n", "3:1", "b is set in line 2 already"),

@@ -312,7 +312,7 @@ class _Parser:
         opening = self.at = self._behind_space(self.at)
         if opening >= len(self.kinds) or self.kinds[opening] != "open":
             written = self.source.text[self.tokens.starts[name] : self.tokens.starts[name + 1]]
-            self._complain(name, f'"(" expected behind {written}')
+            self._complain(name, f'"(" expected after {written}')
             self._skip_line()
             return
         self.at += 1

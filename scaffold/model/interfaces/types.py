@@ -266,7 +266,7 @@ def _split_texts(text: str) -> list[str]:
     while text:
         text = text.lstrip(" ")
         if not text or text[0] == ",":
-            raise ValueSpellingError("an element of the default is missing before or behind a ','")
+            raise ValueSpellingError("an element of the default is missing before or after a ','")
         if text[0] in "\"'":
             end = _closing_quote(text)
             parts.append(text[1 : end + 1].replace("\\" + text[0], text[0]))

@@ -40,7 +40,7 @@ _WORDS = (
         r"(?:f-string: )?invalid syntax\. Perhaps you forgot a comma",
         "invalid syntax, perhaps a comma is missing",
     ),
-    (r"invalid syntax\. Maybe you meant", "invalid syntax, perhaps '==' is meant instead of '='"),
+    (r"invalid syntax\. Maybe you meant", "invalid syntax, perhaps '==' instead of '='"),
     (r"f-string", "a replacement field of this f-string is broken"),
     (r"multiple exception types must be parenthesized", "several exceptions need parentheses"),
     (r"Exceeds the limit .* for integer string", "a number has too many digits"),

@@ -30,7 +30,7 @@ def _character_problem(name: str, plain: str) -> str | None:
     if wrong:
         return f"{_shown(wrong[0])} is not allowed"
     if "~" in name[1:]:
-        return "'~' may stand at the beginning only"
+        return "'~' is allowed only at the beginning"
     for substitution in re.findall(r"\{([^{}]*)\}", name):
         if substitution not in SUBSTITUTIONS:
             return f"'{{{substitution}}}' is not one of {{node}}, {{ns}} and {{namespace}}"

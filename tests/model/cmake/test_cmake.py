@@ -305,7 +305,7 @@ def test_blocks() -> None:
         ("set(A b", ['1:1 ")" expected: set( is not closed']),
         ("a()\nset(A b\nfind_package(x)\nset(C d)", ['2:1 ")" expected: set( is not closed']),
         ("set(A b))", ['1:9 no "(" belongs to this ")"']),
-        ("set A b\nset(C d)", ['1:1 "(" expected behind set']),
+        ("set A b\nset(C d)", ['1:1 "(" expected after set']),
         ("set(A b) set(C d)", ["1:10 a new line expected before this command"]),
         ('"A"\nset(B c)', ["1:1 the name of a command expected"]),
         ('set(A "b)\n', ['1:7 a second " expected: this string is not closed']),

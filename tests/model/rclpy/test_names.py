@@ -24,7 +24,7 @@ PIECES = ("a", "B", "_", "/", "~", "{", "}", "1", "-", " ", "node", "{ns}", "{no
         ("scan/2d", "'2d' begins with a digit"),
         ("scan/", "it ends with '/'"),
         ("a//b", "'//' is not allowed"),
-        ("a/~", "'~' may stand at the beginning only"),
+        ("a/~", "'~' is allowed only at the beginning"),
         ("{robot}/a", "'{robot}' is not one of {node}, {ns} and {namespace}"),
     ],
 )
