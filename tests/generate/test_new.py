@@ -282,6 +282,7 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
     assert "QOS = qos_profile_sensor_data\n" in test
     assert names.class_name("header", ["Header"]) == "HeaderNode"
     assert names.class_name("action_client") == "ActionClientNode"
+    assert [names.class_name(node) for node in ("i", "o", "l")] == ["INode", "ONode", "L"]
 
 
 @pytest.mark.parametrize("given", EXAMPLES)

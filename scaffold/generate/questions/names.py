@@ -206,12 +206,16 @@ def resolve(name: str, node: str) -> str:
     return name if name.startswith("/") else f"/{name}"
 
 
+_LIKE_DIGITS = {"I", "O"}
+"""Names of classes that flake8 refuses (E742): they look like 1 and 0."""
+
+
 def class_name(node: str, taken: Sequence[str] = ()) -> str:
     """Return the name of a node's class, different from the classes it uses."""
     name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
     # `None` and `True` are keywords, `ValueError` a class that the module may mean.
     is_taken = name in _IMPORTED_CLASSES or name in taken or hasattr(builtins, name)
-    return f"{name}Node" if is_taken else name
+    return f"{name}Node" if is_taken or name in _LIKE_DIGITS else name
 
 
 def dependency(text: str) -> str:
