@@ -29,7 +29,7 @@ class TestsNotRun(Rule):
 
     code = "SP012"
     name = "tests-not-run"
-    other_severities = {Severity.WARNING: "``tests_require`` says it"}
+    other_severities = {Severity.INFO: "``tests_require``, which Ubuntu 24.04 still reads"}
     examples = (
         Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
         Example("no tests", {"setup.py": _SETUP.format("")}),
@@ -49,10 +49,11 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
             Report(
                 "5:19",
-                "setuptools 72 and later ignore tests_require: colcon runs 0 tests; "
-                "write extras_require={'test': ['pytest']}",
-                severity=Severity.WARNING,
+                "setuptools 72 and later, which Jazzy does not have, ignore "
+                "tests_require: colcon will run 0 tests; write "
+                "extras_require={'test': ['pytest']}",
                 fix="write extras_require={'test': ['pytest']}",
+                severity=Severity.INFO,
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
@@ -79,8 +80,11 @@ class TestsNotRun(Rule):
             return
         span = setup_edit.span(setup, "tests_require")
         fix = Fix(f"write {_NEW}", (Edit("setup.py", *span, _NEW),)) if span else None
-        message = f"setuptools 72 and later ignore tests_require: colcon runs 0 tests; write {_NEW}"
-        yield self.report(old, message, fix, severity=Severity.WARNING)
+        message = (
+            "setuptools 72 and later, which Jazzy does not have, ignore tests_require: colcon will "
+            f"run 0 tests; write {_NEW}"
+        )
+        yield self.report(old, message, fix, severity=Severity.INFO)
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")
