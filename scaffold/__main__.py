@@ -18,7 +18,7 @@ def main() -> int:
 def _interrupted() -> int:
     import signal
 
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # of somebody impatient
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already: of somebody impatient
     from scaffold.cli import terminal
     from scaffold.cli.exit_codes import INTERRUPTED
 

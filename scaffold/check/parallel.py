@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import signal
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from scaffold.check.cache import worker_reads
@@ -15,6 +16,8 @@ from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from multiprocessing.pool import Pool
+
     from scaffold.check.result import Earlier, Result
     from scaffold.check.session import Ruled, Session
     from scaffold.model.discovery.targets import Target
@@ -80,7 +83,7 @@ def run(
         return
     packages = _all_packages(targets)
     _work = _Work(session, targets, earlier, packages, tasks)
-    with multiprocessing.get_context("fork").Pool(workers, _end_with_the_terminal) as pool:
+    with _start_pool(workers) as pool:
         rules: dict[int, Ruled] = {}
         style: dict[int, Style] = {}
         for number, done in enumerate(pool.imap(_run, range(len(tasks))), 1):
@@ -138,9 +141,29 @@ def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
     yield frozenset(paths)
 
 
-def _end_with_the_terminal() -> None:
-    """Let Ctrl-C, which every process gets, end this one without a word: the first one reports."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+@contextmanager
+def _start_pool(workers: int) -> Iterator[Pool]:
+    """Run worker processes that Ctrl-C does not reach: the first process ends them.
+
+    A worker that died of it could hold the lock of the queue, which the first process waits for.
+    Processes and threads inherit what is blocked when they are started.
+    """
+    with _no_interruption():
+        pool = multiprocessing.get_context("fork").Pool(workers)
+    try:
+        yield pool
+    finally:
+        with _no_interruption():
+            pool.terminate()
+
+
+@contextmanager
+def _no_interruption() -> Iterator[None]:
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _run(number: int) -> _Done:

@@ -91,6 +91,10 @@ def _run(given: list[str]) -> int:
 
 def _failed(error: Exception | KeyboardInterrupt) -> int:
     """Say in one line why a run ends; return its exit code."""
+    if isinstance(error, KeyboardInterrupt):
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already: of somebody impatient
     terminal.settle()
     match error:
         case ScaffoldError():

@@ -322,10 +322,6 @@ class Interrupting(Rule):
 
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) == 1, reason="needs two processors")
-@pytest.mark.skipif(
-    "PYTEST_XDIST_WORKER" in os.environ,
-    reason="workers may hang when interrupted on a busy machine (docs/known-limits.md)",
-)
 def test_control_c_in_a_workspace_is_one_line(tmp_path: Path) -> None:
     for number in range(40):
         (tmp_path / "src" / f"p{number}").mkdir(parents=True)
