@@ -1,0 +1,4 @@
+# Made by scripts/make_stubs.py from rclpy 7.1.6 of ROS 2 Jazzy; do not edit.
+HIDDEN_TOPIC_PREFIX: str
+
+def topic_or_service_is_hidden(name: str) -> bool: ...

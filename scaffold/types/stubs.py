@@ -1,0 +1,67 @@
+"""Stubs (``.pyi``) of a distribution: its libraries, and all interfaces that are known."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from scaffold.errors import InputError
+from scaffold.types.interface_stubs import package_stubs
+
+if TYPE_CHECKING:
+    from scaffold.model.interfaces.definitions import Definitions
+
+_DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
+_STUBS = "stubs"
+
+
+def distributions() -> list[str]:
+    """Return the names of the distributions that have stubs, sorted."""
+    return sorted(
+        name for name in os.listdir(_DATA) if os.path.isdir(os.path.join(_DATA, name, _STUBS))
+    )
+
+
+def library_stubs(distribution: str) -> dict[str, str]:
+    """Return the stubs of the libraries of a distribution, by relative path.
+
+    Raises:
+        InputError: there are no stubs for this distribution.
+    """
+    if distribution not in distributions():
+        known = ", ".join(distributions())
+        raise InputError(f"no stubs for distribution {distribution!r}; there are some for {known}")
+    top = os.path.join(_DATA, distribution, _STUBS)
+    files: dict[str, str] = {}
+    for directory, _, names in os.walk(top):
+        for name in names:
+            path = os.path.join(directory, name)
+            with open(path, encoding="utf-8") as file:
+                files[os.path.relpath(path, top)] = file.read()
+    return dict(sorted(files.items()))
+
+
+def stub_files(distribution: str, definitions: Definitions) -> dict[str, str]:
+    """Return the stubs of the libraries and of all interfaces, by relative path.
+
+    Args:
+        distribution: The one whose libraries are wanted, such as ``jazzy``.
+        definitions: The interfaces: those of the workspace, of installed packages, of the bundle.
+
+    Raises:
+        InputError: there are no stubs for this distribution.
+    """
+    files = library_stubs(distribution)
+    for package in definitions.packages():
+        for path, text in package_stubs(definitions, package).items():
+            files.setdefault(path, text)
+    return files
+
+
+def write_stubs(directory: str, files: dict[str, str]) -> None:
+    """Write stubs below a directory, which is made if it is not there."""
+    for path, text in files.items():
+        target = os.path.join(directory, path)
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        with open(target, "w", encoding="utf-8") as file:
+            file.write(text)

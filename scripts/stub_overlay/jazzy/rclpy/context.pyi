@@ -1,0 +1,3 @@
+class Context:
+    _callbacks: Any
+    def on_shutdown(self, callback: Callable[[], object]) -> None: ...

@@ -1,0 +1,4 @@
+from rclpy.parameter import AllowableParameterValue
+from rclpy.parameter import Parameter
+
+class InvalidHandle(RuntimeError): ...
