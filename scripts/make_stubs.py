@@ -134,7 +134,8 @@ class _Module:
         yield node
 
     def _is_exported(self, node: ast.ImportFrom) -> bool:
-        return node.level > 0 or (node.module or "").split(".")[0] in _EXPORTED
+        root = (node.module or "").partition(".")[0]
+        return node.level > 0 or root not in sys.stdlib_module_names
 
     def _class(self, node: ast.ClassDef) -> ast.ClassDef:
         bases = [base for base in node.bases if not _is_native(base)]
@@ -175,9 +176,6 @@ class _Module:
             yield ast.Assign([ast.Name(name)], value, lineno=0)
         else:
             yield _annotated(name, _type_of(value, {}))
-
-
-_EXPORTED = {*PACKAGES, "rcl_interfaces", "builtin_interfaces", "action_msgs", "lifecycle_msgs"}
 
 
 def _enum_member(node: ast.Assign) -> Statement:

@@ -13,7 +13,7 @@ from scaffold.errors import InputError
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.workspace.workspace import Workspace
-from scaffold.types.stubs import library_stubs, stub_files, write_stubs
+from scaffold.types.stubs import interface_stub_files, library_stubs, stub_files, write_stubs
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">
@@ -208,6 +208,15 @@ def test_interfaces_of_the_workspace_come_along(tmp_path: Path) -> None:
     assert "LOW: Final = 1" in files["robot_interfaces/msg/_level.pyi"]
     assert "header: Header" in files["robot_interfaces/msg/_level.pyi"]
     assert "import Level" in files["robot_interfaces/msg/__init__.pyi"]
+
+
+def test_a_package_alone_imports_what_its_messages_hold(tmp_path: Path) -> None:
+    definitions_of(tmp_path, {"msg/Level.msg": "map_msgs/Tile[] tiles\nLow low\n"})
+    (target,) = discovery.find([str(tmp_path)])
+    module = interface_stub_files(target.package)["robot_interfaces/msg/_level.pyi"]
+    assert "from map_msgs.msg._tile import Tile" in module
+    assert "low: Any" in module
+    assert "robot_interfaces" not in "".join(stub_files("jazzy"))
 
 
 def test_what_cannot_be_read_may_be_anything(tmp_path: Path) -> None:

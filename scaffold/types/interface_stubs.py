@@ -34,11 +34,19 @@ _UUID = FieldType("UUID", "unique_identifier_msgs")
 _EVENT_INFO = FieldType("ServiceEventInfo", "service_msgs")
 
 
-def package_stubs(definitions: Definitions, package: str) -> dict[str, str]:
+def package_stubs(
+    definitions: Definitions, package: str, *, others: bool = False
+) -> dict[str, str]:
     """Return the stubs of all interfaces of a package, by relative path.
 
     An interface that cannot be read, or a package that may have more interfaces than can be
     seen, gets stubs that promise nothing: any name, of any type.
+
+    Args:
+        definitions: Where the definitions are looked up.
+        package: The name of the package.
+        others: Whether messages that are not known are taken for those of another package,
+            which has its own stubs; else fields of such a type may hold anything.
     """
     files: dict[str, str] = {}
     for kind in _KINDS:
@@ -53,7 +61,9 @@ def package_stubs(definitions: Definitions, package: str) -> dict[str, str]:
                 exports.append(f"{name}: Any")
                 continue
             module = module_name(name)
-            files[f"{package}/{kind}/{module}.pyi"] = _Renderer(interface, definitions).text()
+            files[f"{package}/{kind}/{module}.pyi"] = _Renderer(
+                interface, definitions, others=others
+            ).text()
             exports.append(f"from {package}.{kind}.{module} import {name} as {name}")
         if names:
             files[f"{package}/{kind}/__init__.pyi"] = _exporting(exports)
@@ -98,9 +108,10 @@ class _Class(NamedTuple):
 class _Renderer:
     """Renders an interface; collects the imports that its classes need."""
 
-    def __init__(self, interface: Interface, definitions: Definitions) -> None:
+    def __init__(self, interface: Interface, definitions: Definitions, *, others: bool) -> None:
         self._interface = interface
         self._definitions = definitions
+        self._others = others
         self._imports: set[str] = set()
         self._aliases: dict[str, str] = {}
         self._builtins = ""
@@ -236,18 +247,20 @@ class _Renderer:
             return type_.name  # a part of this interface
         if type_.full_name in self._aliases:
             return self._aliases[type_.full_name]
-        if type_.name not in (self._definitions.names(type_.package, "msg") or ()):
+        is_read = self._definitions.find(type_.full_name) is not None
+        if not is_read and not self._is_elsewhere(type_):
             self._imports.add("from typing import Any")
             return "Any"
         taken = {*self._aliases.values(), self._interface.name}
         alias = type_.name if type_.name not in taken else f"{type_.package}_{type_.name}"
         self._aliases[type_.full_name] = alias
         path = f"{type_.package}.msg.{module_name(type_.name)}"
-        if self._definitions.find(type_.full_name) is None:
-            path = f"{type_.package}.msg"  # any type, exported there
         renamed = "" if alias == type_.name else f" as {alias}"
         self._imports.add(f"from {path} import {type_.name}{renamed}")
         return alias
+
+    def _is_elsewhere(self, type_: FieldType) -> bool:
+        return self._others and type_.package != self._interface.package
 
     def _base(self, name: str) -> None:
         self._imports.add(f"from {BASE_MODULE} import {name}")

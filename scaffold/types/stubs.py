@@ -10,9 +10,12 @@ from scaffold.types.interface_stubs import package_stubs
 
 if TYPE_CHECKING:
     from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.package import Package
 
 _DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
 _STUBS = "stubs"
+INCOMPLETE: frozenset[str] = frozenset()
+"""The libraries whose stubs leave modules or names out."""
 
 
 def distributions() -> list[str]:
@@ -41,21 +44,42 @@ def library_stubs(distribution: str) -> dict[str, str]:
     return dict(sorted(files.items()))
 
 
-def stub_files(distribution: str, definitions: Definitions) -> dict[str, str]:
+def stub_files(distribution: str, definitions: Definitions | None = None) -> dict[str, str]:
     """Return the stubs of the libraries and of all interfaces, by relative path.
 
     Args:
         distribution: The one whose libraries are wanted, such as ``jazzy``.
-        definitions: The interfaces: those of the workspace, of installed packages, of the bundle.
+        definitions: The interfaces: those of the workspace, of installed packages, of the bundle;
+            ``None``: of the bundle alone.
 
     Raises:
         InputError: there are no stubs for this distribution.
     """
+    from scaffold.model.interfaces.definitions import Definitions
+
     files = library_stubs(distribution)
+    if definitions is None:
+        definitions = Definitions.around(prefixes=())
     for package in definitions.packages():
         for path, text in package_stubs(definitions, package).items():
             files.setdefault(path, text)
     return files
+
+
+def interface_stub_files(package: Package) -> dict[str, str]:
+    """Return the stubs of the interfaces that a package defines, by relative path.
+
+    They depend on the files of this package alone: what its messages hold of other packages is
+    imported from the stubs of those.
+    """
+    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.interfaces.sources import WorkspaceSource
+    from scaffold.model.workspace.workspace import Workspace
+
+    definitions = Definitions([WorkspaceSource(Workspace([package]))])
+    if package.name not in definitions.packages():
+        return {}
+    return package_stubs(definitions, package.name, others=True)
 
 
 def write_stubs(directory: str, files: dict[str, str]) -> None:

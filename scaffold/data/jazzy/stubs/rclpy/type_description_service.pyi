@@ -7,6 +7,7 @@ from rclpy.qos import qos_profile_services_default as qos_profile_services_defau
 from rclpy.service import Service as Service
 from rclpy.type_support import check_is_valid_srv_type as check_is_valid_srv_type
 from rclpy.validate_topic_name import TOPIC_SEPARATOR_STRING as TOPIC_SEPARATOR_STRING
+from type_description_interfaces.srv import GetTypeDescription as GetTypeDescription
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM: str
 

@@ -8,7 +8,7 @@ from rclpy.qos import QoSProfile as QoSProfile
 from rclpy.task import Future as Future
 from rclpy.type_support import check_for_type_support as check_for_type_support
 from rclpy.waitable import NumberOfEntities as NumberOfEntities, Waitable as Waitable
-from unique_identifier_msgs.msg import UUID
+from unique_identifier_msgs.msg import UUID as UUID
 from collections.abc import Callable
 from typing import Any, Generic, Optional
 from _ros_interfaces import Action, FeedbackT, GoalT, ResultT
