@@ -6,8 +6,16 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.programs import has_more_threads, in_callbacks, in_constructors
-from scaffold.api.rclpy import RclpyFile, class_of
+from scaffold.api.programs import (
+    Executed,
+    in_callbacks,
+    in_constructors,
+    may_run_meanwhile,
+    names_other_executor,
+    share_group,
+    spins_elsewhere,
+)
+from scaffold.api.rclpy import Entity, RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -18,6 +26,22 @@ _NODE = (
     "        self.create_timer(1.0, self.ask)\n\n"
     "    def ask(self):\n"
     "{}"
+)
+_IMPORTS = (
+    "import rclpy\nfrom rclpy.callback_groups import MutuallyExclusiveCallbackGroup\n"
+    "from rclpy.executors import MultiThreadedExecutor\n"
+)
+_CALL = _IMPORTS + _NODE.format("        self.client.call(Trigger.Request())\n")
+_MAIN = (
+    "\n\ndef main():\n    rclpy.init()\n    executor = MultiThreadedExecutor()\n"
+    "    executor.add_node(Caller())\n    executor.spin()\n"
+)
+_OWN_GROUP = (_CALL + _MAIN).replace(
+    "'reset')", "'reset', callback_group=MutuallyExclusiveCallbackGroup())"
+)
+_THREADS = (
+    "\n\ndef main():\n    rclpy.init()\n    threading.Thread(target=print).start()\n"
+    "    rclpy.spin(Caller())\n"
 )
 _BLOCKING = {
     "call": ("rclpy.client.Client", "a service response"),
@@ -59,6 +83,39 @@ class CallInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a call in a thread that nothing spins",
+            {"caller.py": "import threading\n\n" + _CALL + _THREADS},
+            Report(
+                "17:9",
+                "waits for a service response in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
+            ),
+        ),
+        Example(
+            "several threads and one callback group",
+            {"caller.py": _CALL + _MAIN},
+            Report(
+                "15:9",
+                "waits for a service response in callback 'ask', which shares its "
+                "callback group with the client: deadlock, no response is processed "
+                "meanwhile",
+            ),
+        ),
+        Example("several threads and a callback group for the client", {"caller.py": _OWN_GROUP}),
+        Example(
+            "a callback group for the client, and one thread",
+            {"caller.py": _OWN_GROUP.replace("MultiThreaded", "SingleThreaded")},
+            Report(
+                "15:9",
+                "waits for a service response in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
+            ),
+        ),
+        Example(
+            "with a timeout",
+            {"caller.py": _NODE.format("        self.client.call(0, timeout_sec=1.0)\n")},
+        ),
+        Example(
             "an action",
             {
                 "caller.py": "from rclpy.action import ActionClient\n"
@@ -89,29 +146,63 @@ class CallInCallback(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        if has_more_threads(file):
-            return
         seen: set[ast.AST] = set()
         for executed in (*in_callbacks(file), *in_constructors(file)):
-            for node, what in _waits(file, executed.function):
-                if node not in seen:
+            for node, what, client in _waits(file, executed.function):
+                if node in seen:
+                    continue
+                reason = _deadlock(file, executed, client)
+                if reason:
                     seen.add(node)
-                    message = (
-                        f"{what} in {executed.origin}: deadlock, no response is processed meanwhile"
-                    )
+                    message = f"{what} in {executed.origin}{reason}"
                     yield self.report(file.module.location(node), message)
 
 
-def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str]]:
+def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str:
+    """Return why nothing can end a wait; empty if something may."""
+    plain = ": deadlock, no response is processed meanwhile"
+    is_same_node = executed.entity and client and executed.entity.owner is client.owner
+    if executed.entity and client and is_same_node:
+        shared = share_group(file, executed.entity, client)
+        if shared:
+            shares = ", which shares its callback group with the client"
+            return f"{shares if names_other_executor(file) else ''}{plain}"
+        if shared is False:
+            is_one_thread = file.spin_calls and not names_other_executor(file)
+            return plain if is_one_thread else ""
+    if may_run_meanwhile(file, executed) or (not is_same_node and spins_elsewhere(file)):
+        return ""
+    return plain
+
+
+def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, Entity | None]]:
     for node in file.module.below(function, ast.Call, ast.While):
         match node:
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
                 class_, what = _BLOCKING[method]
-                if class_of(file, asked) == class_:
-                    yield node, f"waits for {what}"
+                if class_of(file, asked) == class_ and not _has_timeout(node):
+                    yield node, f"waits for {what}", _client(file, asked)
             case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
                 if isinstance(func, ast.Attribute) and _loops_until_done(file, func, node):
-                    yield node, "busy-waits for a future"
+                    yield node, "busy-waits for a future", _asked(file, func.value)
+
+
+def _has_timeout(call: ast.Call) -> bool:
+    return len(call.args) > 1 or any(word.arg in {"timeout_sec", None} for word in call.keywords)
+
+
+def _client(file: RclpyFile, node: ast.expr) -> Entity | None:
+    """Return the client that an expression is."""
+    made = file.evaluator.single_value(node)
+    return next((x for x in (*file.clients, *file.action_clients) if x.call is made), None)
+
+
+def _asked(file: RclpyFile, future: ast.expr) -> Entity | None:
+    """Return the client that gave a future."""
+    match file.evaluator.single_value(future):
+        case ast.Call(func=ast.Attribute(value=client)):
+            return _client(file, client)
+    return None
 
 
 def _loops_until_done(file: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:

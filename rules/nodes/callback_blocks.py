@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import has_more_threads, in_callbacks, in_constructors
+from scaffold.api.programs import in_callbacks, in_constructors, may_run_meanwhile
 from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
@@ -96,18 +96,17 @@ class CallbackBlocks(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_server_waits(file)
-        if has_more_threads(file):
-            return
-        for function, origin in in_callbacks(file):
-            for call in file.calls_in(function):
+        for executed in in_callbacks(file):
+            for call in file.calls_in(executed.function):
                 name = _blocking(file, call)
-                if name:
-                    message = f"{name} blocks {origin}, and with it all other callbacks of the node"
-                    yield self.report(file.module.location(call), message)
+                if name and not may_run_meanwhile(file, executed):
+                    message = f"{name} blocks {executed.origin}, and with it all other"
+                    at = file.module.location(call)
+                    yield self.report(at, f"{message} callbacks of the node")
 
     def _check_server_waits(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        for function, origin in (*in_constructors(file), *in_callbacks(file)):
+        for function, origin, _ in (*in_constructors(file), *in_callbacks(file)):
             for call in file.calls_in(function):
                 match call:
                     case ast.Call(func=ast.Attribute(attr=name), args=[], keywords=[]):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.programs import Executed, has_more_threads, in_callbacks, in_constructors
+from scaffold.api.programs import Executed, in_callbacks, in_constructors, may_run_meanwhile
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -43,17 +43,32 @@ class EndlessLoop(RclpyRule):
             Report("8:9", "endless loop: the constructor of Talker never returns; use a timer"),
         ),
         Example(
+            "a loop while a thread spins",
+            {
+                "talker.py": _NODE.format(
+                    "        threading.Thread(target=rclpy.spin, args=(self,)).start()\n" + _LOOP
+                ).replace("import rclpy", "import threading\n\nimport rclpy", 1)
+            },
+        ),
+        Example(
+            "a loop next to a thread that does not spin",
+            {
+                "talker.py": _NODE.format(
+                    "        threading.Thread(target=self.tick).start()\n" + _LOOP
+                ).replace("import rclpy", "import threading\n\nimport rclpy", 1)
+            },
+            Report("11:9", "endless loop: the constructor of Talker never returns; use a timer"),
+        ),
+        Example(
             "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}
         ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        if has_more_threads(file):
-            return
         seen: set[ast.AST] = set()
         for executed in (*in_constructors(file), *in_callbacks(file)):
             for loop in _endless(file, executed):
-                if loop not in seen:
+                if loop not in seen and not may_run_meanwhile(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
                     yield self.report(file.module.location(loop), message)

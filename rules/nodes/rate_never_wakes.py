@@ -52,10 +52,24 @@ class RateNeverWakes(Rule):
                 "sleep() never returns: the thread that would wake it is blocked in this call",
             ),
         ),
+        Example(
+            "a thread that does not spin",
+            {
+                **_FILES,
+                "demo/talker.py": _NODE.format(
+                    "    threading.Thread(target=print, args=(node,)).start()\n"
+                    "    process_group = [node]\n"
+                ),
+            },
+            Report(
+                "demo/talker.py:13:9",
+                "sleep() never returns: the thread that would wake it is blocked in this call",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts, call, where in waits_alone(package, "sleep", _is_sleep):
+        for facts, call, where, _ in waits_alone(package, "sleep", _is_sleep):
             message = f"sleep() never returns: the thread that would wake it {where}"
             yield self.report(facts.module.location(call), message)
 

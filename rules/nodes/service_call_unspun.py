@@ -54,10 +54,36 @@ class ServiceCallUnspun(Rule):
                 "is blocked in this call",
             ),
         ),
+        Example(
+            "spun in a thread",
+            {
+                **_FILES,
+                "demo/caller.py": "import threading\n"
+                + _CODE.format(
+                    "threading.Thread(target=rclpy.spin, args=(node,)).start()\n"
+                    "    client.call(Trigger.Request())"
+                ),
+            },
+        ),
+        Example(
+            "a thread that does not spin",
+            {
+                **_FILES,
+                "demo/caller.py": "import threading\n"
+                + _CODE.format(
+                    "threading.Thread(target=print).start()\n    client.call(Trigger.Request())"
+                ),
+            },
+            Report(
+                "demo/caller.py:12:5",
+                "call() never returns: the thread that would receive the response "
+                "is blocked in this call",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts, call, where in waits_alone(package, "call", _is_call):
+        for facts, call, where, _ in waits_alone(package, "call", _is_call):
             inside = (*in_callbacks(facts), *in_constructors(facts))
             if facts.function_of(call) not in {executed.function for executed in inside}:
                 message = (

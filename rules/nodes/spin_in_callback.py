@@ -52,7 +52,7 @@ class SpinInCallback(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for function, origin in in_callbacks(file):
+        for function, origin, _ in in_callbacks(file):
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
                     continue

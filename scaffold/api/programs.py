@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from scaffold.model.programs.blocking import (
     Executed,
-    has_more_threads,
     in_callbacks,
     in_constructors,
+    may_run_meanwhile,
     waits_alone,
 )
 from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
@@ -14,6 +14,11 @@ from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
 from scaffold.model.programs.publishing import publish_calls
+from scaffold.model.programs.threads import (
+    names_other_executor,
+    share_group,
+    spins_elsewhere,
+)
 from scaffold.model.programs.topics import (
     is_private,
     is_remapped,
@@ -28,19 +33,22 @@ __all__ = [
     "Shutdowns",
     "calls_others",
     "files_of",
-    "has_more_threads",
     "in_callbacks",
     "in_constructors",
     "is_private",
     "is_remapped",
     "late_init",
     "may_init",
+    "may_run_meanwhile",
+    "names_other_executor",
     "nodes_of",
     "one_sided",
     "programs_of",
     "publish_calls",
     "run_of",
     "services_of",
+    "share_group",
+    "spins_elsewhere",
     "starts_of",
     "topics_of",
     "used_of_executor",

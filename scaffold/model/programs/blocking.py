@@ -7,6 +7,11 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
+from scaffold.model.programs.threads import (
+    names_callback_group,
+    names_other_executor,
+    spins_elsewhere,
+)
 from scaffold.model.rclpy.entities import Service, Subscription, Timer
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
@@ -15,6 +20,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.entities import Entity
     from scaffold.model.rclpy.file import RclpyFile
 
 
@@ -24,12 +30,15 @@ class Executed(NamedTuple):
     function: FunctionNode | ast.Lambda
     origin: str
     """What runs it: ``the callback on_timer``, ``the constructor of Talker``."""
+    entity: Entity | None
+    """What the callback belongs to; ``None`` for a constructor."""
 
 
-def has_more_threads(file: RclpyFile) -> bool:
-    """Tell whether a file names what may run callbacks in another thread."""
-    text = file.module.source.text
-    return any(word in text for word in ("MultiThreaded", "Thread(", "threading", "CallbackGroup"))
+def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
+    """Tell whether callbacks of a node may run while a callback or constructor of it does."""
+    if names_other_executor(file):
+        return True
+    return names_callback_group(file) if executed.entity else spins_elsewhere(file)
 
 
 def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
@@ -43,7 +52,8 @@ def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
             seen.add(reached)
             if not isinstance(reached, ast.AsyncFunctionDef):
                 name = callback.name
-                yield Executed(reached, f"callback {name!r}" if name else "a callback")
+                origin = f"callback {name!r}" if name else "a callback"
+                yield Executed(reached, origin, entity)
 
 
 def in_constructors(file: RclpyFile) -> Iterator[Executed]:
@@ -52,10 +62,10 @@ def in_constructors(file: RclpyFile) -> Iterator[Executed]:
     for node in file.classes:
         for reached in file.reached(node.constructor, seen) if node.constructor else ():
             seen.add(reached)
-            yield Executed(reached, f"the constructor of {node.name}")
+            yield Executed(reached, f"the constructor of {node.name}", None)
 
 
-_OTHER_THREADS = ("thread", "concurrent", "process", "asyncio", "pool", "event", "group", "spin")
+_BLOCKED = "is blocked in this call"
 
 
 class Wait(NamedTuple):
@@ -65,6 +75,7 @@ class Wait(NamedTuple):
     call: ast.Call
     where: str
     """What the thread does: ``is blocked in this call``, ``is in callback 'tick'``."""
+    in_callback: bool
 
 
 def waits_alone(
@@ -88,7 +99,7 @@ def waits_alone(
         for wait in _waits(run, method):
             if wait.call in seen or not is_wait(run.facts, wait.call):
                 continue
-            if not any(map(_may_spin, files_of(package, start.path))):
+            if not any(_may_end(file, wait) for file in files_of(package, start.path)):
                 seen.add(wait.call)
                 yield wait
 
@@ -102,7 +113,7 @@ def _waits(run: Execution, method: str) -> Iterator[Wait]:
         if isinstance(call, ast.Call):
             where = places.get(facts.function_of(call) or facts.module)
             if where is not None or call in run.calls:
-                yield Wait(facts, call, where or "is blocked in this call")
+                yield Wait(facts, call, where or _BLOCKED, where not in {None, _BLOCKED})
 
 
 def _places(run: Execution) -> dict[object, str]:
@@ -114,7 +125,7 @@ def _places(run: Execution) -> dict[object, str]:
         if isinstance(owner, NodeClass) and owner.facts is facts:
             classes.update(facts.related_classes(owner.node))
             functions += facts.reached(owner.constructor) if owner.constructor else ()
-    places = dict.fromkeys(functions, "is blocked in this call")
+    places = dict.fromkeys(functions, _BLOCKED)
     for executed in in_callbacks(facts):
         class_ = facts.module.enclosing_class(executed.function)
         if class_ is None or class_ in classes:
@@ -122,16 +133,8 @@ def _places(run: Execution) -> dict[object, str]:
     return places
 
 
-def _may_spin(file: RclpyFile) -> bool:
-    """Tell whether a file may spin a node in another thread, or step by step."""
-    for call in file.spin_calls:
-        if call.name.rpartition(".")[2] != "spin":
-            return True
-    known = {call.call.func for call in file.spin_calls}
-    names = [name.id for name in file.module.walk(ast.Name) if name not in known]
-    names += [name.attr for name in file.module.walk(ast.Attribute) if name not in known]
-    names += [word.arg for word in file.module.walk(ast.keyword) if word.arg]
-    names = [name.lower() for name in names if name != "SingleThreadedExecutor"]
-    if any(word in name for name in names for word in _OTHER_THREADS):
-        return True
-    return any(item.root in {"threading", "asyncio", "_thread"} for item in file.module.imports)
+def _may_end(file: RclpyFile, wait: Wait) -> bool:
+    """Tell whether what a file does may end a wait."""
+    if any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls):
+        return True  # step by step
+    return spins_elsewhere(file) or (wait.in_callback and names_other_executor(file))

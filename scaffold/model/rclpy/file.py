@@ -219,6 +219,12 @@ class RclpyFile:
                     return None
         return None
 
+    def is_own_module(self, module: str) -> bool:
+        """Tell whether a dotted name is a module of the package."""
+        modules = self.modules
+        paths = _module_paths(self.module.path, module)
+        return modules is not None and any(modules.has(path) for path in paths)
+
     def related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
         """Return a class with the bases and descendants it has in the file."""
         related = [node]

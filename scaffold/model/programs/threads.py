@@ -1,0 +1,153 @@
+"""Which threads may run callbacks, and which callbacks exclude each other."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.rclpy.nodes import NodeClass
+
+if TYPE_CHECKING:
+    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.rclpy.entities import Entity
+    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.model.rclpy.nodes import NodeDefinition
+
+_GROUPS = "rclpy.callback_groups."
+_INTERFACES = frozenset({"msg", "srv", "action"})
+_NO_SPINNERS = frozenset({"SingleThreadedExecutor", "ThreadPoolExecutor", "ProcessPoolExecutor"})
+_SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group", "spin", "scope")
+"""Words in the names of libraries that may spin a node behind the scenes."""
+
+
+def names_other_executor(file: RclpyFile) -> bool:
+    """Tell whether a file names an executor that may run callbacks side by side."""
+    return any(
+        name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
+    )
+
+
+def names_callback_group(file: RclpyFile) -> bool:
+    """Tell whether a file names a callback group."""
+    return file.module.mentions("CallbackGroup", "callback_group")
+
+
+def spins_elsewhere(file: RclpyFile) -> bool:
+    """Tell whether a file may spin a node in another place than by a plain call.
+
+    A thread may spin it, or code that is not in the file. A thread that does not spin is of no
+    help to a call that waits for a callback.
+    """
+    known = {call.call.func for call in file.spin_calls}
+    for name, node in _identifiers(file):
+        if "spin" in name.lower() and node not in known and _may_refer_to_spin(file, name, node):
+            return True
+    spinning = {call.function for call in file.spin_calls}
+    for function in _run_by_others(file):
+        if not spinning.isdisjoint(file.reached(function)):
+            return True
+    return _imports_spinner(file)
+
+
+def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
+    """Tell whether callbacks of two entities exclude each other; ``None``: not known."""
+    groups = _group_of(file, first), _group_of(file, second)
+    if None in groups:
+        return None
+    return groups[0] == groups[1] and groups[0] != "reentrant"
+
+
+def _group_of(file: RclpyFile, entity: Entity) -> object:
+    """Return what identifies the callback group of an entity; ``None``: not known."""
+    if entity.has_unknown_arguments or entity.owner is None:
+        return None
+    argument = entity.argument("callback_group")
+    if argument is None or argument.value is None:
+        return entity.owner if _has_default_group(entity.owner) else None
+    made = file.evaluator.single_value(argument.node)
+    if not isinstance(made, ast.Call):
+        return None
+    names = file.module.qualified_names(made.func)
+    if f"{_GROUPS}ReentrantCallbackGroup" in names:
+        return "reentrant"
+    return made if f"{_GROUPS}MutuallyExclusiveCallbackGroup" in names else None
+
+
+def _has_default_group(owner: NodeDefinition) -> bool:
+    """Tell whether a node has rclpy's own default group, which runs one callback at a time."""
+    node = owner
+    while True:
+        if node.facts.module.mentions("default_callback_group"):
+            return False
+        if not isinstance(node, NodeClass):
+            return True
+        if len(node.node.bases) != 1 or node.node.keywords or node.node.decorator_list:
+            return False
+        if node.base is None:
+            return True
+        node = node.base
+
+
+def _identifiers(file: RclpyFile) -> Iterator[tuple[str, ast.AST]]:
+    for name in file.module.walk(ast.Name):
+        if isinstance(name.ctx, ast.Load):
+            yield name.id, name
+    for attribute in file.module.walk(ast.Attribute):
+        if isinstance(attribute.ctx, ast.Load):
+            yield attribute.attr, attribute
+    for word in file.module.walk(ast.keyword):
+        if word.arg:
+            yield word.arg, word
+
+
+def _may_refer_to_spin(file: RclpyFile, name: str, node: ast.AST) -> bool:
+    """Tell whether an identifier with the word may be a function that spins, or ask for one."""
+    match node:
+        case ast.keyword(value=ast.Constant(value=value)):
+            return bool(value)
+        case ast.keyword():
+            return True
+        case ast.Attribute() if file.evaluator.stores(name):
+            return False
+        case ast.Name():
+            bound = file.module.index.lookup(name, node)
+            if bound and all(x.kind in {"assignment", "augmented", "loop"} for x in bound[1]):
+                return False
+    parent = file.module.parent(node)
+    is_called = isinstance(parent, ast.Call) and parent.func is node
+    return not (is_called and isinstance(node, ast.expr) and file.callback(node).function)
+
+
+def _run_by_others(file: RclpyFile) -> Iterator[FunctionNode | ast.Lambda]:
+    """Yield the functions that are passed on, decorated, or the ``run`` of a thread's class."""
+    for function in file.module.function_nodes:
+        class_ = file.module.parent(function)
+        is_run = function.name == "run" and isinstance(class_, ast.ClassDef) and class_.bases
+        references = (
+            *file.module.index.names(function.name),
+            *file.module.index.attributes(function.name),
+        )
+        if is_run or function.decorator_list or any(_is_passed(file, x) for x in references):
+            yield function
+    yield from file.module.walk(ast.Lambda)
+
+
+def _is_passed(file: RclpyFile, node: ast.Name | ast.Attribute) -> bool:
+    parent = file.module.parent(node)
+    is_called = isinstance(parent, ast.Call) and parent.func is node
+    return isinstance(node.ctx, ast.Load) and not is_called
+
+
+def _imports_spinner(file: RclpyFile) -> bool:
+    """Tell whether a library is imported whose names say that it may spin a node by itself."""
+    for item in file.module.imports:
+        if item.level or item.root in sys.stdlib_module_names or item.root == "rclpy":
+            continue
+        if file.is_own_module(item.module) or not _INTERFACES.isdisjoint(item.module.split(".")):
+            continue
+        names = (item.module, *(imported.name for imported in item.names))
+        if any(word in name.lower() for name in names for word in _SPINNING):
+            return True
+    return False
