@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import FUNCTION, NODES, LaunchFile
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
+_ASSIGNED = _EXECUTED | {"GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
 _LAUNCH = (
     "from launch import LaunchDescription\n"
     "from launch_ros.actions import Node\n\n\n"
@@ -58,6 +60,23 @@ class DescriptionIncomplete(LaunchRule):
             Report("8:5", "this Node is not in the LaunchDescription: it is never launched"),
         ),
         Example(
+            "an action that only a variable holds",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "", "other = Node(package='talker', executable='node')", ""
+                )
+            },
+            Report("8:13", "this Node is not in the LaunchDescription: it is never launched"),
+        ),
+        Example(
+            "an action that is switched off",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "", "other = Node(package='talker', executable='node')", ""
+                ).replace("([talker])", "([\n        talker,\n        # other,\n    ])")
+            },
+        ),
+        Example(
             "what add_action returns",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
             Report("9:5", "add_action() returns nothing: return the LaunchDescription"),
@@ -74,7 +93,8 @@ class DescriptionIncomplete(LaunchRule):
                 yield self.report(function, message)
         for call in launch.calls:
             is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
-            if is_dropped and call.kind in _EXECUTED:
+            is_dropped = is_dropped and call.kind in _EXECUTED
+            if is_dropped or (call.kind in _ASSIGNED and _is_never_used(launch, call.call)):
                 yield self.report(
                     call, f"this {call.kind} is not in the LaunchDescription: it is never launched"
                 )
@@ -87,3 +107,21 @@ class DescriptionIncomplete(LaunchRule):
                 case ast.Call(func=ast.Attribute(attr="add_action" | "add_entity")):
                     message = "add_action() returns nothing: return the LaunchDescription"
                     yield self.report(launch.location(statement), message)
+
+
+def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
+    """Return whether a call is all that a local variable is for.
+
+    A variable that a comment mentions is switched off on purpose.
+    """
+    module = launch.module
+    match module.parent(call):
+        case ast.Assign(targets=[ast.Name() as variable]):
+            pass
+        case _:
+            return False
+    if module.enclosing_function(variable) is None or module.mentions("locals()", "vars()"):
+        return False
+    uses = [use for use in module.index.names(variable.id) if isinstance(use.ctx, ast.Load)]
+    pattern = rf"#.*\b{re.escape(variable.id)}\b"
+    return not uses and not re.search(pattern, module.source.text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
@@ -25,10 +25,11 @@ _NODE = (
 
 
 class MessageUsedAsValue(MessageRule):
-    """A message is used as a list, dict or function, or a plain value as a message.
+    """A message is used as a list, number, text or function, or a plain value as a message.
 
     **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
-    has no attribute 'data'``: in a callback, the first message ends the node.
+    has no attribute 'data'``: in a callback, the first message ends the node. ``msg == 'go'`` is
+    never true, and ``if msg:`` always, whatever the message holds.
 
     **Fix.** Read the field: ``msg.data``, ``msg.data[0]``, ``len(msg.data)``.
 
@@ -80,6 +81,71 @@ class MessageUsedAsValue(MessageRule):
             ),
         ),
         Example(
+            "as text and as a number",
+            {
+                "listener.py": "import json\n\n"
+                + _NODE.format("json.loads(msg)['a']", "float(msg), msg + 1, msg > 1.0, 2 in msg")
+            },
+            Report("14:32", "std_msgs/msg/String is not text: TypeError; use one of its fields"),
+            Report(
+                "17:16",
+                "std_msgs/msg/Float32MultiArray is not a number: TypeError; use one of its fields",
+            ),
+            Report(
+                "17:28",
+                "std_msgs/msg/Float32MultiArray cannot be used in arithmetic: TypeError; "
+                "use one of its fields",
+            ),
+            Report(
+                "17:37",
+                "std_msgs/msg/Float32MultiArray cannot be ordered: TypeError; use one "
+                "of its fields",
+            ),
+            Report(
+                "17:48",
+                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
+            ),
+        ),
+        Example(
+            "fields as text and as numbers",
+            {
+                "listener.py": "import json\n\n"
+                + _NODE.format(
+                    "json.loads(msg.data)['a'] + msg.data if msg else str(msg)",
+                    "float(msg.data[0]), msg.data[0] + 1, msg.data[0] > 1.0, 2 in msg.data",
+                )
+            },
+        ),
+        Example(
+            "compared, unpacked",
+            {
+                "listener.py": _NODE.format(
+                    "msg == 'go'", "0\n\n    def on_reset(self):\n        a, b = String()"
+                )
+            },
+            Report("12:32", "std_msgs/msg/String never equals 'go'; compare one of its fields"),
+            Report(
+                "18:16", "std_msgs/msg/String cannot be unpacked: TypeError; use one of its fields"
+            ),
+        ),
+        Example(
+            "tested for truth",
+            {"listener.py": _NODE.replace("String", "Bool").format("'on' if msg else 'off'", "0")},
+            Report(
+                "12:40", "std_msgs/msg/Bool is always true, whatever it holds; use its field 'data'"
+            ),
+        ),
+        Example(
+            "tested for being there",
+            {
+                "listener.py": _NODE.replace("String", "Bool").format(
+                    "'on' if msg.data else 'off'",
+                    "0\n\n    def on_reset(self):\n        self.last = None\n"
+                    "        if self.last:\n            self.last = Bool()",
+                )
+            },
+        ),
+        Example(
             "a message in a for loop",
             {
                 "listener.py": _NODE.format("''", "0").replace(
@@ -103,10 +169,22 @@ class MessageUsedAsValue(MessageRule):
 
 def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     module = types.module
-    for node, value, problem in _uses_as_list(types):
+    for node, value, problem in (*_uses_as_list(types), *_uses_as_value(types)):
         owner = types.type_of(value)
         if owner is not None:
             yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
+    for node in module.walk(ast.Compare):
+        yield from _compared(types, node)
+    for node in _truth_tests(types):
+        owner = types.type_of(node)
+        fields = owner.section.fields if owner else ()
+        if (
+            owner
+            and [field.type.name for field in fields] == ["bool"]
+            and not _may_be_none(types, node)
+        ):
+            name = fields[0].name
+            yield node, f"{owner.name} is always true, whatever it holds; use its field {name!r}"
     for call in module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and (
             types.type_of(call.func) or _kind(types.field_type_of(call.func))
@@ -120,6 +198,76 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if kind and not hasattr(_KINDS[kind], node.attr):
             message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
             yield node, f"{message}: AttributeError"
+
+
+def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
+    """Yield uses that only numbers, text or sequences support."""
+    module = types.module
+    for call in module.walk(ast.Call):
+        match call:
+            case ast.Call(func=func, args=[value, *_]):
+                problem = _problem_in_call(types, func)
+                if problem:
+                    yield call, value, problem
+    for assignment in module.walk(ast.Assign):
+        if isinstance(assignment.targets[0], ast.Tuple | ast.List):
+            yield assignment.value, assignment.value, "cannot be unpacked"
+    for node in module.walk(ast.BinOp):
+        for value, other in ((node.left, node.right), (node.right, node.left)):
+            if _is_plain(types, other) and not _is_format(node):
+                yield node, value, "cannot be used in arithmetic"
+
+
+def _problem_in_call(types: MessageTypes, func: ast.expr) -> str:
+    if isinstance(func, ast.Name) and types.module.index.lookup(func.id, func) is None:
+        return _REFUSED_BY.get(func.id, "")
+    name = types.module.qualified_name(func) or ""
+    return _REFUSED_BY.get(name) or ("is not a number" if name.startswith("math.") else "")
+
+
+def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the problem of a message that is compared with a plain value."""
+    if len(node.ops) != 1:
+        return
+    right = node.comparators[0]
+    operator = node.ops[0]
+    if isinstance(operator, ast.In | ast.NotIn):
+        owner = types.type_of(right)
+        if owner is not None:
+            yield node, f"{owner.name} is not iterable: TypeError; use one of its fields"
+        return
+    for value, other in ((node.left, right), (right, node.left)):
+        owner = types.type_of(value) if _is_plain(types, other) else None
+        if owner is None:
+            continue
+        if isinstance(operator, ast.Eq | ast.NotEq):
+            text = types.module.text(other)
+            yield node, f"{owner.name} never equals {text}; compare one of its fields"
+        elif isinstance(operator, ast.Lt | ast.LtE | ast.Gt | ast.GtE):
+            yield node, f"{owner.name} cannot be ordered: TypeError; use one of its fields"
+
+
+def _is_plain(types: MessageTypes, node: ast.expr) -> bool:
+    """Return whether an expression is a constant, or a field of a plain type."""
+    value = types.facts.evaluator.evaluate(node)
+    return type(value) in _KINDS.values() or bool(_kind(types.field_type_of(node)))
+
+
+def _is_format(node: ast.BinOp) -> bool:
+    return isinstance(node.op, ast.Mod)
+
+
+def _truth_tests(types: MessageTypes) -> Iterator[ast.expr]:
+    yield from (node.test for node in types.module.walk(ast.If))
+    yield from (node.test for node in types.module.walk(ast.IfExp))
+    for negation in types.module.walk(ast.UnaryOp):
+        if isinstance(negation.op, ast.Not):
+            yield negation.operand
+
+
+def _may_be_none(types: MessageTypes, node: ast.expr) -> bool:
+    """Return whether an expression is more than the argument of a callback or a field."""
+    return types.facts.parameter_of(node) is None and types.field_type_of(node) is None
 
 
 def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
@@ -136,6 +284,12 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
         yield part.iter, part.iter, "is not iterable"
 
 
+_REFUSED_BY: Mapping[str, str] = {
+    **dict.fromkeys(("float", "int", "abs", "round"), "is not a number"),
+    **dict.fromkeys(("list", "tuple", "set", "sorted", "sum", "enumerate"), "is not iterable"),
+    "json.loads": "is not text",
+}
+"""What functions say to a message."""
 _KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.messages import MessageTypes
+from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import services_of, topics_of
 from scaffold.api.rclpy import Endpoint
 
@@ -57,6 +58,30 @@ class TopicTypeDiffers(Rule):
             ),
         ),
         Example(
+            "four files",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("publisher(Bool, 'chatter', 10)"),
+                "c.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "d.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+            Report(
+                "b.py:9:31",
+                "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
+                "in c.py:9, d.py:9: they never connect",
+            ),
+            Report(
+                "c.py:9:34",
+                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
+                "in b.py:9: they never connect",
+            ),
+            Report(
+                "d.py:9:34",
+                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
+                "in b.py:9: they never connect",
+            ),
+        ),
+        Example(
             "two types for a service",
             {
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
@@ -80,24 +105,35 @@ class TopicTypeDiffers(Rule):
         if definitions is None:
             return
         for name, topic in topics_of(package).items():
-            if topic.is_plain and _are_known(definitions, topic.publishers, topic.subscriptions):
-                yield from self._check(name, topic.publishers, topic.subscriptions)
+            sides = topic.publishers, topic.subscriptions
+            if not topic.is_plain_by_default or not _are_known(definitions, *sides):
+                continue
+            if all(keeps_default_name(package, x) for side in sides for x in side):
+                yield from self._check(name, *sides)
         for name, service in services_of(package).items():
             if service.is_plain and _are_known(definitions, service.services, service.clients):
                 yield from self._check(name, service.services, service.clients)
 
     def _check(
-        self, name: str, sides: Sequence[Endpoint], others: Sequence[Endpoint]
+        self, name: str, side: Sequence[Endpoint], other_side: Sequence[Endpoint]
     ) -> Iterator[Diagnostic]:
-        types = [{endpoint.interface for endpoint in side} for side in (sides, others)]
-        if any(len(side) != 1 or None in side for side in types) or types[0] == types[1]:
-            return
-        for here, there in ((sides[0], others[0]), (others[0], sides[0])):
-            message = (
-                f"{name!r} has type {here.interface} here, but {there.interface} in "
-                f"{there.location.path}:{there.location.line}: they never connect"
-            )
-            yield self.report(here.type_argument or here, message)
+        for here, others in ((side, other_side), (other_side, side)):
+            for endpoint in here:
+                differing = [x for x in others if x.interface != endpoint.interface]
+                if differing:
+                    message = f"{name!r} has type {endpoint.interface} here, but"
+                    message = f"{message} {_listed(differing)}: they never connect"
+                    at = endpoint.type_argument or endpoint
+                    yield self.report(at, message, cause=f"types of {name}")
+
+
+def _listed(endpoints: Sequence[Endpoint]) -> str:
+    """Return types with the places that use them: ``std_msgs/msg/Bool in a.py:1, b.py:2``."""
+    places: dict[str, list[str]] = {}
+    for endpoint in endpoints:
+        place = f"{endpoint.location.path}:{endpoint.location.line}"
+        places.setdefault(str(endpoint.interface), []).append(place)
+    return " and ".join(f"{type_} in {', '.join(items)}" for type_, items in places.items())
 
 
 def _are_known(types: MessageTypes, *sides: Sequence[Endpoint]) -> bool:

@@ -47,6 +47,32 @@ class AttributeOfObjectUnknown(RclpyRule):
             {"talker.py": _NODE.format("send")},
             Report("11:9", "rclpy's Publisher has no 'send': AttributeError"),
         ),
+        Example(
+            "assigned twice",
+            {
+                "talker.py": _NODE.format("publish") + "\n    def on_reset(self):\n"
+                "        self.pub = None\n"
+                "        self.pub = self.create_publisher(String, 'other', 10)\n"
+                "        self.started = self.get_clock().now()\n\n"
+                "    def on_tick(self):\n"
+                "        self.started = self.get_clock().now()\n"
+                "        self.pub.send(self.started.to_sec())\n"
+            },
+            Report("20:9", "rclpy's Publisher has no 'send': AttributeError"),
+            Report(
+                "20:23",
+                "rclpy's Time has no 'to_sec': AttributeError; did you mean 'nanoseconds / 1e9'?",
+            ),
+        ),
+        Example(
+            "assigned objects of two classes",
+            {
+                "talker.py": _NODE.format("publish") + "\n    def on_tick(self):\n"
+                "        now = self.get_clock().now()\n"
+                "        now = print(now)\n"
+                "        return now.to_sec()\n"
+            },
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import ParameterRead, RclpyFile, stands_for_value
+from scaffold.api.rclpy import RclpyFile, use_as_value
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -41,6 +41,31 @@ class ParameterMessageUsed(RclpyRule):
             Report("8:24", "get_parameter_value() returns a message, not the value; use .value"),
         ),
         Example(
+            "its field, through a variable",
+            {
+                "talker.py": _NODE.format("\n        period = 1.0 / value.double_value").replace(
+                    "period = 1.0 / self.get_parameter('rate')",
+                    "value = self.get_parameter('rate')",
+                    1,
+                )
+            },
+        ),
+        Example(
+            "used through a variable, and an attribute",
+            {
+                "talker.py": _NODE.format("\n        period = 1.0 / value").replace(
+                    "period = 1.0 / self.get_parameter('rate')",
+                    "parameter = self.get_parameter('rate')\n"
+                    "        self.rate = parameter.get_parameter_value()\n"
+                    "        value = parameter",
+                    1,
+                )
+                + "        self.limit = self.rate * 2\n"
+            },
+            Report("11:24", "get_parameter_value() returns a message, not the value; use .value"),
+            Report("16:22", "get_parameter_value() returns a message, not the value; use .value"),
+        ),
+        Example(
             "compared",
             {"talker.py": _NODE.format(" > 1.0").replace("1.0 / ", "")},
             Report("8:18", "get_parameter_value() returns a message, not the value; use .value"),
@@ -53,23 +78,22 @@ class ParameterMessageUsed(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for read in file.parameter_reads:
-            used = _used_as_number(file, read)
+        reads = {item.call for item in (*file.parameter_reads, *file.parameters)}
+        for attribute in file.module.index.attributes("get_parameter_value"):
+            call = file.module.parent(attribute)
+            is_of_node = file.evaluator.single_value(attribute.value) in reads
+            if not isinstance(call, ast.Call) or call.func is not attribute or not is_of_node:
+                continue
+            used = _used_as_number(file, call)
             if used is not None:
                 message = "get_parameter_value() returns a message, not the value; use .value"
                 yield self.report(file.module.location(used), message)
 
 
-def _used_as_number(file: RclpyFile, read: ParameterRead) -> ast.AST | None:
+def _used_as_number(file: RclpyFile, call: ast.Call) -> ast.AST | None:
     """Return where the message is used as a number, or as the period of a timer."""
-    attribute = file.module.parent(read.call)
-    call = file.module.parent(attribute) if isinstance(attribute, ast.Attribute) else None
-    if not isinstance(attribute, ast.Attribute) or attribute.attr != "get_parameter_value":
-        return None
-    if not isinstance(call, ast.Call):
-        return None
     for timer in file.timers:
         period = timer.argument("timer_period_sec")
         if period is not None and file.evaluator.single_value(period.node) is call:
             return period.node
-    return call if stands_for_value(file, call) else None
+    return use_as_value(file, call)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import topics_of
 from scaffold.api.rclpy import Endpoint, Publisher, conflict_of
 
@@ -16,6 +17,10 @@ _NODE = (
     "    def __init__(self):\n"
     "        super().__init__('talker')\n"
     "        self.create_{}\n"
+)
+_DEFAULT = _NODE.replace(
+    "        self.create_",
+    "        topic = self.declare_parameter('topic', 'chatter').value\n        self.create_",
 )
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
@@ -61,6 +66,32 @@ class QosIncompatible(Rule):
             ),
         ),
         Example(
+            "a topic that is the default of a parameter, and set to the same",
+            {
+                "a.py": _DEFAULT.format("publisher(String, topic, qos_profile_sensor_data)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "config/a.yaml": "talker:\n  ros__parameters:\n    topic: chatter\n",
+            },
+            Report(
+                "a.py:10:46",
+                "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
+                "requests RELIABLE: nothing arrives",
+            ),
+            Report(
+                "b.py:9:60",
+                "subscription 'chatter' requests RELIABLE, but the publisher in "
+                "a.py:10 is BEST_EFFORT: nothing arrives",
+            ),
+        ),
+        Example(
+            "a parameter that is set to another topic",
+            {
+                "a.py": _DEFAULT.format("publisher(String, topic, qos_profile_sensor_data)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "config/a.yaml": "talker:\n  ros__parameters:\n    topic: other\n",
+            },
+        ),
+        Example(
             "volatile for transient local",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
@@ -81,7 +112,10 @@ class QosIncompatible(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for name, topic in topics_of(package).items():
-            if not topic.publishers or not topic.is_plain:
+            if not topic.publishers or not topic.is_plain_by_default:
+                continue
+            endpoints = (*topic.publishers, *topic.subscriptions)
+            if not all(keeps_default_name(package, endpoint) for endpoint in endpoints):
                 continue
             for subscription in topic.subscriptions:
                 pairs = [(x, conflict_of(x, subscription)) for x in topic.publishers]
@@ -95,7 +129,7 @@ class QosIncompatible(Rule):
                         f"{_kind(here)} {name!r} {has}, but the {_kind(there)} in "
                         f"{there.location.path}:{there.location.line} {other}: nothing arrives"
                     )
-                    yield self.report(here.qos or here, message)
+                    yield self.report(here.qos or here, message, cause=f"QoS of {name}")
 
 
 def _kind(endpoint: Endpoint) -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _MAIN = (
     "import rclpy\n\n\n"
@@ -13,6 +14,7 @@ _MAIN = (
     "    try:\n        rclpy.spin(node)\n"
     "    except KeyboardInterrupt:\n        pass\n    finally:\n        rclpy.{}()\n"
 )
+_AFTER = _MAIN.replace("pass\n    finally:\n        rclpy", "{}\n    rclpy")
 
 
 class ShutdownRepeated(RclpyRule):
@@ -41,16 +43,41 @@ class ShutdownRepeated(RclpyRule):
             ),
             fixed={"talker.py": _MAIN.format("try_shutdown")},
         ),
+        Example(
+            "after the try",
+            {"talker.py": _AFTER.format("pass", "shutdown")},
+            Report(
+                "11:5",
+                "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
+                fix="use try_shutdown()",
+            ),
+            fixed={"talker.py": _AFTER.format("pass", "try_shutdown")},
+        ),
+        Example("after a handler that returns", {"talker.py": _AFTER.format("return", "shutdown")}),
+        Example(
+            "in the handler",
+            {"talker.py": _AFTER.format("rclpy.shutdown()", "try_shutdown")},
+            Report(
+                "10:9",
+                "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
+                fix="use try_shutdown()",
+            ),
+            fixed={"talker.py": _AFTER.format("rclpy.try_shutdown()", "try_shutdown")},
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        words = [word.arg for init in file.init_calls for word in init.call.keywords]
+        if "signal_handler_options" in words:
+            return  # the signals may not shut down
         for call in file.shutdown_calls:
             if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                 continue
-            if not call.in_finally or self._is_caught(call.handlers):
+            if self._is_caught(call.handlers):
                 continue
             spins = [spin for spin in file.spin_calls if spin.function is call.function]
-            if not any(spin.catches_keyboard_interrupt for spin in spins):
+            spins = [spin for spin in spins if spin.catches_keyboard_interrupt]
+            if not any(call.in_finally or _follows(file, call, spin) for spin in spins):
                 continue
             _, end = file.module.span(call.call.func)
             start = end - len("shutdown")
@@ -63,3 +90,41 @@ class ShutdownRepeated(RclpyRule):
 
     def _is_caught(self, handlers: frozenset[str]) -> bool:
         return not handlers.isdisjoint({"Exception", "BaseException"})
+
+
+def _follows(file: RclpyFile, call: RclpyCall, spin: RclpyCall) -> bool:
+    """Return whether a shutdown runs once the exception of Ctrl-C has been caught."""
+    statement = file.module.parent(call.call)
+    if statement is None:
+        return False
+    for parent in file.module.parents(spin.call):
+        if not isinstance(parent, ast.Try):
+            continue
+        handlers = [handler for handler in parent.handlers if _catches_interrupt(file, handler)]
+        if not handlers:
+            continue
+        if statement in handlers[0].body:
+            return True
+        block, number = file.module.index.place(parent)
+        other, later = file.module.index.place(statement)
+        is_same = file.module.parent(parent) is file.module.parent(statement) and block == other
+        return is_same and later > number and not any(map(_leaves, ast.walk(handlers[0])))
+    return False
+
+
+def _catches_interrupt(file: RclpyFile, handler: ast.ExceptHandler) -> bool:
+    if handler.type is None:
+        return True
+    caught = file.evaluator.single_value(handler.type)
+    types = caught.elts if isinstance(caught, ast.Tuple) else [caught]
+    names = {name for type_ in types for name in file.module.qualified_names(type_)}
+    return not names.isdisjoint({"KeyboardInterrupt", "BaseException"})
+
+
+def _leaves(node: ast.AST) -> bool:
+    match node:
+        case ast.Return() | ast.Raise() | ast.Name(id="exit" | "quit"):
+            return True
+        case ast.Attribute(attr="exit" | "_exit" | "shutdown" | "try_shutdown"):
+            return True
+    return False

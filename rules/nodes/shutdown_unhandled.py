@@ -53,6 +53,30 @@ class ShutdownUnhandled(RclpyRule):
             ),
         ),
         Example(
+            "a loop of single steps",
+            {
+                "talker.py": _IMPORTS
+                + _BARE.replace(
+                    "    rclpy.spin(node)", "    while rclpy.ok():\n        rclpy.spin_once(node)"
+                )
+            },
+            Report(
+                "9:9",
+                "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
+                "catch KeyboardInterrupt and ExternalShutdownException",
+            ),
+        ),
+        Example(
+            "a loop that waits for a result",
+            {
+                "talker.py": _IMPORTS
+                + _BARE.replace(
+                    "    rclpy.spin(node)",
+                    "    while not node.done:\n        rclpy.spin_once(node)",
+                )
+            },
+        ),
+        Example(
             "a handler for Ctrl-C, and SIGTERM caught",
             {
                 "talker.py": f"import signal\n{_IMPORTS}"
@@ -76,7 +100,8 @@ class ShutdownUnhandled(RclpyRule):
         if not file.init_calls:
             return
         for call in file.spin_calls:
-            if not call.name.endswith("spin") or self._runs_in_thread(file, call):
+            is_endless = call.name.endswith("spin") or _is_in_main_loop(file, call)
+            if not is_endless or self._runs_in_thread(file, call):
                 continue
             missing = self._missing(file, call)
             if missing:
@@ -92,7 +117,7 @@ class ShutdownUnhandled(RclpyRule):
         if caught.isdisjoint({"KeyboardInterrupt", "BaseException"}) and not _handles_int(file):
             signals["Ctrl-C"] = "KeyboardInterrupt"
         names = {"rclpy.executors.ExternalShutdownException", "Exception", "BaseException"}
-        if caught.isdisjoint(names) and not call.asks_ok:
+        if caught.isdisjoint(names) and not call.asks_ok and not _never_waits(file, call):
             signals["SIGTERM"] = "ExternalShutdownException"
         if not signals:
             return ""
@@ -110,3 +135,26 @@ def _handles_int(file: RclpyFile) -> bool:
         call.args and name(call.func) == "signal.signal" and name(call.args[0]) == "signal.SIGINT"
         for call in file.module.walk(ast.Call)
     )
+
+
+def _is_in_main_loop(file: RclpyFile, call: RclpyCall) -> bool:
+    """Return whether a call is in a loop for as long as rclpy runs."""
+    if not call.name.endswith("spin_once"):
+        return False
+    for parent in file.module.parents(call.call):
+        match parent:
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
+                return False
+            case ast.While(test=ast.Call(func=func)):
+                return file.module.qualified_name(func) == "rclpy.ok"
+            case ast.While(test=ast.Constant(value=value)):
+                return bool(value) and not any(
+                    isinstance(node, ast.Break | ast.Return) for node in ast.walk(parent)
+                )
+    return False
+
+
+def _never_waits(file: RclpyFile, call: RclpyCall) -> bool:
+    """Return whether ``timeout_sec=0`` lets a loop see the end of rclpy without an exception."""
+    given = [word.value for word in call.call.keywords if word.arg == "timeout_sec"]
+    return bool(given) and file.evaluator.evaluate(given[0]) == 0

@@ -18,7 +18,7 @@ _NODE = (
     "        self.create_subscription(Image, 'image', self.on_image, 10)\n\n"
     "    def on_image(self, msg):\n"
     "        age = self.get_clock().now() - {}\n"
-    "        return age\n"
+    "        self.age = age\n"
 )
 
 
@@ -63,6 +63,30 @@ class StampComputedWith(RclpyRule):
             ),
         ),
         Example(
+            "kept in attributes",
+            {
+                "viewer.py": _NODE.format("self.last") + "        self.last = msg.header.stamp\n\n"
+                "    def tick(self):\n"
+                "        now = self.get_clock().now().to_msg()\n"
+                "        self.is_late = now - self.started > 1\n\n"
+                "    def start(self):\n"
+                "        self.started = self.get_clock().now()\n"
+            },
+            Report(
+                "12:15", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
+            ),
+            Report(
+                "18:24", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
+            ),
+        ),
+        Example(
+            "converted when it is kept",
+            {
+                "viewer.py": _NODE.format("self.last")
+                + "        self.last = Time.from_msg(msg.header.stamp)\n"
+            },
+        ),
+        Example(
             "a header of another class",
             {
                 "viewer.py": _NODE.format("Time()") + "\n    def is_old(self, msg, other):\n"
@@ -102,12 +126,30 @@ def _are_stamps(file: RclpyFile, *sides: ast.expr) -> bool:
 
 
 def _is_stamp(file: RclpyFile, node: ast.expr) -> bool:
-    """Return whether an expression is the stamp of a header that this file does not set."""
-    match file.evaluator.single_value(node):
+    """Return whether an expression is, through whatever variable, a message of a time."""
+    value = file.evaluator.single_value(node)
+    if _is_time_message(file, value):
+        return True
+    values = file.evaluator.values(value) if isinstance(value, ast.Name | ast.Attribute) else ()
+    return bool(values) and all(
+        _is_time_message(file, file.evaluator.single_value(other)) for other in values
+    )
+
+
+def _is_time_message(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether it is ``to_msg()``, or the stamp of a header that is not set there."""
+    match node:
+        case ast.Call(func=ast.Attribute(attr="to_msg", value=time)):
+            return class_of(file, time) == "rclpy.time.Time"
         case ast.Attribute(attr="stamp", value=ast.Attribute(attr="header")) as stamp:
             stores = [*file.evaluator.stores("stamp"), *file.evaluator.stores("header")]
             text = f"{file.module.text(stamp)}."
-            return not any(text.startswith(f"{file.module.text(x.node)}.") for x in stores)
+            function = file.module.enclosing_function(stamp)
+            return not any(
+                text.startswith(f"{file.module.text(x.node)}.")
+                for x in stores
+                if file.module.enclosing_function(x.node) is function or text.startswith("self.")
+            )
     return False
 
 

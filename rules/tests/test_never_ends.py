@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import constructed_class, node_tests, test_functions
+from scaffold.api.tests import constructed_class, node_tests, runs_around_tests, test_functions
 
 _WAYS_OUT = (
     *("Thread(", "threading", "Timer", "timer", "multiprocessing", "concurrent", "signal"),
@@ -51,6 +51,25 @@ class TestNeverEnds(Rule):
             ),
         ),
         Example(
+            "a callback that shuts down",
+            {
+                "test/test_node.py": _TEST.format(
+                    "node.create_subscription(str, 'a', lambda _: rclpy.shutdown(), 1)\n"
+                    "    rclpy.spin(node)"
+                )
+            },
+        ),
+        Example(
+            "a teardown that shuts down",
+            {
+                "test/test_node.py": _TEST.format("rclpy.spin(node)\n    rclpy.shutdown()")
+                + "\n\ndef teardown_function():\n    rclpy.try_shutdown()\n"
+            },
+            Report(
+                "8:5", "nothing ends this: the test waits forever; use spin_once with timeout_sec"
+            ),
+        ),
+        Example(
             "for ever",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
             Report(
@@ -76,7 +95,7 @@ class TestNeverEnds(Rule):
                     if not _spins(module, node):
                         continue
                     is_own = module.enclosing_function(node) is test.node
-                    if is_own and "shutdown" not in _text_around(module, node):
+                    if is_own and not _is_shut_down(module):
                         message = "nothing ends this: the test waits forever"
                         at = module.location(node)
                         yield self.report(at, f"{message}; use spin_once with timeout_sec")
@@ -104,8 +123,14 @@ def _waits(module: PythonModule, call: ast.Call) -> bool:
     return False
 
 
-def _text_around(module: PythonModule, call: ast.Call) -> str:
-    """Return the text of the file without the test that contains a call."""
-    function = module.enclosing_function(call)
-    start, end = module.span(function) if function is not None else (0, 0)
-    return module.source.text[:start] + module.source.text[end:]
+def _is_shut_down(module: PythonModule) -> bool:
+    """Tell whether code that may run during a test shuts down.
+
+    Other tests, fixtures and teardown methods run before or after it.
+    """
+    names: list[tuple[ast.AST, str]] = [(node, node.id) for node in module.walk(ast.Name)]
+    names += [(node, node.attr) for node in module.walk(ast.Attribute)]
+    for node, name in names:
+        if "shutdown" in name and not runs_around_tests(module, node):
+            return True
+    return False

@@ -24,6 +24,7 @@ from scaffold.model.parameters.files import (
     scalar_type,
     value_type,
 )
+from scaffold.model.parameters.topic_names import keeps_default_name
 from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "declared_alone",
     "declared_by",
     "has_always",
+    "keeps_default_name",
     "mistake",
     "mixed",
     "narrow_default",

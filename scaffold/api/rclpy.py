@@ -58,7 +58,7 @@ from scaffold.model.rclpy.parameters.objects import (
     parameters_set,
     types_compared,
 )
-from scaffold.model.rclpy.parameters.values import objects_used, stands_for_value
+from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
 from scaffold.model.rclpy.qos import conflict_of
 
 __all__ = [
@@ -118,9 +118,9 @@ __all__ = [
     "parameters_set",
     "rclpy_file",
     "rclpy_files",
-    "stands_for_value",
     "topic_problem",
     "types_compared",
+    "use_as_value",
     "used_by_classes",
     "wrong_value",
 ]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 LAUNCH = "generate_test_description"
 """A file with this function is for launch_testing, which calls the tests in its own way."""
 
+_AROUND = ("setup", "teardown")
 _PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
 """Words that indicate other ways to run tests."""
 
@@ -73,6 +74,30 @@ def test_functions(module: PythonModule) -> Iterator[TestFunction]:
             for node in methods(class_.node):
                 if node.name.startswith("test"):
                     yield TestFunction(node, class_.node)
+
+
+def runs_around_tests(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a node is in a test, a fixture, or what is set up and torn down around them.
+
+    What is in a function or lambda within them may run at any time.
+    """
+    for parent in module.parents(node):
+        match parent:
+            case ast.Lambda():
+                return False
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                is_test = parent.name.startswith("test")
+                is_around = parent.name.lower().startswith(_AROUND)
+                is_fixture = fixture_decorator(module, parent) is not None
+                return (is_test or is_around or is_fixture) and not _is_nested(module, parent)
+    return False
+
+
+def _is_nested(module: PythonModule, function: FunctionNode) -> bool:
+    return any(
+        isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        for parent in module.parents(function)
+    )
 
 
 def methods(class_: ast.ClassDef) -> list[FunctionNode]:

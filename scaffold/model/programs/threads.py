@@ -125,10 +125,10 @@ def _run_by_others(file: RclpyFile) -> Iterator[FunctionNode | ast.Lambda]:
     for function in file.module.function_nodes:
         class_ = file.module.parent(function)
         is_run = function.name == "run" and isinstance(class_, ast.ClassDef) and class_.bases
-        references = (
+        references: list[ast.Name | ast.Attribute] = [
             *file.module.index.names(function.name),
             *file.module.index.attributes(function.name),
-        )
+        ]
         if is_run or function.decorator_list or any(_is_passed(file, x) for x in references):
             yield function
     yield from file.module.walk(ast.Lambda)

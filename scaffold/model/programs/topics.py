@@ -22,6 +22,8 @@ class Topic(NamedTuple):
     subscriptions: list[Subscription]
     is_plain: bool
     """Every endpoint of the topic is created for sure, once, by a node without a namespace."""
+    is_plain_by_default: bool
+    """So it is, unless somebody sets the parameters that hold its name."""
 
 
 class ServiceName(NamedTuple):
@@ -30,6 +32,7 @@ class ServiceName(NamedTuple):
     services: list[Service]
     clients: list[Client]
     is_plain: bool
+    """So are all endpoints of the service."""
 
 
 def topics_of(package: Package) -> Mapping[str, Topic]:
@@ -75,6 +78,7 @@ def _topics(package: Package) -> Mapping[str, Topic]:
         result[name] = Topic(
             [endpoint for endpoint in endpoints if isinstance(endpoint, Publisher)],
             [endpoint for endpoint in endpoints if isinstance(endpoint, Subscription)],
+            all(_is_plain(x) and x.from_parameter is None for x in endpoints),
             all(map(_is_plain, endpoints)),
         )
     return result
@@ -86,7 +90,7 @@ def _services(package: Package) -> Mapping[str, ServiceName]:
         result[name] = ServiceName(
             [endpoint for endpoint in endpoints if isinstance(endpoint, Service)],
             [endpoint for endpoint in endpoints if isinstance(endpoint, Client)],
-            all(map(_is_plain, endpoints)),
+            all(_is_plain(x) and x.from_parameter is None for x in endpoints),
         )
     return result
 
@@ -109,6 +113,5 @@ def _is_plain(endpoint: Endpoint) -> bool:
         owner is not None
         and owner.namespace is None
         and not endpoint.is_conditional
-        and endpoint.from_parameter is None
         and not endpoint.has_unknown_arguments
     )

@@ -146,6 +146,22 @@ class AttributeEvaluator(Evaluator):
             self._single[node] = self._follow(node)
         return self._single[node]
 
+    def values(self, node: ast.Name | ast.Attribute) -> Sequence[ast.expr]:
+        """Return all that a name or an attribute of ``self`` is assigned, ``None`` aside.
+
+        It is empty if the name may be something else, such as an argument.
+        """
+        if isinstance(node, ast.Attribute):
+            stored: Sequence[ast.expr | None] = self.attribute_values(node) or ()
+        else:
+            found = self.module.index.lookup(node.id, node)
+            bindings = [x for x in (found[1] if found else ()) if x.kind != "annotation"]
+            is_open = any(x.kind != "assignment" for x in bindings)
+            is_open = is_open or len(bindings) > MOST_ASSIGNMENTS
+            stored = () if is_open else [binding.value for binding in bindings]
+        values = [value for value in stored if value is not None and not _is_none(value)]
+        return values if None not in stored else ()
+
     def _follow(self, node: ast.expr) -> ast.expr:
         for _ in range(10):
             values: Iterable[ast.expr | None] | None = None

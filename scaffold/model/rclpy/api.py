@@ -116,9 +116,22 @@ def first_unknown(dotted: str) -> tuple[str, str] | None:
 
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the class of rclpy, as the table calls it, that an expression is an object of."""
+    known = file.classes_of
+    if node not in known and depth <= _DEEPEST:
+        known[node] = None  # ends the recursion of what is assigned to itself
+        known[node] = _find_class(file, node, depth)
+    return known.get(node)
+
+
+def _find_class(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     value = file.evaluator.single_value(node)
-    if not isinstance(value, ast.Call) or depth > _DEEPEST:
-        return _class_of_argument(file, value)
+    if isinstance(value, ast.Name | ast.Attribute):
+        values = file.evaluator.values(value)
+        classes = {class_of(file, other, depth + 1) for other in values}
+        if len(values) > 1 and len(classes) == 1:
+            return classes.pop()
+    if not isinstance(value, ast.Call):
+        return _class_of_argument(file, value, depth)
     name = file.module.qualified_name(value.func) or ""
     name = _places().get(name, name)
     if name in _GIVEN:
@@ -152,7 +165,7 @@ def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     return None
 
 
-def _class_of_argument(file: RclpyFile, node: ast.expr) -> str | None:
+def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     """Return the class of what a callback is given: a future that is done, a goal handle."""
     argument = file.parameter_of(node)
     if argument is not None and _is_goal_handle(file, argument):
@@ -160,7 +173,7 @@ def _class_of_argument(file: RclpyFile, node: ast.expr) -> str | None:
     if is_listed_parameter(file, node):
         return PARAMETER
     future = future_given(file, node)
-    return class_of(file, future) if future is not None else None
+    return class_of(file, future, depth + 1) if future is not None else None
 
 
 def _is_goal_handle(file: RclpyFile, argument: ast.arg) -> bool:

@@ -114,6 +114,8 @@ class RclpyFile:
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
+        self.classes_of: dict[ast.expr, str | None] = {}
+        """Kept by `api.class_of`."""
         self._creation = Creation(self)
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
@@ -325,6 +327,10 @@ class RclpyFile:
         return None
 
     # -- what is created
+
+    def stored_in(self, call: ast.Call) -> tuple[str | None, str | None]:
+        """Return the attribute of ``self`` and the variable that a call's result is stored in."""
+        return self._creation.target(call)
 
     @cached_property
     def entities(self) -> Sequence[Entity]:

@@ -33,17 +33,16 @@ _MOST_USES = 200
 def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that pass a Parameter instead of its value, and the first such place."""
     for item in _objects(file):
-        use = _use(file, item.call, item.variable, item.attribute)
+        use = use_as_value(file, item.call)
         if use is not None:
             yield item, use
 
 
-def _use(
-    file: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
-) -> ast.AST | None:
-    """Return a place where the object is calculated with."""
-    if stands_for_value(file, call):
+def use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
+    """Return a place where the object that a call gives is calculated with."""
+    if _stands_for_value(file, call):
         return call
+    attribute, variable = file.stored_in(call)
     if variable is None and attribute is None:
         return None
     uses = _uses(file, call, variable, attribute)
@@ -53,7 +52,7 @@ def _use(
     read = [use for use in uses if isinstance(use.ctx, ast.Load)]
     if any(isinstance(file.module.parent(use), ast.Attribute) for use in read):
         return None
-    return next((use for use in read if stands_for_value(file, use)), None)
+    return next((use for use in read if _stands_for_value(file, use)), None)
 
 
 def _uses(
@@ -85,7 +84,7 @@ def _objects(file: RclpyFile) -> Iterator[Entity]:
             yield parameter
 
 
-def stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
+def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
     """Tell whether a node is where only the value makes sense."""
     parent = file.module.parent(node)
     used = False

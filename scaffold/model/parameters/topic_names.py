@@ -1,0 +1,47 @@
+"""Names of topics that parameters hold, and whether the package sets them to others."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from scaffold.formats.yaml import Scalar
+from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.entities import Endpoint
+
+_LAUNCH = (".launch.py", "_launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", ".launch")
+
+
+def keeps_default_name(package: Package, endpoint: Endpoint) -> bool:
+    """Tell whether no parameter file and no launch file of a package sets the name otherwise."""
+    parameter = endpoint.from_parameter
+    if parameter is None:
+        return True
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        for section in file.sections if file else ():
+            for entry in section.entries:
+                if entry.name == parameter and not _is_same(entry.value, endpoint):
+                    return False
+    word = re.compile(rf"\b{re.escape(parameter)}\b")
+    return not any(word.search(text) for text in _launch_texts(package))
+
+
+def _is_same(value: object, endpoint: Endpoint) -> bool:
+    name = str(endpoint.name).removeprefix("/")
+    return isinstance(value, Scalar) and value.text.removeprefix("/") == name
+
+
+def _launch_texts(package: Package) -> list[str]:
+    texts: list[str] = []
+    for path in package.files:
+        if path.endswith(_LAUNCH):
+            try:
+                texts.append(package.source(path).text)
+            except ViewError:
+                texts.append("")
+    return texts
