@@ -130,7 +130,4 @@ def _is_shut_down(module: PythonModule) -> bool:
     """
     names: list[tuple[ast.AST, str]] = [(node, node.id) for node in module.walk(ast.Name)]
     names += [(node, node.attr) for node in module.walk(ast.Attribute)]
-    for node, name in names:
-        if "shutdown" in name and not runs_around_tests(module, node):
-            return True
-    return False
+    return any("shutdown" in name and not runs_around_tests(module, node) for node, name in names)

@@ -44,7 +44,7 @@ def spins_elsewhere(file: RclpyFile) -> bool:
     for name, node in _identifiers(file):
         if "spin" in name.lower() and node not in known and _may_refer_to_spin(file, name, node):
             return True
-    spinning = {call.function for call in file.spin_calls}
+    spinning = {file.function_of(call.call) for call in file.spin_calls}
     for function in _run_by_others(file):
         if not spinning.isdisjoint(file.reached(function)):
             return True

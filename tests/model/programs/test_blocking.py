@@ -54,6 +54,8 @@ def waits(main: str, constructor: str = "pass", executor: str = "SingleThreaded"
     return [found.where for found in waits_alone(Package.of(files), "sleep", is_sleep)]
 
 
+BLOCKED = "is blocked in this call"
+THREAD = "import threading; threading.Thread(target"
 TIMER = "self.create_timer(1.0, self.tick)"
 SPIN = "executor = {}Executor(); executor.add_node(node); executor.spin()"
 
@@ -63,8 +65,11 @@ SPIN = "executor = {}Executor(); executor.add_node(node); executor.spin()"
     [
         ("rclpy.spin(node)", TIMER, "is in callback 'tick'"),
         (SPIN.format("SingleThreaded"), TIMER, "is in callback 'tick'"),
-        ("node.tick()", "pass", "is blocked in this call"),
-        ("rclpy.spin(node)", "self.tick()", "is blocked in this call"),
+        ("node.tick()", "pass", BLOCKED),
+        ("rclpy.spin(node)", "self.tick()", BLOCKED),
+        ("import threading; node.tick()", "pass", BLOCKED),
+        (f"{THREAD}=print).start(); node.tick()", "pass", BLOCKED),
+        ("node.spin_speed = 1; node.tick(); print(node.spin_speed)", "pass", BLOCKED),
     ],
 )
 def test_nobody_else_spins(main: str, constructor: str, where: str) -> None:
@@ -76,7 +81,10 @@ def test_nobody_else_spins(main: str, constructor: str, where: str) -> None:
     [
         "rclpy.spin_once(node); node.tick()",
         "tf2_ros.TransformListener(1, node, spin_thread=True); node.tick()",
-        "import threading; node.tick()",
+        f"{THREAD}=rclpy.spin, args=(node,)).start(); node.tick()",
+        f"{THREAD}=lambda: rclpy.spin(node)).start(); node.tick()",
+        "def work(): rclpy.spin(node)\n    " + f"{THREAD}=work).start(); node.tick()",
+        "import thread_helpers; node.tick()",
         "start_spinning(node); node.tick()",
         "rclpy.spin(node)",
     ],
