@@ -40,7 +40,7 @@ _KEPT_DECORATORS = {
     "setter",
     "staticmethod",
 }
-_NATIVE = {"_rclpy", "rclpy_implementation", "_rclpy_action"}
+_NATIVE = {"_rclpy", "rclpy_implementation", "import_c_library"}
 """How the sources call the extension module, whose types nothing declares."""
 _TYPE_MAKERS = ("TypeVar(", "TypedDict(", "NamedTuple(", "namedtuple(")
 _LITERALS = {bool: "bool", int: "int", float: "float", str: "str", bytes: "bytes"}

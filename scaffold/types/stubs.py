@@ -38,6 +38,8 @@ def library_stubs(distribution: str) -> dict[str, str]:
     files: dict[str, str] = {}
     for directory, _, names in os.walk(top):
         for name in names:
+            if not name.endswith(".pyi"):
+                continue
             path = os.path.join(directory, name)
             with open(path, encoding="utf-8") as file:
                 files[os.path.relpath(path, top)] = file.read()

@@ -1,0 +1,16 @@
+from launch.action import Action as Action
+from launch.condition import Condition
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType as SomeSubstitutionsType,
+)
+from launch.substitution import Substitution as Substitution
+
+class UnsetEnvironmentVariable(Action):
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        *,
+        condition: Condition | None = None,
+    ) -> None: ...
+    @property
+    def name(self) -> list[Substitution]: ...

@@ -1,0 +1,3 @@
+from launch.conditions.launch_configuration_equals import LaunchConfigurationEquals
+
+class LaunchConfigurationNotEquals(LaunchConfigurationEquals): ...

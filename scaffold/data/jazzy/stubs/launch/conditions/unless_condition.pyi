@@ -1,0 +1,3 @@
+from launch.conditions.if_condition import IfCondition as IfCondition
+
+class UnlessCondition(IfCondition): ...

@@ -1,0 +1,1 @@
+from launch.descriptions.executable import Executable as Executable

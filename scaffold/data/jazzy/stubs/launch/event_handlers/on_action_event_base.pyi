@@ -1,0 +1,17 @@
+from collections.abc import Callable
+from typing import Any
+
+from _ros_launch import Reaction
+from launch.event import Event
+from launch.event_handler import BaseEventHandler
+
+class OnActionEventBase(BaseEventHandler):
+    def __init__(
+        self,
+        *,
+        action_matcher: Any,
+        on_event: Reaction[Event],
+        target_event_cls: type[Event],
+        target_action_cls: type[Any],
+        handle_once: bool = False,
+    ) -> None: ...

@@ -1,0 +1,5 @@
+from collections.abc import Callable
+
+from launch.action import Action
+
+def matches_action(target_action: Action) -> Callable[[Action], bool]: ...

@@ -1,0 +1,3 @@
+from launch.events.process.running_process_event import RunningProcessEvent
+
+class ProcessStarted(RunningProcessEvent): ...

@@ -1,0 +1,3 @@
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
+
+class ShutdownProcess(ProcessTargetedEvent): ...

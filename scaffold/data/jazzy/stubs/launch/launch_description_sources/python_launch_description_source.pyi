@@ -1,0 +1,7 @@
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType as SomeSubstitutionsType,
+)
+
+class PythonLaunchDescriptionSource(LaunchDescriptionSource):
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None: ...

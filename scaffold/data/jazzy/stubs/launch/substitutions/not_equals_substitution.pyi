@@ -1,0 +1,3 @@
+from launch.substitutions.equals_substitution import EqualsSubstitution
+
+class NotEqualsSubstitution(EqualsSubstitution): ...

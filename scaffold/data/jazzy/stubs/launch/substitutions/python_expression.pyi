@@ -1,0 +1,13 @@
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType as SomeSubstitutionsType,
+)
+from launch.substitution import Substitution as Substitution
+
+class PythonExpression(Substitution):
+    def __init__(
+        self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ...
+    ) -> None: ...
+    @property
+    def expression(self) -> list[Substitution]: ...
+    @property
+    def python_modules(self) -> list[Substitution]: ...

@@ -1,0 +1,6 @@
+from launch.substitution import Substitution as Substitution
+
+class TextSubstitution(Substitution):
+    def __init__(self, *, text: str) -> None: ...
+    @property
+    def text(self) -> str: ...

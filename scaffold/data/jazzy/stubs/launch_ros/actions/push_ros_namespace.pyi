@@ -1,0 +1,13 @@
+from launch.action import Action as Action
+from launch.condition import Condition
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType as SomeSubstitutionsType,
+)
+from launch.substitution import Substitution as Substitution
+
+class PushROSNamespace(Action):
+    def __init__(
+        self, namespace: SomeSubstitutionsType, *, condition: Condition | None = None
+    ) -> None: ...
+    @property
+    def namespace(self) -> list[Substitution]: ...

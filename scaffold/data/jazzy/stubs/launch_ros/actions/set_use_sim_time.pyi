@@ -1,0 +1,7 @@
+from launch.action import Action as Action
+from launch.condition import Condition
+
+class SetUseSimTime(Action):
+    def __init__(self, value: bool, *, condition: Condition | None = None) -> None: ...
+    @property
+    def value(self) -> bool: ...

@@ -1,0 +1,4 @@
+from launch_ros.descriptions.composable_node import ComposableNode as ComposableNode
+from launch_ros.parameter_descriptions import Parameter as Parameter
+from launch_ros.parameter_descriptions import ParameterFile as ParameterFile
+from launch_ros.parameter_descriptions import ParameterValue as ParameterValue

@@ -1,0 +1,3 @@
+from launch_ros.event_handlers.on_state_transition import (
+    OnStateTransition as OnStateTransition,
+)
