@@ -14,7 +14,17 @@ if TYPE_CHECKING:
 
 _DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
 _STUBS = "stubs"
-INCOMPLETE: frozenset[str] = frozenset()
+INCOMPLETE = frozenset(
+    {
+        "cv_bridge",
+        "image_geometry",
+        "launch_testing",
+        "launch_testing_ros",
+        "launch_xml",
+        "launch_yaml",
+        "tf2_kdl",
+    }
+)
 """The libraries whose stubs leave modules or names out."""
 
 

@@ -1,10 +1,15 @@
 from launch import actions as actions
 from launch import conditions as conditions
 from launch import descriptions as descriptions
+from launch import event_handlers as event_handlers
 from launch import events as events
 from launch import frontend as frontend
+from launch import launch_description_sources as launch_description_sources
 from launch import logging as logging
+from launch import some_entities_type as some_entities_type
+from launch import some_substitutions_type as some_substitutions_type
 from launch import substitutions as substitutions
+from launch import utilities as utilities
 from launch.action import Action as Action
 from launch.condition import Condition as Condition
 from launch.event import Event as Event

@@ -2,5 +2,9 @@ from launch_ros import actions as actions
 from launch_ros import descriptions as descriptions
 from launch_ros import event_handlers as event_handlers
 from launch_ros import events as events
+from launch_ros import parameter_descriptions as parameter_descriptions
+from launch_ros import parameters_type as parameters_type
+from launch_ros import remap_rule_type as remap_rule_type
 from launch_ros import ros_adapters as ros_adapters
 from launch_ros import substitutions as substitutions
+from launch_ros import utilities as utilities
