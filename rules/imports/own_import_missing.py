@@ -12,6 +12,7 @@ from scaffold.api.install import (
     meant_module,
     modules_of,
     own_roots,
+    sibling_not_installed,
 )
 from scaffold.api.python import Import, PythonModule
 
@@ -20,15 +21,27 @@ _SETUP = (
     "    entry_points={'console_scripts': ['node = talker.node:main']},\n)\n"
 )
 _FILES = {"setup.py": _SETUP, "talker/__init__.py": "", "talker/text.py": "def make():\n    pass\n"}
+_LISTS = (
+    "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+    "install(PROGRAMS {} DESTINATION lib/${{PROJECT_NAME}})\nament_package()\n"
+)
+_PROGRAM = {
+    "package.xml": "<package><name>talker</name>"
+    "<export><build_type>ament_cmake</build_type></export></package>\n",
+    "scripts/node.py": "from text import make\n",
+    "scripts/text.py": "def make():\n    pass\n",
+}
 
 
 class OwnImportMissing(Rule):
-    """A module imports another one of its package by a wrong name.
+    """A module imports another one of its package by a wrong name, or one that is not installed.
 
     **Why.** ``ModuleNotFoundError: No module named 'text'`` or ``ImportError: cannot import name``
-    when the node is started; only the package itself is on Python's path, not its directory.
+    when the node is started; only the package itself is on Python's path, not its directory. A
+    program that CMake installs finds what is installed next to it, in ``lib/<package>``.
 
-    **Fix.** Write the full name: ``from talker.text import make``.
+    **Fix.** Write the full name: ``from talker.text import make``. Install what programs share as a
+    Python package, with ``ament_python_install_package``.
 
     **Source.** Python documentation, "The import system"; ROS 2 documentation, "Writing a simple
     publisher and subscriber (Python)".
@@ -77,6 +90,19 @@ class OwnImportMissing(Rule):
                 "closest: 'talker.text'",
             ),
         ),
+        Example(
+            "a file next to a program is installed with it",
+            {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py scripts/text.py")},
+        ),
+        Example(
+            "a file next to a program is not installed",
+            {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py")},
+            Report(
+                "scripts/node.py:1:1",
+                "scripts/text.py is not installed next to this program: "
+                "ModuleNotFoundError; `--symlink-install` hides it",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -108,6 +134,11 @@ class OwnImportMissing(Rule):
             if meant:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
                 yield self.report(node, f"{message}; closest: {meant!r}")
+                return
+            path = sibling_not_installed(package, module, name)
+            if path:
+                message = f"{path} is not installed next to this program: ModuleNotFoundError"
+                yield self.report(node, f"{message}; `--symlink-install` hides it")
 
     def _check_names(
         self, package: Package, node: Import, name: str, path: str

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.api.catalog import keys_of_module, module_of_key
 
 
@@ -37,6 +37,19 @@ class DependencyIsIndexName(Rule):
                 "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"
             },
         ),
+        Example(
+            "OpenCV, for C++",
+            {
+                "package.xml": "<package>\n  <depend>opencv</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(OpenCV REQUIRED)\n",
+            },
+            Report(
+                "package.xml:2:11",
+                "rosdep has no rule for 'opencv'; its key is 'libopencv-dev'",
+                fix="write libopencv-dev",
+            ),
+            fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -44,7 +57,17 @@ class DependencyIsIndexName(Rule):
             module = module_of_key(dependency.name)
             if module is None or package.workspace.get(dependency.name) is not None:
                 continue
-            key = keys_of_module(module)[0]
+            key = _key(package, module)
             message = f"rosdep has no rule for {dependency.name!r}; its key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
             yield self.report(dependency, message, Fix(f"write {key}", (edit,)))
+
+
+def _key(package: Package, module: str) -> str:
+    """Return the key of a library; code in C++ needs that of OpenCV for C++."""
+    keys = keys_of_module(module)
+    try:
+        is_compiled = module == "cv2" and package.cmake.finds("OpenCV")
+    except ViewError:
+        is_compiled = False
+    return "libopencv-dev" if is_compiled else keys[0]

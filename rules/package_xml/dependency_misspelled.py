@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.catalog import similar_package
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.catalog import OTHER_NAMES, similar_package
 
 
 class DependencyMisspelled(Rule):
-    """The name of a dependency is misspelled.
+    """The name of a dependency is misspelled, or one that no package has.
 
     **Why.** rosdep finds no rule for it: ``rosdep install`` and the release stop.
 
@@ -20,6 +20,7 @@ class DependencyMisspelled(Rule):
 
     code = "PX022"
     name = "dependency-misspelled"
+    other_severities = {Severity.WARNING: "a name that other packages suggest: rclpy_action"}
     examples = (
         Example(
             "correct, and an unknown one",
@@ -36,14 +37,26 @@ class DependencyMisspelled(Rule):
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
+        Example(
+            "a name that was never one",
+            {"package.xml": "<package>\n  <depend>rclpy_action</depend>\n</package>\n"},
+            Report(
+                "2:11", "no package 'rclpy_action' is known; use 'rclpy'", severity=Severity.WARNING
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for dependency in package.manifest.dependencies:
             name = dependency.name
-            meant = similar_package(name)
-            if meant is None or package.workspace.get(name) is not None or name == package.name:
+            if package.workspace.get(name) is not None or name == package.name:
                 continue
-            message = f"no package {name!r} is known; closest: {meant!r}"
-            edit = Edit("package.xml", *dependency.element.text_span, meant)
-            yield self.report(dependency, message, Fix(f"write {meant}", (edit,)))
+            other = OTHER_NAMES.get(name)
+            if other is not None:
+                message = f"no package {name!r} is known; use {other!r}"
+                yield self.report(dependency, message, severity=Severity.WARNING)
+            meant = similar_package(name)
+            if meant is not None:
+                message = f"no package {name!r} is known; closest: {meant!r}"
+                edit = Edit("package.xml", *dependency.element.text_span, meant)
+                yield self.report(dependency, message, Fix(f"write {meant}", (edit,)))

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.catalog import ROS1_PACKAGES, ROS_PACKAGES, module_of_key, similar_package
+from scaffold.api.catalog import (
+    OTHER_NAMES,
+    ROS1_PACKAGES,
+    ROS_PACKAGES,
+    module_of_key,
+    similar_package,
+)
 
-PACKAGE = "[a-z][a-z0-9_]*"
 KINDS = frozenset(
     {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
     | {"build_export_depend", "buildtool_export_depend"}
@@ -24,8 +28,7 @@ class DependencyUnresolvable(Rule):
 
     Said only where ``rosdep update`` was run for Jazzy. A key counts as known if it has a rule for
     any system: then it is spelled right, and who checks may well mean another system than this one.
-    A name that may be that of a package counts only in a sourced environment, where it is known
-    what is installed: else it may come from a repository that is not at hand.
+    The packages of the distribution are among its keys.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. So do
     the build farm and everyone who installs the package with its dependencies.
@@ -53,8 +56,13 @@ class DependencyUnresolvable(Rule):
         ),
         Example("rosdep is not there to say", {"package.xml": _MANIFEST.format("pyserial-3")}),
         Example(
-            "perhaps a package from elsewhere",
+            "a package from elsewhere",
             {"package.xml": _MANIFEST.format("robot_serial")},
+            Report(
+                "3:11",
+                "rosdep's cache has no rule for 'robot_serial', and no package of "
+                "the workspace or of AMENT_PREFIX_PATH has the name",
+            ),
             rosdep_keys=_KEYS,
         ),
         Example(
@@ -89,8 +97,6 @@ class DependencyUnresolvable(Rule):
             seen.add(name)
             if not name or "$" in name or _is_known(package, name):
                 continue
-            if not os.environ.get("AMENT_PREFIX_PATH") and re.fullmatch(PACKAGE, name):
-                continue
             rosdep = package.workspace.rosdep
             if rosdep is None:
                 return
@@ -104,7 +110,7 @@ class DependencyUnresolvable(Rule):
 
 def _is_known(package: Package, name: str) -> bool:
     """Tell whether a name is that of a package, or has another rule that speaks of it."""
-    if name in ROS_PACKAGES or name in ROS1_PACKAGES or name == package.name:
+    if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
     if similar_package(name) or module_of_key(name) or package.workspace.get(name) is not None:
         return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
@@ -9,6 +10,8 @@ from scaffold.api.manifest import declared, required_packages
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
+_INDEX = frozenset({"torch", "torchvision"})
+"""Many install them with pip, for their graphics card."""
 
 
 class ImportUndeclared(Rule):
@@ -25,7 +28,10 @@ class ImportUndeclared(Rule):
 
     code = "PX020"
     name = "import-undeclared"
-    other_severities = {Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`"}
+    other_severities = {
+        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, "
+        "and torch, which many install with pip"
+    }
     examples = (
         Example(
             "declared; the standard library, own modules and guarded imports need nothing",
@@ -118,6 +124,34 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a library that many install with pip",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "talker/__init__.py": "",
+                "talker/node.py": "import torch\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'torch', which no dependency in package.xml provides; add "
+                "<exec_depend>python3-torch</exec_depend>",
+                fix="declare python3-torch",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>python3-torch</exec_depend>\n</package>\n"
+            },
+        ),
+        Example(
+            "a library that pip is asked for",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "requirements.txt": "numpy\ntorch>=2.0\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import torch\n",
+            },
+        ),
+        Example(
             "a message package and a Python library are missing",
             {
                 "package.xml": '<package format="3">\n'
@@ -157,6 +191,8 @@ class ImportUndeclared(Rule):
             there = declared(package, for_tests=need.for_tests)
             if any(key in there.direct or key in there.along for key in need.keys):
                 continue
+            if need.module in _INDEX and _is_required(package, need.module):
+                continue
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
             message = (
@@ -164,11 +200,22 @@ class ImportUndeclared(Rule):
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            comes_with_launch = need.keys[0] in _LAUNCH
+            comes_otherwise = need.keys[0] in _LAUNCH or need.module in _INDEX
             yield self.report(
                 need,
                 message,
                 fix,
-                severity=Severity.WARNING if comes_with_launch else Severity.ERROR,
+                severity=Severity.WARNING if comes_otherwise else Severity.ERROR,
                 cause=f"dependency {need.keys[0]}",
             )
+
+
+def _is_required(package: Package, module: str) -> bool:
+    """Return whether setup.py or a file of requirements asks pip for a module."""
+    wanted = re.compile(rf"^\s*(?:.*['\"])?{module}\b(?!\.)", re.MULTILINE)
+    files = [path for path in package.files if re.search(r"(^|/)requirements[^/]*\.txt$", path)]
+    return any(
+        wanted.search(package.source(path).text)
+        for path in [*files, "setup.py"]
+        if package.has(path)
+    )

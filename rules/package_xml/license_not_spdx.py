@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.manifest import spdx_of
+from scaffold.api.manifest import similar_license, spdx_of
 
 
 class LicenseNotSpdx(Rule):
@@ -22,6 +22,7 @@ class LicenseNotSpdx(Rule):
     code = "PX005"
     name = "license-not-spdx"
     severity = Severity.INFO
+    other_severities = {Severity.WARNING: "a misspelled identifier"}
     examples = (
         Example("SPDX", {"package.xml": "<package><license>MIT</license></package>\n"}),
         Example(
@@ -33,6 +34,17 @@ class LicenseNotSpdx(Rule):
             {"package.xml": "<package>\n  <license>MIT License</license>\n</package>\n"},
             Report("2:12", "the SPDX identifier of 'MIT License' is MIT", fix="write MIT"),
             fixed={"package.xml": "<package>\n  <license>MIT</license>\n</package>\n"},
+        ),
+        Example(
+            "a slip of the keyboard",
+            {"package.xml": "<package>\n  <license>BBSD-3-Clause</license>\n</package>\n"},
+            Report(
+                "2:12",
+                "no license is called 'BBSD-3-Clause'; closest: 'BSD-3-Clause'",
+                fix="write BSD-3-Clause",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": "<package>\n  <license>BSD-3-Clause</license>\n</package>\n"},
         ),
         Example(
             "this version alone, or later ones as well?",
@@ -49,6 +61,13 @@ class LicenseNotSpdx(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element in package.manifest.all("license"):
             meant = spdx_of(element.text)
+            near = similar_license(element.text)
+            if near:
+                message = f"no license is called {element.text!r}; closest: {near!r}"
+                edit = Edit("package.xml", *element.text_span, near)
+                fix = Fix(f"write {near}", (edit,))
+                at = element.text_location
+                yield self.report(at, message, fix, severity=Severity.WARNING)
             if not meant or element.text in meant or meant == ("Apache-2.0",):
                 continue
             if len(meant) > 1:

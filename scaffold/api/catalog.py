@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.model.catalog import (
     BUILD_TOOLS,
+    OTHER_NAMES,
     ROS1_PACKAGES,
     ROS_PACKAGES,
     keys_of_module,
@@ -14,6 +15,7 @@ from scaffold.model.catalog import (
 
 __all__ = [
     "BUILD_TOOLS",
+    "OTHER_NAMES",
     "ROS1_PACKAGES",
     "ROS_PACKAGES",
     "keys_of_module",

@@ -12,6 +12,7 @@ from scaffold.model.install.modules import (
     names_imported,
     own_roots,
     paths_imported_by,
+    sibling_not_installed,
 )
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
@@ -28,4 +29,5 @@ __all__ = [
     "own_roots",
     "paths_imported_by",
     "share_of",
+    "sibling_not_installed",
 ]

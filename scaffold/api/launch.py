@@ -33,6 +33,7 @@ from scaffold.model.launch.python_file import (
     returns,
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
+from scaffold.model.launch.remappings import Remapping, has_name, names_of, remappings_of
 from scaffold.model.launch.share_paths import paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
@@ -52,6 +53,7 @@ __all__ = [
     "LaunchFile",
     "MarkupNode",
     "Reference",
+    "Remapping",
     "StartedNode",
     "consumers",
     "data_files",
@@ -61,6 +63,7 @@ __all__ = [
     "failure",
     "function_of",
     "given_arguments",
+    "has_name",
     "included",
     "is_known",
     "is_loaded",
@@ -71,10 +74,12 @@ __all__ = [
     "may_be_set_elsewhere",
     "meant_package",
     "names_alike",
+    "names_of",
     "node_names",
     "nodes_for",
     "package_uses",
     "paths_of",
+    "remappings_of",
     "returns",
     "set_names",
     "signature",

@@ -8,7 +8,7 @@ from scaffold.model.manifest.manifest import Manifest
 from scaffold.model.manifest.package_name import name_used_elsewhere
 from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
 from scaffold.model.manifest.requirements import declared, required_packages
-from scaffold.model.manifest.spdx import spdx_of
+from scaffold.model.manifest.spdx import similar_license, spdx_of
 
 __all__ = [
     "ConditionError",
@@ -20,5 +20,6 @@ __all__ = [
     "name_used_elsewhere",
     "required_packages",
     "requirements",
+    "similar_license",
     "spdx_of",
 ]

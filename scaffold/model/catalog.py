@@ -123,6 +123,7 @@ _OTHER_MODULES = {
     "dateutil": "python3-dateutil",
     "em": "python3-empy",
     "evdev": "python3-evdev",
+    "fastapi": "python3-fastapi",
     "filelock": "python3-filelock",
     "flask": "python3-flask",
     "geopandas": "python3-geopandas",
@@ -137,6 +138,7 @@ _OTHER_MODULES = {
     "matplotlib": "python3-matplotlib",
     "mock": "python3-mock",
     "moveit": "moveit_py moveit",
+    "msgpack": "python3-msgpack",
     "netifaces": "python3-netifaces",
     "networkx": "python3-networkx",
     "numpy": "python3-numpy",
@@ -151,6 +153,7 @@ _OTHER_MODULES = {
     "pydantic": "python3-pydantic",
     "pydot": "python3-pydot",
     "pygame": "python3-pygame",
+    "pymap3d": "python3-pymap3d pymap3d-pip",
     "pyproj": "python3-pyproj",
     "pytest": "python3-pytest ament_cmake_pytest",
     "requests": "python3-requests",
@@ -167,13 +170,17 @@ _OTHER_MODULES = {
     "sympy": "python3-sympy",
     "tabulate": "python3-tabulate",
     "tf2_ros": "tf2_ros_py tf2_ros",
+    "torch": "python3-torch python3-pytorch-pip",
+    "torchvision": "python3-torchvision python3-pytorch-pip",
     "tornado": "python3-tornado",
     "tqdm": "python3-tqdm",
     "transforms3d": "python3-transforms3d tf_transformations",
+    "transitions": "python3-transitions",
     "trimesh": "python3-trimesh-pip",
     "typing_extensions": "python3-typing-extensions",
     "urdf_parser_py": "urdfdom_py",
     "usb": "python3-usb",
+    "uvicorn": "python3-uvicorn",
     "websocket": "python3-websocket",
     "websockets": "python3-websockets",
     "wx": "python3-wxgtk4.0",
@@ -218,6 +225,18 @@ ROS1_PACKAGES = {
 }
 """Packages of ROS 1 that ROS 2 Jazzy does not have, and what took their place."""
 
+OTHER_NAMES = {
+    "ign_ros2_control": "gz_ros2_control",
+    "rclpy_action": "rclpy",
+    "rclpy_lifecycle": "rclpy",
+    "ros_ign": "ros_gz",
+    "ros_ign_bridge": "ros_gz_bridge",
+    "ros_ign_gazebo": "ros_gz_sim",
+    "ros_ign_image": "ros_gz_image",
+    "ros_ign_interfaces": "ros_gz_interfaces",
+}
+"""Names that no package of Jazzy has, and the package that has what they stand for."""
+
 
 def keys_of_module(root: str) -> tuple[str, ...]:
     """Return the manifest keys that provide a Python module, the usual one first.
@@ -246,7 +265,7 @@ def module_of_key(key: str) -> str | None:
     if key in _SYSTEM_KEYS:
         return None
     for module, keys in _OTHER_MODULES.items():
-        is_named = key == module or key.lower() == _INDEX_NAMES.get(module, "").lower() != ""
+        is_named = key == module or key.lower() in _INDEX_NAMES.get(module, "").lower().split()
         if is_named and key not in keys.split():
             return module
     return None
@@ -257,7 +276,7 @@ _SYSTEM_KEYS = frozenset({"git", "graphviz", "lark", "yaml"})
 
 _INDEX_NAMES = {
     "PIL": "pillow",
-    "cv2": "opencv-python",
+    "cv2": "opencv-python opencv",
     "bs4": "beautifulsoup4",
     "git": "GitPython",
     "serial": "pyserial",

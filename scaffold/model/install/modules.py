@@ -5,12 +5,15 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from scaffold.model.catalog import ROS_PACKAGES
-from scaffold.model.cmake.ament import programs
+from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
+from scaffold.model.cmake.ament import has_unknown_commands, programs
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.module import Import, PythonModule
+
+_ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
+"""Commands that put modules on Python's path in another way."""
 
 
 def absolute_name(module: PythonModule, node: Import) -> str:
@@ -95,6 +98,32 @@ def meant_module(package: Package, module: PythonModule, name: str) -> str:
         mended = "sys.path" in module.source.text or bool(others)
         return "" if mended else f"{own}.{name}"
     return ""
+
+
+def sibling_not_installed(package: Package, module: PythonModule, name: str) -> str:
+    """Return the file next to a program of CMake that it imports and that is not installed there.
+
+    Empty where the module may be installed in another way, or come from elsewhere.
+    """
+    if package.build_type != "ament_cmake" or "sys.path" in module.source.text:
+        return ""
+    directory = module.path.rpartition("/")[0]
+    stem = f"{directory}/{name}".replace(".", "/").strip("/")
+    path = next((x for x in (f"{stem}.py", f"{stem}/__init__.py") if package.has(x)), "")
+    root = name.partition(".")[0]
+    if not path or root in sys.stdlib_module_names or keys_of_module(root):
+        return ""
+    places = {item.destination for item in programs(package) if item.path == module.path}
+    if not places or has_unknown_commands(package) or package.cmake.find(*_ELSEWHERE):
+        return ""
+    for install in package.cmake.installs:
+        for item in install.items:
+            if item.path is None or install.destination is None:
+                return ""
+            is_around = path == item.path or path.startswith(f"{item.path}/".removeprefix("./"))
+            if is_around or item.path == ".":
+                return ""
+    return path
 
 
 def _lacks_package(package: Package, module: PythonModule, own: str, name: str) -> bool:

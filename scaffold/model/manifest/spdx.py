@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from scaffold.model.catalog import is_one_slip
+
 _SPELLINGS = {
     "apache": ("Apache-2.0",),
     "apache 2": ("Apache-2.0",),
@@ -43,6 +45,7 @@ _SPELLINGS = {
     "mpl": ("MPL-2.0",),
     "mpl 2.0": ("MPL-2.0",),
 }
+_SHORTEST = 8
 _NOISE = r"\b(?:the|license|licence|licensed|version|software|new|modified|simplified)\b"
 
 
@@ -59,3 +62,21 @@ def spdx_of(text: str) -> tuple[str, ...]:
         if result:
             return result
     return ()
+
+
+def similar_license(text: str) -> str:
+    """Return the SPDX identifier that a text misspells by one letter; empty without one.
+
+    A digit or a separator is no slip, and short names resemble each other by chance.
+    """
+    if len(text) < _SHORTEST or spdx_of(text) or text.upper().startswith("AGPL"):
+        return ""
+    plain = _letters(text)
+    known = sorted({name for names in _SPELLINGS.values() for name in names})
+    if plain in map(_letters, known):
+        return ""
+    return next((name for name in known if is_one_slip(text, name, digits=False)), "")
+
+
+def _letters(text: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", text.lower())

@@ -64,7 +64,7 @@ def _declared_by(owner: NodeDefinition, package: Package) -> Declared:
             kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
             types[name] = kind if name not in types or types[name] == kind else None
             places.setdefault(name, parameter)
-        complete = complete and not current.declares_automatically and not _escapes(current)
+        complete = complete and not current.declares_automatically and not escapes(current)
         complete = complete and all(item.owner is not None for item in current.facts.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
@@ -192,7 +192,7 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
     return parameter.type
 
 
-def _escapes(owner: NodeDefinition) -> bool:
+def escapes(owner: NodeDefinition) -> bool:
     """Tell whether the node is handed to code that may declare more."""
     if not isinstance(owner, NodeClass):
         return _is_handed_on(owner, owner.facts.module.tree, owner.name)
