@@ -36,6 +36,7 @@ VERBS = {
     "rules": "list and explain the rules",
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",
+    "stubs": "write type stubs of rclpy, launch, tf2 and all interfaces for editors",
     "smoke": "build packages, run their executables and observe them",
     "config": "show the configuration and where each value comes from",
     "cache": "show or clean what runs remember",

@@ -1,0 +1,89 @@
+"""``ros2-scaffold stubs [PATH...]``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from typing import TYPE_CHECKING
+
+from scaffold.cli import terminal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from scaffold.model.workspace.workspace import Workspace
+
+TYPINGS = "typings"
+"""Where Pylance and pyright look for stubs."""
+_DISTRIBUTION = "jazzy"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    from scaffold.cli import flags
+
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        metavar="PATH",
+        help="packages or workspaces whose own interfaces get stubs "
+        "(default: the current directory)",
+    )
+    parser.add_argument(
+        "--output",
+        default=TYPINGS,
+        metavar="DIR",
+        help=f"where the stubs go (default: {TYPINGS}, where Pylance and pyright look for them)",
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite files that this verb has not written"
+    )
+    flags.add_looking(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the stubs; return the exit code."""
+    from scaffold.cli.exit_codes import CLEAN
+    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.types import typings
+    from scaffold.types.stubs import stub_files
+
+    workspace = _workspace(options.paths or ["."])
+    stubs = stub_files(_DISTRIBUTION, Definitions.around(workspace))
+    plan = typings.plan(options.output, stubs, force=options.force)
+    if options.diff:
+        terminal.show_patch(plan.diff())
+        return CLEAN
+    written, count = plan.changes, len(stubs)
+    if not options.dry_run:
+        plan.write(force=True)
+    verb = "would be written" if options.dry_run else "written"
+    terminal.show(f"{options.output}: {count} stubs, {len(written)} {verb}")
+    terminal.show(_advice(options.output))
+    return CLEAN
+
+
+def _advice(output: str) -> str:
+    """Return what is left to configure."""
+    default = os.path.normpath(output) == TYPINGS
+    pyright = (
+        "Pylance and pyright read it without configuration"
+        if default
+        else f'Pylance and pyright need `"stubPath": "{output}"`'
+    )
+    return f'{pyright}, mypy needs `mypy_path = "{output}"`; others: docs/stubs.md'
+
+
+def _workspace(paths: Sequence[str]) -> Workspace:
+    from scaffold.errors import InputError
+    from scaffold.model.discovery import targets as discovery
+    from scaffold.model.workspace.workspace import Workspace
+
+    for path in paths:
+        if not os.path.isdir(path):
+            raise InputError(f"{path}: no such directory")
+    try:
+        targets = discovery.find(list(paths))
+    except InputError:  # a directory without packages is fine: the libraries have stubs as well
+        targets = []
+    return Workspace(target.package for target in targets)
