@@ -59,6 +59,16 @@ class InstalledPathMissing(Rule):
                 "the directory include/ is empty: git does not keep it, then the build stops",
             ),
         ),
+        Example(
+            "a directory that git ignores, and a package in a directory",
+            {
+                "CMakeLists.txt": _INSTALL.format(
+                    "DIRECTORY built templates templates/inner/launch"
+                ),
+                "templates/inner/package.xml": "<package/>\n",
+                ".gitignore": "/built/\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -78,6 +88,9 @@ class InstalledPathMissing(Rule):
             return None
         if runs_if_exists(install.command) or is_untracked(package, path):
             return None
+        nested = [f"{directory}/" for directory in package.tree.nested]
+        if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
+            return None  # the files of a package inside of this one are its own
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
         if package.has(path):

@@ -8,6 +8,8 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, 
 from scaffold.api.cmake import Generation, generations, may_generate_more, uses_ament
 from scaffold.api.interfaces import is_commented_out, names_used_in_code, ungenerated_candidates
 
+_NAMES = ("_msgs", "_interfaces", "_srvs", "_actions")
+"""Ends of the names of packages whose interfaces are for others."""
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 
 
@@ -54,6 +56,7 @@ class InterfaceNotGenerated(Rule):
         Example(
             "nothing is generated",
             {
+                "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
                 "msg/Beat.msg": "int32 count\n",
             },
@@ -65,14 +68,21 @@ class InterfaceNotGenerated(Rule):
         Example(
             "in a Python package",
             {
-                "package.xml": "<package><export><build_type>ament_python</build_type></export>"
-                "</package>\n",
+                "package.xml": "<package><name>robot</name><export>"
+                "<build_type>ament_python</build_type></export></package>\n",
                 "setup.py": "",
                 "msg/Beat.msg": "int32 count\n",
+                "msg/Old.msg": "int32 count\n",
+                "robot/talker.py": "from robot.msg import Beat\n",
             },
             Report(
                 "msg/Beat.msg:1:1",
                 "an ament_python package generates no interfaces: move it to ament_cmake",
+            ),
+            Report(
+                "msg/Old.msg:1:1",
+                "an ament_python package generates no interfaces: move it to ament_cmake",
+                severity=Severity.WARNING,
             ),
         ),
     )
@@ -81,10 +91,12 @@ class InterfaceNotGenerated(Rule):
         files = ungenerated_candidates(package)
         if not files:
             return
+        used = names_used_in_code(package)
         if package.build_type == "ament_python":
             for path in files:
                 message = "an ament_python package generates no interfaces: move it to ament_cmake"
-                yield self.report(package.start_of(path), message)
+                at = package.start_of(path)
+                yield self.report(at, message, severity=_severity(_type_of(path) in used))
             return
         calls = generations(package)
         if not all(call.is_complete for call in calls) or may_generate_more(package):
@@ -93,21 +105,29 @@ class InterfaceNotGenerated(Rule):
             project = package.cmake.project
             if project is not None and uses_ament(package):
                 message = f"nothing generates {files[0]}: rosidl_generate_interfaces is not called"
-                yield self.report(project.name_location, message)
+                is_used = package.name.endswith(_NAMES) or any(_type_of(x) in used for x in files)
+                yield self.report(project.name_location, message, severity=_severity(is_used))
             return
         listed = {file.path for call in calls for file in call.files}
         for path in files:
             if path in listed or is_commented_out(package, path):
                 continue
-            name = path.rpartition("/")[2].rpartition(".")[0]
+            name = _type_of(path)
             message = f"{path} is not among the files: no code is generated for {name}"
-            is_used = name in names_used_in_code(package)
             yield self.report(
                 calls[0].command.name_location,
                 message,
                 _add(calls[0], path),
-                severity=Severity.ERROR if is_used else Severity.WARNING,
+                severity=_severity(name in used),
             )
+
+
+def _type_of(path: str) -> str:
+    return path.rpartition("/")[2].rpartition(".")[0]
+
+
+def _severity(is_used: bool) -> Severity:  # noqa: FBT001  its name says it
+    return Severity.ERROR if is_used else Severity.WARNING
 
 
 def _add(call: Generation, path: str) -> Fix | None:

@@ -53,6 +53,33 @@ class ShareDirectoryNotInstalled(Rule):
                 "launch/ is not installed, so launch/talk.launch.py is not found at run time",
             ),
         ),
+        Example(
+            "a file of that name, of this package and of another one",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": _LISTS.format(
+                    "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
+                ),
+                "launch/talk.launch.py": "import os\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n\n"
+                "def generate_launch_description():\n"
+                "    own = get_package_share_directory('talker')\n"
+                "    other = get_package_share_directory('robot')\n"
+                "    return [os.path.join(own, 'config', 'talker.yaml'),\n"
+                "            os.path.join(other, 'maps', 'floor.yaml')]\n",
+                "config/talker.yaml": "",
+                "maps/floor.yaml": "",
+            },
+            Report(
+                "CMakeLists.txt:4:1",
+                "config/ is not installed, so config/talker.yaml is not found at run time",
+            ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "maps/ is not installed, so maps/floor.yaml is not found at run time",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

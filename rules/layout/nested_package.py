@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api.cmake import installs_directory
 
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
 """Directories of code of others."""
@@ -35,6 +36,15 @@ class NestedPackage(Rule):
             },
         ),
         Example(
+            "a template that the outer package installs",
+            {
+                "package.xml": "<package/>\n",
+                "CMakeLists.txt": "project(robot)\n"
+                "install(DIRECTORY templates DESTINATION share/robot)\n",
+                "templates/talker/package.xml": "<package/>\n",
+            },
+        ),
+        Example(
             "a package of messages inside the package that uses them",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
             Report(
@@ -54,10 +64,12 @@ class NestedPackage(Rule):
 
 
 def _is_built(package: Package, directory: str) -> bool:
-    """Tell whether the outer package builds a directory: its CMake goes there, or it is a copy."""
+    """Tell whether the outer package builds or installs a directory, or it is a copy."""
     if not _COPIES.isdisjoint(directory.split("/")):
         return True
     try:
+        if installs_directory(package, directory):
+            return True
         commands = package.cmake.find("add_subdirectory", "set", "include", "include_directories")
     except ViewError:
         return False

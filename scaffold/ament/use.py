@@ -27,6 +27,8 @@ class Use(NamedTuple):
     """Why the linter does not run; for people."""
     excluded: tuple[str, ...] = ()
     """Patterns of files that it is configured to skip."""
+    is_excluded: bool = False
+    """The package switches it off on purpose."""
 
     def covers(self, path: str) -> bool:
         """Tell whether the linter looks at a file."""
@@ -72,9 +74,13 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
         words = [argument.text for argument in command.arguments]
         line = command.location.line
         if words[:1] == [f"{wrapper}_FOUND"] and words[1:2] not in ([], ["FALSE"], ["OFF"], ["0"]):
-            return Use(runs=False, why_not=f"CMakeLists.txt line {line} switches it off")
+            return Use(
+                runs=False, why_not=f"CMakeLists.txt line {line} switches it off", is_excluded=True
+            )
         if "AMENT_LINT_AUTO_EXCLUDE" in words[:2] and wrapper in words:
-            return Use(runs=False, why_not=f"CMakeLists.txt line {line} excludes it")
+            return Use(
+                runs=False, why_not=f"CMakeLists.txt line {line} excludes it", is_excluded=True
+            )
     return _excluding(cmake, _file_excludes(cmake))
 
 

@@ -58,14 +58,22 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
         return
     else:
         problems = _PROBLEMS[code](package, structure(package))
+    is_harmless = code == "PX065" and _is_for_linter_alone(package)
     for problem in problems:
-        yield diagnostic(code, *problem)
+        reported = diagnostic(code, *problem)
+        yield reported._replace(severity=Severity.WARNING) if is_harmless else reported
+
+
+def _is_for_linter_alone(package: Package) -> bool:
+    """Tell whether colcon reads the manifest as it is, and no linter looks at its schema."""
+    is_known = package.manifest.declared_format in {None, *map(str, FORMATS)}
+    return is_known and not linter_use(package, "xmllint").runs
 
 
 def _unreadable(package: Package) -> Iterator[_Problem]:
     use = linter_use(package, "xmllint")
     for path in xmllint.of_package(package):
-        if use.runs and not use.covers(path):
+        if path != MANIFEST and (use.is_excluded or (use.runs and not use.covers(path))):
             continue
         problem = xmllint.mistake(package, path) if path != MANIFEST else None
         if problem is not None:

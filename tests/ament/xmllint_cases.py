@@ -281,6 +281,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml:1:1",
                 "names the schema of format 2, but <package> has 3",
                 fix="name the schema of format 3",
+                severity=Severity.WARNING,
             ),
             fixed={"package.xml": LINE.format(3) + '<package format="3"/>\n'},
         ),
@@ -290,7 +291,26 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:2:2",
                 "no format: that is format 1, but the schema named is format 3",
+                severity=Severity.WARNING,
             ),
+        ),
+        Example(
+            "different, and a test runs ament_xmllint",
+            {
+                "package.xml": LINE.format(2)
+                + '<package format="3"><test_depend>ament_cmake_xmllint</test_depend></package>\n',
+                "CMakeLists.txt": "find_package(ament_lint_auto REQUIRED)\n"
+                "ament_lint_auto_find_test_dependencies()\n",
+            },
+            Report(
+                "package.xml:1:1",
+                "names the schema of format 2, but <package> has 3",
+                fix="name the schema of format 3",
+            ),
+            fixed={
+                "package.xml": LINE.format(3)
+                + '<package format="3"><test_depend>ament_cmake_xmllint</test_depend></package>\n',
+            },
         ),
         Example(
             "a format that does not exist",

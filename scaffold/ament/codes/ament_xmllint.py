@@ -149,6 +149,9 @@ REP-149 but not in the schema of format 3, so the linter refuses it.
         Severity.ERROR,
         fix=Safety.SAFE,
         message=("names the schema of format 2, but <package> has 3"),
+        other_severities={
+            Severity.WARNING: "the two differ, and no test of the package runs ament_xmllint"
+        },
         documentation="""\
 **Why.** colcon reads ``format`` and refuses one it does not know; ``ament_xmllint`` reads the
 schema and fails under ``colcon test`` when the two differ. Without ``format`` it is 1.

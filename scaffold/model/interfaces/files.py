@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -59,7 +60,9 @@ def _words_of_users(package: Package) -> set[str]:
     result: set[str] = set()
     section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
     use = rf"\b{re.escape(package.name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
-    own = {file.path for call in generations(package) for file in call.files}
+    own: set[str] = set()
+    with contextlib.suppress(ViewError):  # packages without CMake generate nothing
+        own = {file.path for call in generations(package) for file in call.files}
     for other in package.workspace:
         for path in other.files:
             if not path.endswith(_USERS):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scaffold.model.launch.python_file import LaunchFile
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -46,9 +47,22 @@ def is_named(package: Package, directory: str) -> bool:
                 text = other.source(path).text
             except ViewError:
                 continue
-            if any(name in text for name in wanted):
+            named = {name for name in wanted if name in text}
+            if named - _of_other_packages(package, other, path):
                 return True
     return False
+
+
+def _of_other_packages(package: Package, user: Package, path: str) -> set[str]:
+    """Return the names that a launch file gives to files in the share of other packages alone."""
+    if not path.endswith(".py"):
+        return set()
+    try:
+        paths = LaunchFile.of(user, path).share_paths
+    except ViewError:
+        return set()
+    own = _names([item.path for item in paths if item.package == package.name])
+    return _names([item.path for item in paths if item.package != package.name]) - own
 
 
 def _names(paths: list[str]) -> set[str]:

@@ -17,21 +17,36 @@ _SUBMODULES = ".gitmodules"
 
 
 def is_untracked(package: Package, path: str) -> bool:
-    """Tell whether a ``.gitignore`` names a file of a package.
+    """Tell whether a ``.gitignore`` names a file or directory of a package, or one around it.
 
-    Patterns for directories and for paths are not supported.
+    Patterns that take back what others ignore are not supported.
+    """
+    if _is_of_submodule(package, path):
+        return True
+    return any(
+        _is_named(pattern, path, f"{prefix}{path}")
+        for prefix, text in _texts(package, _FILE)
+        for line in text.splitlines()
+        if (pattern := line.strip()) and pattern[0] not in "#!"
+    )
+
+
+def _is_named(pattern: str, path: str, full_path: str) -> bool:
+    """Tell whether a pattern names a path, or a directory above it in the package.
+
+    Args:
+        pattern: A line of the file.
+        path: The path in the package.
+        full_path: The path from the directory of the file.
     """
     from fnmatch import fnmatchcase  # few packages name a file that is not there
 
-    if _is_of_submodule(package, path):
-        return True
-    name = path.rpartition("/")[2]
-    for _, text in _texts(package, _FILE):
-        for line in text.splitlines():
-            pattern = line.strip()
-            if pattern and pattern[0] not in "#!" and fnmatchcase(name, pattern):
-                return True
-    return False
+    pattern = pattern.rstrip("/")
+    if "/" not in pattern:
+        return any(fnmatchcase(part, pattern) for part in path.split("/"))
+    parts = full_path.split("/")
+    above = ["/".join(parts[:depth]) for depth in range(1, len(parts) + 1)]
+    return any(fnmatchcase(item, pattern.removeprefix("/")) for item in above)
 
 
 def _is_of_submodule(package: Package, path: str) -> bool:

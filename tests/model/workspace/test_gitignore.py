@@ -27,3 +27,21 @@ def test_the_files_of_the_checkout_count(
     assert is_untracked(package, "external/a/include/a.hpp") is expected
     assert not is_untracked(package, "external/b/include/b.hpp")
     assert not is_untracked(package, "config/head.yaml")
+
+
+@pytest.mark.parametrize(
+    ("pattern", "path", "expected"),
+    [
+        ("lib/", "lib", True),
+        ("lib/", "resource/lib/libcar.so", True),
+        ("/lib/", "lib", True),
+        ("/lib/", "resource/lib", False),
+        ("resource/lib", "resource/lib/libcar.so", True),
+        ("resource/lib", "lib/libcar.so", False),
+        ("# lib/", "lib", False),
+        ("!lib/", "lib", False),
+    ],
+)
+def test_patterns_name_directories_and_paths(pattern: str, path: str, *, expected: bool) -> None:
+    package = Package.of({".gitignore": f"{pattern}\n"})
+    assert is_untracked(package, path) is expected
