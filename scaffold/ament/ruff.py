@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.ament.finding import Replacement
 from scaffold.errors import EnvironmentMissingError
-from scaffold.programs import search
+from scaffold.programs import bundled
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -236,21 +235,10 @@ def executable() -> str:
 
 
 def _find() -> str:
-    beside = os.path.join(os.path.dirname(sys.executable), "ruff")
-    own = os.path.join(sys.prefix, "bin", "ruff")
-    for candidate in (beside, own):
-        if os.path.isabs(candidate) and os.access(candidate, os.X_OK):
-            return candidate
-    from importlib import import_module
-
-    try:
-        return str(import_module("ruff").find_ruff_bin())
-    except (ImportError, AttributeError, FileNotFoundError):
-        pass
-    on_path = search.find("ruff")
-    if on_path is not None:
-        return on_path
-    raise EnvironmentMissingError("ruff is not installed; pip install 'ruff>=0.17.5,<0.18'")
+    program = bundled.find("ruff")
+    if program is None:
+        raise EnvironmentMissingError("ruff is not installed; pip install 'ruff>=0.17.5,<0.18'")
+    return program
 
 
 def identity() -> str:

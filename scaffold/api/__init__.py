@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from scaffold.check.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
 from scaffold.check.rule import Example, Report, Rule
+from scaffold.check.type_rules import TypeRule
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.package import Package
@@ -35,6 +36,7 @@ __all__ = [
     "Severity",
     "Source",
     "TestRule",
+    "TypeRule",
     "ViewError",
     "closest_name",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.check import runner, suppression
+from scaffold.check import runner, suppression, type_rules
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
@@ -15,9 +15,10 @@ from scaffold.check.engine_rules import (
     TooManyFindings,
     UnparsableFile,
 )
-from scaffold.check.result import Earlier, Result, Verdict
+from scaffold.check.result import Earlier, Part, Result, Verdict
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
+from scaffold.check.type_rules import TypeRule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
@@ -25,10 +26,15 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.ament import StyleCheck
+    from scaffold.types.check import TypeCheck
 
 
 WORTH_PARTS = 10
 """Python files from which on it pays to keep findings in parts; small packages are checked anew."""
+
+
+_TYPES = "types"
+"""The part of a verdict that says which files its types depend on."""
 
 
 class Ruled(NamedTuple):
@@ -45,20 +51,35 @@ def _do_nothing() -> None:
 
 
 class Session:
-    """Rules and a selection, ready to run over packages."""
+    """Rules and a selection, ready to run over packages.
+
+    Args:
+        rules: The rules.
+        selection: Which of them, and of their findings, count.
+        adjustments: What the configuration changes about findings.
+        has_types: Whether the type checker runs.
+    """
 
     def __init__(
         self,
         rules: Sequence[type[Rule]],
         selection: Selection,
         adjustments: Adjustments | None = None,
+        *,
+        has_types: bool = False,
     ) -> None:
         self.selection = selection
         self.adjustments = adjustments or Adjustments()
         self._areas = {rule.code[:2] for rule in all_rules(rules)}
         wanted = [*rules, *AMENT_RULES]
-        self._rules = [rule() for rule in wanted if selection.wants(rule.code)]
+        selected = [rule() for rule in wanted if selection.wants(rule.code)]
+        self._rules = [rule for rule in selected if not isinstance(rule, TypeRule)]
         self._ran = {rule.code for rule in self._rules}
+        self._type_rules = [rule for rule in selected if isinstance(rule, TypeRule)]
+        self._has_types = has_types
+        self._types: TypeCheck | None = None
+        self.types_failure = ""
+        """Why types were not checked; empty if they were, or were not to be."""
         self.after_rule: Callable[[], None] = _do_nothing
         """Called after each rule that ran over a package, for who shows how far it is."""
 
@@ -73,7 +94,11 @@ class Session:
         """
         from scaffold.check.parallel import run
 
-        return run(self, targets, earlier or {})
+        self._types = self._start_types(targets)
+        try:
+            yield from run(self, targets, earlier or {})
+        finally:
+            self._end_types()
 
     def run_batch(
         self,
@@ -89,6 +114,18 @@ class Session:
             earlier: What an earlier run found in some, by directory.
         """
         known = earlier or {}
+        is_first = self._types is None
+        if is_first:
+            self._types = self._start_types(targets)
+        try:
+            return self._run_batch(targets, style, known)
+        finally:
+            if is_first:
+                self._end_types()
+
+    def _run_batch(
+        self, targets: Sequence[Target], style: StyleCheck | None, known: Mapping[str, Earlier]
+    ) -> list[Result]:
         style = style or self.start_style([target.package for target in targets], known)
         results: list[Result] = []
         for target in targets:
@@ -103,8 +140,14 @@ class Session:
     ) -> Result:
         """Put together what rules and style found in a package."""
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
-        found = [*rules.found, *(item for path in sorted(everything) for item in everything[path])]
+        types = self._check_types(target.package, rules.found)
+        styles = (item for path in sorted(everything) for item in everything[path])
+        found = [*rules.found, *types, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
+        if verdict is not None and self._types is not None:
+            # Without findings: what is found is remembered file by file.
+            part = Part(self._types.needed_by(target.package), frozenset(), ())
+            verdict = verdict._replace(parts={**verdict.parts, _TYPES: part})
         files = rules.files if target.only is None else len(target.only)
         return Result(target.package, files, self._report(target, found), verdict)
 
@@ -163,6 +206,42 @@ class Session:
             return paths is None or path in paths
 
         return StyleCheck(packages, is_wanted)
+
+    def _start_types(self, targets: Sequence[Target]) -> TypeCheck | None:
+        """Start the type checker, unless nobody asks for types."""
+        if not self._has_types or not self._type_rules:
+            return None
+        from scaffold.types.check import TypeCheck
+
+        only = {id(target.package): target.only for target in targets}
+
+        def is_wanted(package: Package, path: str) -> bool:
+            chosen = only[id(package)]
+            return not self.adjustments.excludes(package, path) and (
+                chosen is None or path in chosen
+            )
+
+        return TypeCheck([target.package for target in targets], is_wanted)
+
+    def _end_types(self) -> None:
+        if self._types is not None:
+            self.types_failure = self.types_failure or self._types.failure
+            self._types.close()
+            self._types = None
+
+    def _check_types(self, package: Package, known: Sequence[Diagnostic]) -> list[Diagnostic]:
+        """Return what the types of a package show, besides what is known."""
+        if self._types is None:
+            return []
+        reported = self._types.by_file(package)
+        if self._types.failure or not (reported or self._types.may_suppress(package)):
+            return []
+        type_rules.give(package, reported)
+        found = runner.check(package, self._type_rules)
+        result = suppression.apply(package, found, {rule.code for rule in self._type_rules})
+        package.forget()
+        places = {item.location[:2] for item in known}
+        return [item for item in result if item.location[:2] not in places]
 
     def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
         """Run the rules over a package."""

@@ -16,7 +16,7 @@ SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
 MAX_BYTES = 100_000_000
 """Of all files of a kind."""
-KINDS = ("runs", "style", "rules", "words", "manifests", "templates_")
+KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
 _ABANDONED_AFTER = 3600
 """Seconds after which a temporary file is no longer being written."""

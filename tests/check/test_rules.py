@@ -39,6 +39,7 @@ AREAS = {
     "messages": "MS",
     "launch": "LF",
     "parameters": "PF",
+    "types": "TY",
 }
 
 

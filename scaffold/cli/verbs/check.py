@@ -85,6 +85,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "change breaks in other files",
     )
     parser.add_argument(
+        "--no-types", action="store_true", help="leave out what needs the type checker"
+    )
+    parser.add_argument(
         "--stdin-filename",
         metavar="FILE",
         help="check standard input in place of this file; with --fix, write it to standard output",
@@ -174,6 +177,7 @@ def run(options: argparse.Namespace) -> int:
     targets = change.targets() if change else targets
     memory = ResultCache(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
+    _note_types(session)
     if options.write_baseline:
         return baselines.write(options, results)
     if change:
@@ -181,10 +185,25 @@ def run(options: argparse.Namespace) -> int:
         options.notes += (note,)
     reported = baselines.hide(options, results, targets, session)
     output = reports.write(options, reported, _report_options(options))
-    code = exit_code(reported, is_zero=options.exit_zero)
-    if slot is not None:
+    code = _exit_code(options, session, reported)
+    if slot is not None and not session.types_failure:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
+
+
+def _note_types(session: Session) -> None:
+    """Say that types were not checked, and why."""
+    if session.types_failure:
+        failure = session.types_failure
+        terminal.error(f"types are not checked: {failure}; --no-types leaves them out")
+
+
+def _exit_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:
+    """Return the exit code; what could not be looked at decides it."""
+    from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
+
+    code = exit_code(results, is_zero=options.exit_zero)
+    return USAGE_ERROR if session.types_failure and code != INTERNAL_ERROR else code
 
 
 def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choices) -> Session:
@@ -192,10 +211,11 @@ def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choi
     if options.add_noqa:
         from scaffold.check.fixes.noqa import SuppressingSession
 
-        return SuppressingSession(rules, selection, choices.adjustments())
+        has_types = not options.no_types
+        return SuppressingSession(rules, selection, choices.adjustments(), has_types=has_types)
     from scaffold.check.session import Session
 
-    return Session(rules, selection, choices.adjustments())
+    return Session(rules, selection, choices.adjustments(), has_types=not options.no_types)
 
 
 def _validate_noqa(options: argparse.Namespace) -> None:
@@ -243,8 +263,9 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
         terminal.write_error(reports.text([result], _report_options(options)))
     else:
         (result,) = baselines.hide(options, session.run_batch([target]), [target], session)
+        _note_types(session)
         reports.write(options, [result], _report_options(options))
-    return exit_code([result], is_zero=options.exit_zero)
+    return _exit_code(options, session, [result])
 
 
 def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry | None:
@@ -289,7 +310,8 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
     results = baselines.hide(options, results, checked, session)
-    code = _report_fixes(options, results, written)
+    _note_types(session)
+    code = _report_fixes(options, session, results, written)
     return USAGE_ERROR if has_failed else code
 
 
@@ -393,7 +415,10 @@ def _patch(plans: Sequence[WritePlan]) -> str:
 
 
 def _report_fixes(
-    options: argparse.Namespace, results: list[Result], fixed: Sequence[Fixed]
+    options: argparse.Namespace,
+    session: Session,
+    results: list[Result],
+    fixed: Sequence[Fixed],
 ) -> int:
     from scaffold.check.fixes.fixer import MAX_ROUNDS
     from scaffold.cli import reports
@@ -411,7 +436,7 @@ def _report_fixes(
     if options.diff:
         return FINDINGS if count else CLEAN
     reports.write(options, results, _report_options(options))
-    return exit_code(results, is_zero=options.exit_zero)
+    return _exit_code(options, session, results)
 
 
 def _reference(targets: Sequence[Target]) -> int:

@@ -1,0 +1,160 @@
+"""TY005: arguments have the types that functions of ROS take."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api.types import (
+    MARKED,
+    TypeFinding,
+    class_in,
+    class_itself,
+    full_name,
+    in_words,
+    is_certain,
+    is_function,
+    name_of,
+    parameters,
+    with_article,
+)
+
+_NODE = (
+    "import rclpy\nfrom rclpy.duration import Duration\nfrom rclpy.node import Node\n"
+    "from rclpy.callback_groups import ReentrantCallbackGroup\n\n\n"
+    "class Ticker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('ticker')\n"
+    "        self.timer = self.create_timer({}, self.tick, callback_group={})\n\n"
+    "    def tick(self):\n"
+    "        self.get_clock().sleep_for({})\n"
+)
+_TIMES = (
+    "from builtin_interfaces.msg import Time as Stamp\nfrom rclpy.clock import Clock\n"
+    "from rclpy.time import Time\nfrom std_msgs.msg import Header\n\n\n"
+    "def wait(seconds):\n"
+    "    Clock().sleep_until(Stamp(sec=seconds))\n"
+    "    return Header(stamp=Time(seconds=seconds))\n"
+)
+_RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
+
+
+class ArgumentTypeUnfit(TypeRule):
+    """An argument of a function of ROS has a type that the function cannot use.
+
+    **Why.** The function raises ``TypeError`` or ``AttributeError``, at this line or when it uses
+    the value.
+
+    **Fix.** Pass an object of the type that the parameter has in ROS 2 Jazzy.
+
+    **Source.** The annotations of the packages of ROS 2 Jazzy.
+    """
+
+    code = "TY005"
+    name = "argument-type-unfit"
+    kinds = frozenset({"invalid-argument-type"})
+    examples = (
+        Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
+        Example(
+            "a str for a number, a class for an object, a number for a duration",
+            {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
+            Report(
+                "10:40",
+                "'timer_period_sec' of create_timer() must be a float, not a str: "
+                "create_timer() fails",
+            ),
+            Report(
+                "10:58",
+                "'callback_group' of create_timer() must be a "
+                "rclpy.callback_groups.CallbackGroup or None, not the class "
+                "'ReentrantCallbackGroup': create_timer() fails; write "
+                "ReentrantCallbackGroup()",
+            ),
+            Report(
+                "13:36",
+                "'rel_time' of sleep_for() must be a rclpy.duration.Duration, not a "
+                "float: sleep_for() fails; write Duration(seconds=...)",
+            ),
+        ),
+        Example(
+            "times of two kinds",
+            {"age.py": _TIMES},
+            Report(
+                "8:25",
+                "'until' of sleep_until() must be a rclpy.time.Time, not a "
+                "builtin_interfaces.msg.Time: sleep_until() fails; write "
+                "rclpy.time.Time.from_msg(...)",
+            ),
+            Report(
+                "9:19",
+                "'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, "
+                "not a rclpy.time.Time: it cannot be published; write .to_msg()",
+            ),
+        ),
+    )
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        matched = finding.match(
+            rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
+            r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
+        )
+        if matched is None:
+            return None
+        expected, given = matched["expected"], matched["given"]
+        if not is_certain(expected.replace("|", ",")) or not (
+            is_certain(given) or is_function(given)
+        ):
+            return None
+        owner, _, method = matched["callee"].rpartition(".")
+        called = owner if method in {"__init__", "__new__"} else method
+        where = f"{full_name(called).rpartition('.')[2]}()"
+        hint = _instead(expected, given)
+        if re.search(r"\.(?:msg|srv|action)\.\w+$", full_name(owner or called)):
+            field = _parameter(finding, matched["callee"])
+            return self.report(
+                finding,
+                f"{field!r} of {full_name(owner)} is {with_article(name_of(expected))}, not "
+                f"{in_words(given)}: it cannot be published{hint}",
+            )
+        parameter = _parameter(finding, matched["callee"])
+        needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
+        return self.report(
+            finding,
+            f"{needs} must be {with_article(name_of(expected))}, not {in_words(given)}: "
+            f"{where} fails{hint}",
+        )
+
+
+def _instead(expected: str, given: str) -> str:
+    """Return what to write instead, where that is clear."""
+    wanted, class_ = class_in(expected.partition(" | ")[0]), class_itself(given)
+    if wanted and class_:
+        return f"; write {full_name(class_).rpartition('.')[2]}()"
+    name = full_name(wanted) if wanted else ""
+    is_number = re.match(r"(?:int|float)\b|Literal\[-?[0-9]", given) is not None
+    if name == "rclpy.duration.Duration" and is_number:
+        return "; write Duration(seconds=...)"
+    if name == "rclpy.time.Time" and class_in(given).startswith("Time"):
+        return "; write rclpy.time.Time.from_msg(...)"
+    if name == "builtin_interfaces.msg.Time" and class_in(given).startswith("Time"):
+        return "; write .to_msg()"
+    return ""
+
+
+def _parameter(finding: TypeFinding, callee: str) -> str:
+    """Return the name of the parameter that the place is an argument of."""
+    for call in finding.module.walk(ast.Call):
+        if not call.lineno <= finding.location.line <= (call.end_lineno or call.lineno):
+            continue
+        for keyword in call.keywords:
+            places = (keyword, keyword.value)
+            if any(finding.module.location(item) == finding.location for item in places):
+                return keyword.arg or ""
+        for number, argument in enumerate(call.args):
+            if isinstance(argument, ast.Starred):
+                break
+            if finding.module.location(argument) == finding.location:
+                names = parameters(finding.package, callee)
+                return names[number] if number < len(names) else ""
+    return ""

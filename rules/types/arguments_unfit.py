@@ -1,0 +1,118 @@
+"""TY004: calls have the arguments that functions of ROS take."""
+
+from __future__ import annotations
+
+import re
+
+from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
+from scaffold.api.types import MARKED, TypeFinding, full_name, parameters
+
+_CALLEE = rf"(?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Ticker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('ticker')\n"
+    "        self.timer = self.create_timer({})\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class ArgumentsUnfit(TypeRule):
+    """A call of a function of ROS lacks an argument, or has one too many or an unknown one.
+
+    **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` as
+    soon as the line runs.
+
+    **Fix.** Write the arguments that the function of ROS 2 Jazzy takes.
+
+    **Source.** The signatures of the packages of ROS 2 Jazzy.
+    """
+
+    code = "TY004"
+    name = "arguments-unfit"
+    kinds = frozenset(
+        {
+            "missing-argument",
+            "too-many-positional-arguments",
+            "unknown-argument",
+            "parameter-already-assigned",
+            "positional-only-parameter-as-kwarg",
+        }
+    )
+    examples = (
+        Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
+        Example(
+            "one missing",
+            {"ticker.py": _NODE.format("0.1")},
+            Report("7:22", "create_timer() lacks 'callback': TypeError"),
+        ),
+        Example(
+            "one too many",
+            {"ticker.py": _NODE.format("0.1, self.tick, None, None, True, False")},
+            Report("7:74", "create_timer() takes 5 positional arguments at most, not 6: TypeError"),
+        ),
+        Example(
+            "one given twice",
+            {"ticker.py": _NODE.format("0.1, self.tick, timer_period_sec=0.2")},
+            Report("7:56", "create_timer() gets 'timer_period_sec' twice: TypeError"),
+        ),
+        Example(
+            "an unknown one",
+            {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
+            Report("7:56", "create_timer() has no argument 'oneshot': TypeError"),
+        ),
+    )
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        problem = _missing(finding) or _too_many(finding) or _unknown(finding) or _repeated(finding)
+        return self.report(finding, f"{problem}: TypeError") if problem else None
+
+
+def _shown(callee: str) -> str:
+    """Return how a call is written: ``create_timer()``, ``TransformListener()``."""
+    owner, _, method = callee.rpartition(".")
+    name = owner if method in {"__init__", "__new__"} else method
+    return f"{full_name(name).rpartition('.')[2]}()"
+
+
+def _missing(finding: TypeFinding) -> str:
+    matched = finding.match(
+        rf"No arguments? provided for required parameters? (?P<names>.+) of {_CALLEE}"
+    )
+    if matched is None:
+        return ""
+    names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
+    return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
+
+
+def _too_many(finding: TypeFinding) -> str:
+    matched = finding.match(
+        rf"Too many positional arguments to {_CALLEE}: expected (?P<most>\d+), got (?P<count>\d+)"
+    )
+    if matched is None:
+        return ""
+    is_method = "." in matched["callee"]
+    most, count = (int(matched[key]) - is_method for key in ("most", "count"))
+    takes = "no positional argument" if not most else f"{most} positional arguments at most"
+    return f"{_shown(matched['callee'])} takes {takes}, not {count}"
+
+
+def _unknown(finding: TypeFinding) -> str:
+    matched = finding.match(
+        rf"Argument `(?P<name>\w+)` does not match any known parameter of {_CALLEE}"
+    )
+    if matched is None:
+        return ""
+    known = parameters(finding.package, matched["callee"])
+    near = closest_name(finding.package, matched["name"], known, 0.6)
+    hint = f" (did you mean {near!r}?)" if near else ""
+    return f"{_shown(matched['callee'])} has no argument {matched['name']!r}{hint}"
+
+
+def _repeated(finding: TypeFinding) -> str:
+    matched = finding.match(rf"Multiple values provided for parameter `(?P<name>\w+)` of {_CALLEE}")
+    if matched is None:
+        return ""
+    return f"{_shown(matched['callee'])} gets {matched['name']!r} twice"

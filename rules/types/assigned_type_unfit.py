@@ -1,0 +1,74 @@
+"""TY007: fields of messages are set to values of their types."""
+
+from __future__ import annotations
+
+from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api.types import (
+    MARKED,
+    TypeFinding,
+    class_itself,
+    full_name,
+    in_words,
+    is_certain,
+    is_function,
+    name_of,
+    with_article,
+)
+
+_NODE = (
+    "from geometry_msgs.msg import Vector3\nfrom visualization_msgs.msg import Marker\n\n\n"
+    "def dot() -> Marker:\n"
+    "    marker = Marker()\n"
+    "    marker.scale = {}\n"
+    "    return marker\n"
+)
+
+
+class AssignedTypeUnfit(TypeRule):
+    """A field of a message is set to a value of another type.
+
+    **Why.** ROS 2 Jazzy does not look at the value when it is set: publishing the message raises
+    an error that does not name the field, or sends something else.
+
+    **Fix.** Set it to a value of the type that ``ros2-scaffold interfaces`` shows. With
+    ``ROS_PYTHON_CHECK_FIELDS=1`` the line itself raises an ``AssertionError``.
+
+    **Source.** ``rosidl_generator_py``, ``resource/_msg.py.em``.
+    """
+
+    code = "TY007"
+    name = "assigned-type-unfit"
+    kinds = frozenset({"invalid-assignment"})
+    examples = (
+        Example("a value of its type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}),
+        Example(
+            "a number for a vector",
+            {"dots.py": _NODE.format("0.1")},
+            Report(
+                "7:20",
+                "'scale' of visualization_msgs.msg.Marker is a "
+                "geometry_msgs.msg.Vector3, not a float: it cannot be published",
+            ),
+        ),
+    )
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        matched = finding.match(
+            rf"Invalid assignment to data descriptor attribute `(?P<field>\w+)` on type "
+            rf"`(?P<owner>{MARKED})`.*: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
+        )
+        if matched is None:
+            return None
+        expected, given = matched["expected"], matched["given"]
+        if not is_certain(expected.replace("|", ",")) or not (
+            is_certain(given) or is_function(given)
+        ):
+            return None
+        class_ = class_itself(given)
+        hint = f"; write {full_name(class_).rpartition('.')[2]}()" if class_ else ""
+        return self.report(
+            finding,
+            f"{matched['field']!r} of {full_name(matched['owner'])} is "
+            f"{with_article(name_of(expected))}, not {in_words(given)}: it cannot be published"
+            f"{hint}",
+        )

@@ -1,0 +1,106 @@
+"""TY003: attributes of the objects of ROS exist."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Safety, TypeRule, closest_name
+from scaffold.api.types import (
+    TypeFinding,
+    class_in,
+    class_itself,
+    full_name,
+    members,
+    module_names,
+)
+
+_NODE = (
+    "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n"
+    "from example_interfaces.action import Fibonacci\n\n\n"
+    "class Asker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('asker')\n"
+    "        self.client = ActionClient(self, Fibonacci, 'fibonacci')\n\n"
+    "    def stop(self):\n"
+    "        self.client.{}()\n"
+)
+_CERTAIN = 0.85
+
+
+class AttributeMissing(TypeRule):
+    """Code uses an attribute that an object, a class or a module of ROS does not have.
+
+    **Why.** ``AttributeError`` as soon as the line runs.
+
+    **Fix.** Use a name that the class defines.
+
+    **Source.** The classes of ROS 2 Jazzy and their annotations.
+    """
+
+    code = "TY003"
+    name = "attribute-missing"
+    kinds = frozenset({"missing-attribute"})
+    examples = (
+        Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
+        Example(
+            "asked for first",
+            {
+                "asker.py": _NODE.format("halt").replace(
+                    "stop(self):\n", "stop(self):\n        assert hasattr(self.client, 'halt')\n"
+                )
+            },
+        ),
+        Example(
+            "an attribute of ROS 1",
+            {"asker.py": _NODE.format("cancel_all_goals")},
+            Report(
+                "12:9", "rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError"
+            ),
+        ),
+    )
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        matched = finding.match(
+            r"(?:Object of type|Class|Module) `(?P<of>.+)` has no "
+            r"(?:attribute|member) `(?P<name>\w+)`"
+        ) or finding.match(r"Unresolved attribute `(?P<name>\w+)` on type `(?P<of>.+)`")
+        node = finding.node(ast.Attribute)
+        if matched is None or node is None:
+            return None
+        name, owner = matched["name"], matched["of"]
+        if name.startswith("_") or re.search(rf"""['"]{name}['"]""", finding.module.source.text):
+            return None
+        if finding.message.startswith("Module"):
+            shown, known = owner, module_names(finding.package, owner)
+        else:
+            class_ = class_in(owner) or class_itself(owner)
+            if not class_:
+                return None
+            shown, known = full_name(class_), members(finding.package, class_)
+            is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
+            if not isinstance(node.ctx, ast.Load) and not is_message:
+                return None  # an object of rclpy takes any attribute
+            if not is_message and _is_set(finding, name):
+                return None
+        near = closest_name(finding.package, name, known, 0.6)
+        hint = f"; did you mean {near!r}?" if near else ""
+        message = f"{shown} has no {name!r}: AttributeError{hint}"
+        return self.report(finding, message, _fix(finding, node, near) if near else None)
+
+
+def _is_set(finding: TypeFinding, name: str) -> bool:
+    """Tell whether some code of the package sets an attribute of this name."""
+    pattern = re.compile(rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode())
+    package = finding.package
+    return any(pattern.search(package.data(path)) for path in package.python_files)
+
+
+def _fix(finding: TypeFinding, node: ast.Attribute, near: str) -> Fix:
+    from difflib import SequenceMatcher
+
+    _, end = finding.module.span(node)
+    is_sure = SequenceMatcher(None, node.attr, near).ratio() >= _CERTAIN
+    edit = Edit(finding.path, end - len(node.attr), end, near)
+    safety = Safety.SAFE if is_sure else Safety.UNSAFE
+    return Fix(f"write {near!r}", (edit,), safety)

@@ -1,0 +1,32 @@
+"""What the type checker reports, and the exact names in its messages."""
+
+from __future__ import annotations
+
+from scaffold.types.finding import TypeFinding
+from scaffold.types.marks import MARKED, full_name
+from scaffold.types.members import members, module_names, parameters
+from scaffold.types.wording import (
+    class_in,
+    class_itself,
+    in_words,
+    is_certain,
+    is_function,
+    name_of,
+    with_article,
+)
+
+__all__ = [
+    "MARKED",
+    "TypeFinding",
+    "class_in",
+    "class_itself",
+    "full_name",
+    "in_words",
+    "is_certain",
+    "is_function",
+    "members",
+    "module_names",
+    "name_of",
+    "parameters",
+    "with_article",
+]

@@ -1,0 +1,63 @@
+"""Rules made of what the type checker reports: one run over all packages answers all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from scaffold.check.rule import Rule
+from scaffold.diagnostic import Diagnostic
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.types.finding import TypeFinding
+    from scaffold.types.ty import TyDiagnostic
+
+    Reported = Mapping[str, Sequence[TyDiagnostic]]
+
+_KEY = "reported by the type checker"
+
+
+class TypeRule(Rule):
+    """Judges what the type checker reports; a subclass has ``judge``."""
+
+    kinds: ClassVar[frozenset[str]]
+    """The rules of the type checker that it is made of."""
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        """Yield what is wrong in any of the files."""
+        for path, items in _reported(package).items():
+            for item in items:
+                if item.kind not in self.kinds:
+                    continue
+                try:
+                    yield from self._judged(package, path, item)
+                except ViewError:
+                    continue
+
+    def _judged(self, package: Package, path: str, item: TyDiagnostic) -> Iterator[Diagnostic]:
+        from scaffold.types.finding import TypeFinding
+
+        finding = TypeFinding(package, path, item)
+        result = self.judge(finding)
+        if result is not None and finding.is_certain():
+            yield result
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        """Return what is wrong, ``None`` where that is not certain; may raise ViewError."""
+        raise NotImplementedError
+
+
+def _reported(package: Package) -> Reported:
+    def run() -> Reported:
+        from scaffold.types.check import TypeCheck
+
+        return TypeCheck([package]).by_file(package)
+
+    return package.remember(_KEY, run)
+
+
+def give(package: Package, reported: Reported) -> None:
+    """Hand the rules what was reported in a package, until its views are dropped."""
+    package.remember(_KEY, lambda: reported)

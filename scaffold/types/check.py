@@ -1,0 +1,243 @@
+"""Types of packages: one run of the type checker over all of them, started in the background."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+
+from scaffold.model.package import Package
+from scaffold.types import environment, ty
+from scaffold.types.findings_cache import Cache
+from scaffold.types.marks import MARK
+from scaffold.types.sources import Source, Sources
+from scaffold.types.stubs import INCOMPLETE
+from scaffold.types.ty import TyDiagnostic, UnavailableError
+from scaffold.types.unannotated import without_annotations
+
+DISTRIBUTION = "jazzy"
+REMOVED = frozenset(
+    {"asynchat", "asyncore", "binhex", "distutils", "formatter", "imp", "parser", "smtpd", "symbol"}
+)
+"""Modules that Python 3.12 does not have any more."""
+_CHANGED = frozenset({"collections", "random"})
+"""Modules of Python of which people use what is no longer there."""
+_OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
+_SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
+
+
+class _File:
+    """A file to check: answered from the cache or by the type checker.
+
+    Args:
+        source: The file.
+        reached: It and all that it imports, by place.
+        key: What it has in the cache.
+        found: What the cache has.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        reached: Mapping[str, Source],
+        key: str,
+        found: list[TyDiagnostic] | None,
+    ) -> None:
+        self.source = source
+        self.reached = reached
+        self.key = key
+        self.found = found
+
+
+class TypeCheck:
+    """Checks the Python files of packages; the type checker runs from the start.
+
+    Args:
+        packages: The packages.
+        is_wanted: Tells by package and path whether a file is to be checked.
+    """
+
+    def __init__(
+        self,
+        packages: Sequence[Package],
+        is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
+    ) -> None:
+        self.failure = ""
+        """Why types are not checked; empty if they are."""
+        self._scratch = ""
+        self._run: ty.Run | None = None
+        self._files: dict[int, list[_File]] = {}
+        self._needed: dict[int, set[str]] = {}
+        self._suppressing: set[int] = set()
+        self._packages = list(packages)  # so that no other gets its number
+        try:
+            self._start(is_wanted)
+        except (UnavailableError, OSError) as error:
+            self.failure = str(error)
+            self.close()
+
+    def _start(self, is_wanted: Callable[[Package, str], bool]) -> None:
+        home = self._environment()
+        known = os.listdir(os.path.join(home, environment.PACKAGES))
+        stubbed = frozenset(name.removesuffix(".pyi") for name in known) - INCOMPLETE
+        self._stubbed = stubbed
+        self._cache = Cache(
+            f"{ty.identity()} {environment.identity(DISTRIBUTION)} {sys.version_info[:2]}"
+        )
+        sources = Sources()
+        asked: list[_File] = []
+        for package in self._packages:
+            files = self._files[id(package)] = list[_File]()
+            for path in package.python_files:
+                source = sources.get(package, path) if is_wanted(package, path) else None
+                if source is None:
+                    continue
+                if _SUPPRESSION.search(source.data):
+                    self._suppressing.add(id(package))
+                reached = sources.reached(source)
+                roots = frozenset[str]().union(*(item.roots for item in reached.values()))
+                if not _is_relevant(roots, stubbed) or _is_shadowed(source, stubbed):
+                    continue
+                self._note_needs(package, reached)
+                key = self._cache.key(source, reached)
+                file = _File(source, reached, key, self._cache.get(key))
+                files.append(file)
+                if file.found is None:
+                    asked.append(file)
+        if asked:
+            self._home = home
+            self._run = self._started("project", asked, lambda source: source.data)
+
+    def _started(
+        self, name: str, asked: Sequence[_File], content: Callable[[Source], bytes]
+    ) -> ty.Run:
+        """Start the type checker on some files, with all that they import next to them."""
+        mirrored = {place: item for file in asked for place, item in file.reached.items()}
+        project = self._directory(name)
+        _write(project, {place: content(source) for place, source in mirrored.items()})
+        return ty.Run(project, self._home, [file.source.place for file in asked])
+
+    def _note_needs(self, package: Package, reached: Mapping[str, Source]) -> None:
+        needed = self._needed.setdefault(id(package), set())
+        needed.update(item.package.full_path(item.path) for item in reached.values() if item.path)
+
+    def _environment(self) -> str:
+        return environment.directory(DISTRIBUTION, self._directory)
+
+    def _directory(self, name: str) -> str:
+        if not self._scratch:
+            self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
+        return os.path.join(self._scratch, name)
+
+    def needed_by(self, package: Package) -> frozenset[str]:
+        """Return the files that the verdict on a package depends on, by ``Package.full_path``."""
+        return frozenset(self._needed.get(id(package), ()))
+
+    def may_suppress(self, package: Package) -> bool:
+        """Tell whether a comment in a package names a code of types."""
+        return id(package) in self._suppressing
+
+    def by_file(self, package: Package) -> dict[str, list[TyDiagnostic]]:
+        """Return what the type checker reported about the files of a package, by path."""
+        self._collect()
+        if self.failure:
+            return {}
+        files = self._files.get(id(package), ())
+        return {file.source.path: file.found for file in files if file.found}
+
+    def _collect(self) -> None:
+        if self._run is None:
+            return
+        asked = [file for files in self._files.values() for file in files if file.found is None]
+        try:
+            reported = self._run.results()
+            for file in asked:
+                found = reported.get(file.source.place, ())
+                file.found = [item for item in found if _concerns(item, self._stubbed)]
+            self._confirm([file for file in asked if any(map(_may_be_annotated, file.found or ()))])
+        except (UnavailableError, OSError) as error:
+            self.failure = str(error)
+            return
+        finally:
+            self.close()
+        for file in asked:
+            self._cache.put(file.key, file.found or ())
+        self._cache.trim()
+
+    def _confirm(self, files: Sequence[_File]) -> None:
+        """Keep what is reported without the annotations of the user's code as well."""
+        if not files:
+            return
+        self._run = self._started("unannotated", files, _unannotated)
+        reported = self._run.results()
+        for file in files:
+            again = {item[:3] for item in reported.get(file.source.place, ())}
+            file.found = [
+                item
+                for item in file.found or ()
+                if item[:3] in again or not _may_be_annotated(item)
+            ]
+
+    def close(self) -> None:
+        """End the type checker and remove what was written for it."""
+        if self._run is not None:
+            self._run.close()
+            self._run = None
+        if self._scratch:
+            shutil.rmtree(self._scratch, ignore_errors=True)
+            self._scratch = ""
+
+    def __del__(self) -> None:
+        self.close()
+
+
+def _is_relevant(roots: frozenset[str], stubbed: frozenset[str]) -> bool:
+    """Tell whether anything that is imported is known well enough to judge its use."""
+    return not roots.isdisjoint(stubbed | REMOVED | _CHANGED)
+
+
+def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
+    """Tell whether a program imports a file next to it in place of a library."""
+    if source.place.startswith(ty.LIBRARY):
+        return False
+    above = source.path.rpartition("/")[0]
+    start = f"{above}/" if above else ""
+    package = source.package
+    return any(
+        package.has(f"{start}{root}.py") or package.has(f"{start}{root}/__init__.py")
+        for root in source.roots & (stubbed | sys.stdlib_module_names)
+    )
+
+
+def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
+    """Tell whether a report is of interest: most are about the user's own classes."""
+    if item.kind in _OF_MODULES or item.message.startswith("Module `"):
+        quoted = re.search(r"`([\w.]+)`", item.message)
+        root = quoted[1].partition(".")[0] if quoted else ""
+        if item.kind == "import-not-found":
+            return root in stubbed or root in REMOVED
+        return root in stubbed or root in sys.stdlib_module_names
+    return MARK in item.message
+
+
+def _may_be_annotated(item: TyDiagnostic) -> bool:
+    """Tell whether a report may be the consequence of an annotation."""
+    return item.kind not in _OF_MODULES
+
+
+def _unannotated(source: Source) -> bytes:
+    """Return a file without annotations; nothing of one that does not parse."""
+    if not source.path:  # a stub
+        return source.data
+    return without_annotations(source.data) or b""
+
+
+def _write(project: str, mirrored: Mapping[str, bytes]) -> None:
+    for folder in {os.path.dirname(place) for place in mirrored}:
+        os.makedirs(os.path.join(project, folder), exist_ok=True)
+    for place, data in mirrored.items():
+        with open(os.path.join(project, place), "wb") as file:
+            file.write(data)

@@ -1,0 +1,139 @@
+"""The stubs as the type checker reads them: a Python environment that holds nothing else.
+
+It is written once for each version of the stubs, into the user's cache, and found by its name.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+import shutil
+from collections.abc import Callable, Iterator
+
+from scaffold.files import cache, temporary
+from scaffold.files.disk import digest
+from scaffold.types import stubs
+from scaffold.types.marks import mark
+
+KIND = "stubs"
+KEPT = 3
+"""Environments that are kept: of this and of other versions of the tool."""
+PACKAGES = os.path.join("lib", "python3.12", "site-packages")
+_INDEX = "index"
+_MAGIC = b"scaffold-stubs-1\n"
+_SETTINGS = "home = /nonexistent\nversion = 3.12\n"
+
+
+def identity(distribution: str) -> str:
+    """Return what changes with the stubs of a distribution, and with how they are written."""
+    parts = [distribution]
+    own = os.path.dirname(os.path.abspath(__file__))
+    for top in (own, os.path.join(os.path.dirname(own), "data")):
+        parts += sorted(_stamps(top))
+    return digest("\n".join(parts).encode("utf-8", "surrogateescape"))
+
+
+def _stamps(top: str) -> Iterator[str]:
+    for directory, folders, names in os.walk(top):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        for name in names:
+            status = os.stat(os.path.join(directory, name))
+            place = os.path.relpath(os.path.join(directory, name), top)
+            yield f"{place} {status.st_size} {status.st_mtime_ns}"
+
+
+def directory(distribution: str, scratch: Callable[[str], str]) -> str:
+    """Return the environment of a distribution; it is written where it is not there yet.
+
+    Args:
+        distribution: The name of a ROS distribution.
+        scratch: Returns where a temporary directory is, for when there is no cache.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    kept = cache.directory(KIND)
+    if kept is not None:
+        place = os.path.join(kept, identity(distribution))
+        if _is_whole(place):
+            return place
+        try:
+            _write_aside(distribution, place)
+        except OSError:
+            if _is_whole(place):  # another process was faster
+                return place
+        else:
+            return place
+    place = scratch("environment")
+    _write(distribution, place)
+    return place
+
+
+def _is_whole(place: str) -> bool:
+    """Tell whether an environment has all its files, as they were written by this user."""
+    index = cache.read_sealed(os.path.join(place, _INDEX), _MAGIC)
+    if index is None:
+        return False
+    return all(
+        _stamp(os.path.join(place, path)) == tuple(stamp)
+        for path, *stamp in marshal.loads(index)  # noqa: S302  own files
+    )
+
+
+def _stamp(path: str) -> tuple[int, int] | None:
+    try:
+        status = os.lstat(path)
+    except OSError:
+        return None
+    return status.st_size, status.st_mtime_ns
+
+
+def _write_aside(distribution: str, place: str) -> None:
+    kept = os.path.dirname(place)
+    aside = os.path.join(kept, temporary.name())
+    os.makedirs(kept, exist_ok=True)
+    try:
+        paths = _write(distribution, aside)
+        index = [(path, *(_stamp(os.path.join(aside, path)) or ())) for path in paths]
+        cache.write_sealed(os.path.join(aside, _INDEX), _MAGIC, marshal.dumps(index))
+        shutil.rmtree(place, ignore_errors=True)
+        os.rename(aside, place)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+    _trim(kept)
+
+
+def _write(distribution: str, place: str) -> list[str]:
+    """Write an environment; return the paths of its files."""
+    files = {
+        os.path.join(PACKAGES, path): marked(path, text)
+        for path, text in stubs.stub_files(distribution).items()
+    }
+    files["pyvenv.cfg"] = _SETTINGS
+    write_files(place, files)
+    return list(files)
+
+
+def marked(path: str, text: str) -> str:
+    """Return a stub with marked names; its path tells its module."""
+    parts = path.removesuffix(".pyi").split("/")
+    return mark(text, ".".join(parts[:-1] if parts[-1] == "__init__" else parts))
+
+
+def write_files(top: str, files: dict[str, str]) -> None:
+    """Write files below a directory, which is made; raises OSError."""
+    for folder in {os.path.dirname(path) for path in files}:
+        os.makedirs(os.path.join(top, folder), exist_ok=True)
+    for path, text in files.items():
+        with open(os.path.join(top, path), "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+
+
+def _trim(kept: str) -> None:
+    """Remove the oldest environments."""
+    try:
+        places = [entry.path for entry in os.scandir(kept)]
+        for path in sorted(places, key=os.path.getmtime)[:-KEPT]:
+            shutil.rmtree(path, ignore_errors=True)
+    except OSError:
+        return  # another process tidies up

@@ -1,0 +1,149 @@
+"""A report of the type checker about a place of a file, with what the code there is."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TypeVar
+
+from scaffold.model.package import Package
+from scaffold.model.python.module import PythonModule, last_names
+from scaffold.source import Location
+from scaffold.types.ty import TyDiagnostic
+
+Node = TypeVar("Node", bound=ast.AST)
+
+_DECIDING = re.compile(
+    r"version|distro|hasattr|callable|isinstance|issubclass|TYPE_CHECKING|platform"
+    r"|_AVAILABLE|HAS_|HAVE_|is None|is not None|ImportError|environ|getenv",
+    re.IGNORECASE,
+)
+"""Matches conditions that ask what there is: for a version, a module, or a kind of object."""
+_PROBED = frozenset(
+    {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}
+)
+_ANYTHING = frozenset({"Exception", "BaseException"})
+_EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
+_SHORT = 2
+"""Statements of a ``try`` that only asks whether something works."""
+
+
+class TypeFinding:
+    """A report about a place.
+
+    Args:
+        package: Where the file is.
+        path: The file.
+        reported: What the type checker reported.
+    """
+
+    def __init__(self, package: Package, path: str, reported: TyDiagnostic) -> None:
+        self.package = package
+        self.path = path
+        self.kind = reported.kind
+        self.message = reported.message
+        shift = int(reported.line == 1 and self.module.has_bom)
+        self.location = Location(
+            path,
+            reported.line,
+            reported.column + shift,
+            reported.end_line,
+            reported.end_column + shift,
+        )
+
+    @cached_property
+    def module(self) -> PythonModule:
+        """The file; raises ViewError if it cannot be parsed."""
+        return self.package.module(self.path)
+
+    def match(self, pattern: str) -> re.Match[str] | None:
+        """Match the whole message."""
+        return re.fullmatch(pattern, self.message, re.DOTALL)
+
+    def node(self, *kinds: type[Node]) -> Node | None:
+        """Return the outermost node of some types that is exactly at the place."""
+        for kind in kinds:
+            for node in self.module.walk(kind):
+                if getattr(node, "lineno", 0) != self.location.line:
+                    continue
+                if self.module.location(node) == self.location:
+                    return node
+        return None
+
+    def expression(self) -> ast.expr | None:
+        """Return the outermost expression that is exactly at the place."""
+        return self.node(
+            *(ast.Attribute, ast.Call, ast.Name, ast.Constant, ast.BinOp, ast.Subscript),
+            *(ast.Lambda, ast.List, ast.Tuple, ast.Dict, ast.JoinedStr, ast.Compare, ast.UnaryOp),
+            *(ast.Set, ast.IfExp, ast.BoolOp, ast.ListComp, ast.Starred, ast.Await),
+        )
+
+    @cached_property
+    def innermost(self) -> ast.AST | None:
+        """The smallest node that holds the whole place."""
+        at = self.location
+        start, end = (at.line, at.column), (at.end_line, at.end_column)
+        best: ast.AST | None = None
+        for node in self._around():
+            place = self.module.location(node)
+            if (place.line, place.column) <= start and end <= (place.end_line, place.end_column):
+                best = node
+        return best
+
+    def _around(self) -> Iterator[ast.AST]:
+        """Yield the nodes whose lines hold the place, outer ones first."""
+        pending: list[ast.AST] = [self.module.tree]
+        line = self.location.line
+        while pending:
+            node = pending.pop()
+            first = getattr(node, "lineno", None)
+            if first is not None:
+                decorators = getattr(node, "decorator_list", ())
+                first = min([first, *(item.lineno for item in decorators)])
+                if not first <= line <= (getattr(node, "end_lineno", None) or first):
+                    continue
+                yield node
+            pending.extend(ast.iter_child_nodes(node))
+
+    def is_certain(self) -> bool:
+        """Tell whether nothing around the place expects what is reported.
+
+        Code that asks for a version, a module or an attribute, and code that tries, knows better.
+        """
+        node = self.innermost
+        if node is None:
+            return False
+        child = node
+        for parent in self.module.parents(node):
+            match parent:
+                case ast.If() | ast.IfExp() | ast.While() if child is not parent.test:
+                    if _DECIDING.search(ast.unparse(parent.test)):
+                        return False
+                case ast.Try() if self._is_tried(parent, child):
+                    return False
+                case ast.With(items=items) | ast.AsyncWith(items=items):
+                    if any(_expects(item.context_expr) for item in items):
+                        return False
+                case ast.BoolOp() if child is not parent.values[0]:
+                    if _DECIDING.search(ast.unparse(parent)):
+                        return False
+            child = parent
+        return child not in self.module.passed_over
+
+    def _is_tried(self, node: ast.Try, child: ast.AST) -> bool:
+        place = self.module.index.place(child)[0]
+        if place == "finalbody":
+            return False
+        for handler in node.handlers:
+            names = last_names(handler.type) if handler.type is not None else _ANYTHING
+            if names & _PROBED:
+                return True
+            if place == "body" and names & _ANYTHING and len(node.body) <= _SHORT:
+                return True
+        return False
+
+
+def _expects(expression: ast.expr) -> bool:
+    return isinstance(expression, ast.Call) and bool(last_names(expression.func) & _EXPECTING)

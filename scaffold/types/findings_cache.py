@@ -1,0 +1,56 @@
+"""What the type checker reported about files, by their content and that of all they import."""
+
+from __future__ import annotations
+
+import marshal
+import os
+from collections.abc import Mapping, Sequence
+
+from scaffold.files import cache
+from scaffold.files.disk import digest
+from scaffold.types.sources import Source
+from scaffold.types.ty import TyDiagnostic
+
+KIND = "types"
+MOST = 20_000
+_MAGIC = b"scaffold-types-1\n"
+
+
+class Cache:
+    """A directory of reports.
+
+    Args:
+        depends_on: What they depend on besides the files: the type checker and the stubs.
+    """
+
+    def __init__(self, depends_on: str) -> None:
+        self._directory = cache.directory(KIND)
+        self._salt = depends_on
+
+    def key(self, source: Source, reached: Mapping[str, Source]) -> str:
+        """Return the key of a file.
+
+        Args:
+            source: The file.
+            reached: The file and all that it imports, by place.
+        """
+        parts = [f"{place} {reached[place].digest}" for place in sorted(reached)]
+        return digest("\n".join([self._salt, source.place, *parts]).encode("utf-8", "replace"))
+
+    def get(self, key: str) -> list[TyDiagnostic] | None:
+        """Return what was reported under a key."""
+        if self._directory is None:
+            return None
+        data = cache.read_sealed(os.path.join(self._directory, key), _MAGIC)
+        return None if data is None else [TyDiagnostic(*item) for item in marshal.loads(data)]  # noqa: S302  own files
+
+    def put(self, key: str, found: Sequence[TyDiagnostic]) -> None:
+        """Store what was reported."""
+        if self._directory is not None:
+            data = marshal.dumps([*map(tuple, found)])
+            cache.write_sealed(os.path.join(self._directory, key), _MAGIC, data)
+
+    def trim(self) -> None:
+        """Drop the oldest entries when there are too many."""
+        if self._directory is not None:
+            cache.trim(self._directory, MOST)

@@ -1,0 +1,84 @@
+"""Marks names in stubs with where they are defined, so that messages name them exactly.
+
+A type checker calls a class by its last name: ``Node`` may be that of rclpy, of launch or of the
+user. In the stubs that it reads, ``class Node`` of ``rclpy.node`` is called ``Node·rclpy·node``,
+with ``Node = Node·rclpy·node`` after it. What a message calls ``Node·rclpy·node`` is that class.
+"""
+
+from __future__ import annotations
+
+import re
+
+MARK = "\u00b7"
+"""Part of identifiers in Python, and of no name that people use."""
+MARKED = rf"[^\W\d]\w*(?:{MARK}\w+)+"
+"""Matches a marked name."""
+
+
+def mark(text: str, module: str) -> str:
+    """Return a stub with its classes and the functions of its module marked.
+
+    Fields of messages become properties, which they are at run time: a message about a property
+    names the class. Lines are read one by one, as nothing else is fast enough for all stubs.
+
+    Args:
+        text: The stub, laid out as scripts/make_stubs.py and the interfaces' renderer do.
+        module: The dotted name of the module.
+    """
+    where = module.split(".")
+    is_interface = re.fullmatch(r"\w+\.(?:msg|srv|action)\._\w+", module) is not None
+    result: list[str] = []
+    open_: list[tuple[int, str, str]] = []
+    functions: dict[str, str] = {}
+    for line in text.split("\n"):
+        bare = line.lstrip(" ")
+        indent = len(line) - len(bare)
+        if bare and bare[0] not in ")]}":
+            while open_ and open_[-1][0] >= indent:
+                result.append(_alias(*open_.pop()))
+        definition = _DEFINITION.match(bare)
+        if definition is not None:
+            keyword, name = definition.groups()
+            inside = [item[1] for item in open_]
+            marked = MARK.join([name, *where, *inside])
+            if keyword == "class":
+                open_.append((indent, name, marked))
+                line = f"{line[:indent]}class {marked}{bare[definition.end() :]}"  # noqa: PLW2901
+            elif not open_ and not name.startswith("__"):
+                functions[name] = marked
+                line = f"{keyword} {marked}{bare[definition.end() :]}"  # noqa: PLW2901
+        elif is_interface and open_ and (field := _FIELD.fullmatch(line)) is not None:
+            line = _PROPERTY.format(*field.groups())  # noqa: PLW2901
+        result.append(line)
+    result += [_alias(*item) for item in reversed(open_)]
+    result += [_alias(0, *item) for item in functions.items()]
+    head = ["from builtins import property as _property"] if is_interface else []
+    return "\n".join([*head, *result, ""])
+
+
+_DEFINITION = re.compile(r"(class|def|async def) ([^\W\d]\w*)")
+_FIELD = re.compile(r"( +)(\w+): ((?!Final|ClassVar|TypeAlias)[^=]+[^=,])")
+_PROPERTY = (
+    "{0}@_property\n{0}def {1}(self) -> {2}: ...\n"
+    "{0}@{1}.setter\n{0}def {1}(self, value: {2}) -> None: ..."
+)
+
+
+def _alias(indent: int, name: str, marked: str) -> str:
+    return f"{' ' * indent}{name} = {marked}"
+
+
+def full_name(marked: str) -> str:
+    """Return the dotted name of a marked one, without private modules: ``std_msgs.msg.String``."""
+    name, *where = marked.split(MARK)
+    return ".".join([*(part for part in where if not part.startswith("_")), name])
+
+
+def plain(text: str) -> str:
+    """Return a text as people write it, with the last names alone."""
+    return re.sub(rf"(?:{MARK}\w+)+", "", text)
+
+
+def owners(text: str) -> list[str]:
+    """Return the marked names in a text."""
+    return re.findall(MARKED, text)

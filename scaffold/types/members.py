@@ -1,0 +1,155 @@
+"""What the stubs say about a class, a function or a module: names, for hints in messages."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+
+from scaffold.model.package import Package
+from scaffold.types import stubs
+from scaffold.types.marks import MARK
+
+_DEEPEST = 12
+"""Classes above a class."""
+
+
+def members(package: Package, marked: str) -> frozenset[str]:
+    """Return the names of the public members of a class, those of its bases included.
+
+    Args:
+        package: Whose code uses it; its workspace may define interfaces.
+        marked: The marked name of the class.
+    """
+    result: set[str] = set()
+    pending = [marked]
+    for _ in range(_DEEPEST):
+        if not pending:
+            break
+        found = _class(package, pending.pop())
+        if found is not None:
+            node, module, tree = found
+            result.update(_names(node.body))
+            for base in node.bases:
+                pending += _resolved(tree, module, base)
+    return frozenset(name for name in result if not name.startswith("_"))
+
+
+def module_names(package: Package, module: str) -> frozenset[str]:
+    """Return the public names of a module."""
+    tree = _tree(package, module)
+    names = _names(tree.body) if tree is not None else ()
+    return frozenset(name for name in names if not name.startswith("_"))
+
+
+def parameters(package: Package, callee: str) -> Sequence[str]:
+    """Return the names of the positional parameters of a function, without ``self``.
+
+    Args:
+        package: Whose code calls it.
+        callee: Its name in a message: of a function, or of a method after that of its class.
+    """
+    owner, _, method = callee.rpartition(".")
+    found = _class(package, owner) if owner else None
+    if owner and found is None:
+        return ()
+    if found is not None:
+        body: Sequence[ast.stmt] = found[0].body
+    else:
+        method, *where = callee.split(MARK)
+        tree = _tree(package, ".".join(where))
+        body = tree.body if tree is not None else ()
+    named = [
+        node
+        for node in body
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == method
+    ]
+    if len(named) != 1:
+        return ()
+    (node,) = named
+    names = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
+    is_static = any(
+        isinstance(item, ast.Name) and item.id == "staticmethod" for item in node.decorator_list
+    )
+    return names[1:] if owner and not is_static else names
+
+
+def _class(package: Package, marked: str) -> tuple[ast.ClassDef, str, ast.Module] | None:
+    """Return the class of a marked name, its module, and the tree of that."""
+    name, *where = marked.split(MARK)
+    for depth in range(len(where), 0, -1):
+        module = ".".join(where[:depth])
+        tree = _tree(package, module)
+        body: Sequence[ast.stmt] = tree.body if tree is not None else ()
+        for inside in [*where[depth:], name]:
+            node = next((n for n in body if isinstance(n, ast.ClassDef) and n.name == inside), None)
+            if node is None:
+                break
+            body = node.body
+        else:
+            if tree is not None and node is not None:
+                return node, module, tree
+    return None
+
+
+def _resolved(tree: ast.Module, module: str, base: ast.expr) -> list[str]:
+    """Return the marked name of a base class, as far as the imports of its module show it."""
+    if isinstance(base, ast.Subscript):
+        base = base.value
+    if not isinstance(base, ast.Name):
+        return []
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef) and node.name == base.id:
+            return [MARK.join([base.id, *module.split(".")])]
+        if isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            for alias in node.names:
+                if (alias.asname or alias.name) == base.id:
+                    return [MARK.join([alias.name, *node.module.split(".")])]
+    return []
+
+
+def _names(body: Sequence[ast.stmt]) -> list[str]:
+    result: list[str] = []
+    for node in body:
+        match node:
+            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+                result.append(name)
+            case ast.ClassDef(name=name) | ast.AnnAssign(target=ast.Name(id=name)):
+                result.append(name)
+            case ast.Assign(targets=targets):
+                result += [target.id for target in targets if isinstance(target, ast.Name)]
+            case ast.ImportFrom(names=names):
+                result += [alias.asname for alias in names if alias.asname]
+            case _:
+                pass
+    return result
+
+
+def _tree(package: Package, module: str) -> ast.Module | None:
+    root = module.partition(".")[0]
+    other = package if package.name == root else package.workspace.get(root)
+    if other is not None:
+        made = other.remember("stubs", lambda: stubs.interface_stub_files(other))
+        return _parsed(made, module)
+    return _bundled(module)
+
+
+@lru_cache(maxsize=256)
+def _bundled(module: str) -> ast.Module | None:
+    from scaffold.types.check import DISTRIBUTION
+
+    return _parsed(_files(DISTRIBUTION), module)
+
+
+@lru_cache(maxsize=1)
+def _files(distribution: str) -> Mapping[str, str]:
+    return stubs.stub_files(distribution)
+
+
+def _parsed(files: Mapping[str, str], module: str) -> ast.Module | None:
+    path = module.replace(".", "/")
+    text = files.get(f"{path}.pyi", files.get(f"{path}/__init__.pyi"))
+    try:
+        return None if text is None else ast.parse(text)
+    except SyntaxError:
+        return None

@@ -1,0 +1,228 @@
+"""The Python files of a workspace, where a type checker finds them, and what they import.
+
+Where a file goes depends on how it is imported once it is installed: the Python package of the
+name of a ROS package is importable by all, every other file (programs, tests, launch files) by
+nobody. What a file imports is read off its text, as all that a type checker may look at.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from scaffold.files.disk import digest
+from scaffold.files.limits import most_bytes, why_unread
+from scaffold.model.interfaces.syntax import SECTIONS
+from scaffold.model.package import Package
+from scaffold.types.environment import marked
+from scaffold.types.stubs import interface_stub_files
+from scaffold.types.ty import LIBRARY
+
+_IMPORT = re.compile(
+    rb"""(?:^|[;:])[ \t]*
+    (?: from [ \t]+ (?P<base>[.\w]+) [ \t]+ import [ \t]* (?P<names>\([^)]*\)|[^\n#;]*)
+      | from [ \t]* (?P<dots>\.+) [ \t]* import [ \t]* (?P<siblings>\([^)]*\)|[^\n#;]*)
+      | import [ \t]+ (?P<modules>[^\n#;]+) )""",
+    re.MULTILINE | re.VERBOSE,
+)
+_WORD = re.compile(rb"[\w.]+")
+
+
+class Source:
+    """A file as a type checker sees it.
+
+    Args:
+        package: Where it is.
+        path: Its path there; empty for stubs, which are made.
+        place: Its path for the type checker.
+        module: The package that relative imports start from; empty if nobody can import it.
+        data: What is in it.
+    """
+
+    def __init__(self, package: Package, path: str, place: str, module: str, data: bytes) -> None:
+        self.package = package
+        self.path = path
+        self.place = place
+        self.data = data
+        self.digest = digest(data)
+        self.imports = frozenset(_imports(data, module))
+        """Dotted names: modules, and what may be modules or names in them."""
+        self.roots = frozenset(name.partition(".")[0] for name in self.imports)
+
+
+def _imports(data: bytes, module: str) -> Iterator[str]:
+    """Yield all that may be imported, as absolute dotted names."""
+    if b"import" not in data:
+        return
+    text = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
+    for found in _IMPORT.finditer(text):
+        if found["modules"] is not None:
+            for part in found["modules"].split(b","):
+                word = _WORD.search(part)
+                if word:
+                    yield word[0].decode("utf-8", "replace")
+            continue
+        base = (found["base"] or found["dots"]).decode("utf-8", "replace")
+        names = found["names"] if found["base"] else found["siblings"]
+        absolute = _absolute(base, module)
+        if absolute is None:
+            continue
+        yield absolute
+        for part in re.sub(rb"#[^\n]*", b"", names).strip(b"( )").split(b","):
+            word = _WORD.search(part)
+            if word:
+                yield f"{absolute}.{word[0].decode('utf-8', 'replace')}"
+
+
+def _absolute(base: str, module: str) -> str | None:
+    """Return a module as an absolute name; ``None`` for a relative one that nobody can import."""
+    name = base.lstrip(".")
+    level = len(base) - len(name)
+    if not level:
+        return name
+    parts = module.split(".")
+    if not module or level > len(parts):
+        return None
+    above = parts[: len(parts) - level + 1]
+    return ".".join([*above, name] if name else above)
+
+
+class Sources:
+    """The files of a workspace, each read once."""
+
+    def __init__(self) -> None:
+        self._packages: dict[int, _PackageSources] = {}
+        self._looked_up: dict[tuple[int, str], Package | None] = {}
+        self._imported: dict[tuple[int, str], list[Source]] = {}
+
+    def get(self, package: Package, path: str) -> Source | None:
+        """Return a file of a package; ``None`` if it cannot be read or is too large."""
+        return self._of(package).source(path)
+
+    def reached(self, source: Source) -> Mapping[str, Source]:
+        """Return a file and all that it imports, directly or not, by place.
+
+        What is looked up counts as used by the package of the file.
+        """
+        result = {source.place: source}
+        pending = [source]
+        while pending:
+            for other in self._directly(source.package, pending.pop()):
+                if other.place not in result:
+                    result[other.place] = other
+                    pending.append(other)
+        return result
+
+    def _directly(self, user: Package, source: Source) -> list[Source]:
+        key = (id(user), source.place)
+        if key not in self._imported:
+            found: dict[str, Source] = {}
+            for name in source.imports:
+                package = self._package(user, name.partition(".")[0])
+                if package is not None:
+                    found.update((item.place, item) for item in self._of(package).modules(name))
+            self._imported[key] = list(found.values())
+        return self._imported[key]
+
+    def _package(self, user: Package, root: str) -> Package | None:
+        """Return the package of the workspace that has a top-level module."""
+        key = (id(user), root)
+        if key not in self._looked_up:
+            own = user.name == root
+            self._looked_up[key] = user if own else user.workspace.get(root)
+        return self._looked_up[key]
+
+    def _of(self, package: Package) -> _PackageSources:
+        if id(package) not in self._packages:
+            self._packages[id(package)] = _PackageSources(package)
+        return self._packages[id(package)]
+
+
+class _PackageSources:
+    """The files of a package."""
+
+    def __init__(self, package: Package) -> None:
+        self._package = package
+        self._sources: dict[str, Source | None] = {}
+        self._stubs: list[Source] | None = None
+        self._files = frozenset(package.tree.files)
+        self._above = self._root()
+        # Nobody can import what is in a directory of this name.
+        place = f"{package.name} {package.directory}".encode("utf-8", "surrogateescape")
+        self._outside = f"files-{digest(place)[:16]}"
+
+    def _root(self) -> str | None:
+        """Return the directory above the importable package, with its slash; ``None`` without."""
+        name = self._package.name
+        if not name.isidentifier() or self._package.workspace.get(name) not in {
+            None,
+            self._package,
+        }:
+            return None  # another package of the same name is the one that is imported
+        for above in ("", "src/"):
+            start = f"{above}{self._package.name}/"
+            if any(path.startswith(start) and path.endswith(".py") for path in self._files):
+                return above
+        return None
+
+    def source(self, path: str) -> Source | None:
+        """Return a file; ``None`` if it cannot be read or is too large."""
+        if path not in self._sources:
+            self._sources[path] = self._read(path)
+        return self._sources[path]
+
+    def _read(self, path: str) -> Source | None:
+        try:
+            path.encode()
+            data = self._package.tree.read(path, most_bytes(path))
+        except (OSError, UnicodeEncodeError):
+            return None
+        if why_unread(path, data):
+            return None
+        place, module = self._place(path)
+        return Source(self._package, path, place, module, data)
+
+    def _place(self, path: str) -> tuple[str, str]:
+        name = path if path.endswith(".py") else f"{path}.py"
+        start = None if self._above is None else f"{self._above}{self._package.name}/"
+        if start is None or not path.startswith(start):
+            return f"{self._outside}/{name}", ""
+        place = name[len(self._above or "") :]
+        # A module and the __init__.py of a package start from the same one.
+        return f"{LIBRARY}/{place}", place.rpartition("/")[0].replace("/", ".")
+
+    def modules(self, name: str) -> Iterator[Source]:
+        """Yield the files that importing a dotted name may look at."""
+        yield from self._interfaces(name)
+        if self._above is None:
+            return
+        parts = name.split(".")
+        for depth in range(1, len(parts) + 1):
+            start = self._above + "/".join(parts[:depth])
+            for path in (f"{start}.py", f"{start}/__init__.py"):
+                source = self.source(path) if path in self._files else None
+                if source is not None:
+                    yield source
+
+    def _interfaces(self, name: str) -> list[Source]:
+        """Return the stubs of the interfaces that the package defines."""
+        parts = name.split(".")
+        if len(parts) < 2 or parts[1] not in SECTIONS:  # noqa: PLR2004  package and kind
+            return []
+        if self._stubs is None:
+            kinds = tuple(f"{kind}/" for kind in SECTIONS)
+            self._stubs = []
+            if any(path.startswith(kinds) for path in self._files):
+                files = interface_stub_files(self._package)
+                self._stubs = [
+                    Source(
+                        self._package,
+                        "",
+                        f"{LIBRARY}/{path}",
+                        path.rpartition("/")[0].replace("/", "."),
+                        marked(path, text).encode(),
+                    )
+                    for path, text in files.items()
+                    if self._above is None or path != f"{self._package.name}/__init__.pyi"
+                ]
+        return self._stubs

@@ -1,0 +1,292 @@
+"""Runs ty, a type checker, in the background and reads what it reports.
+
+It runs in a directory that holds nothing but what was put there for it, with a configuration and an
+environment of its own: nothing of the user's is read but the files to check.
+"""
+
+from __future__ import annotations
+
+import os
+import selectors
+import signal
+import time
+from collections.abc import Iterator, Mapping, Sequence
+
+from scaffold.errors import ScaffoldError
+from scaffold.programs import bundled
+from scaffold.record import NamedTuple
+
+VERSION = "0.0.105"
+"""The one that the rules know the messages of; pinned in pyproject.toml as well."""
+SECONDS = 60.0
+"""Of waiting for ty after everything else is done; it takes 8 for the largest workspaces."""
+MAX_OUTPUT = 64_000_000
+MAX_ARGUMENTS = 100_000
+"""Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
+
+KINDS = (
+    "import-not-found",
+    "missing-module-member",
+    "missing-attribute",
+    "missing-argument",
+    "too-many-positional-arguments",
+    "unknown-argument",
+    "parameter-already-assigned",
+    "positional-only-parameter-as-kwarg",
+    "invalid-argument-type",
+    "no-matching-overload",
+    "invalid-assignment",
+    "unsupported-operator",
+    "not-callable",
+    "not-subscriptable",
+    "not-iterable",
+    "invalid-await",
+    "invalid-context-manager",
+    "invalid-raise",
+)
+"""The rules of ty that ours are made of; all others are off."""
+
+CONFIGURATION = "ty.toml"
+LIBRARY = "lib"
+"""Where the importable packages of the workspace are, relative to the project."""
+
+
+class UnavailableError(ScaffoldError):
+    """Types cannot be checked; the text says why."""
+
+
+class TyDiagnostic(NamedTuple):
+    """One report of ty; lines and columns count from 1."""
+
+    kind: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    message: str
+
+
+class Run:
+    """A run over some files of a project, started when the object is made.
+
+    Args:
+        project: The directory with the files and the configuration.
+        environment: The Python environment with the stubs.
+        files: Paths relative to the project.
+
+    Raises:
+        UnavailableError: ty cannot be started, or is another version.
+        OSError: the configuration cannot be written.
+    """
+
+    def __init__(self, project: str, environment: str, files: Sequence[str]) -> None:
+        self._project = project
+        self._environment = environment
+        self._chunks = list(_chunks([os.path.join(project, path) for path in files]))
+        self._running: _Process | None = None
+        _require_version()
+        os.makedirs(os.path.join(project, LIBRARY), exist_ok=True)
+        with open(os.path.join(project, CONFIGURATION), "w", encoding="utf-8") as file:
+            file.write(_configuration())
+        self._start(self._chunks[0])
+
+    def results(self) -> Mapping[str, list[TyDiagnostic]]:
+        """Wait, and return what was reported by file.
+
+        Raises:
+            UnavailableError: ty fails or hangs.
+        """
+        result: dict[str, list[TyDiagnostic]] = {}
+        try:
+            for at, chunk in enumerate(self._chunks):
+                if at:
+                    self._start(chunk)
+                if self._running is None:
+                    break
+                for path, diagnostic in _parse(self._running.output(SECONDS)):
+                    place = os.path.relpath(os.path.abspath(path), self._project)
+                    result.setdefault(place, []).append(diagnostic)
+        finally:
+            self.close()
+        return result
+
+    def close(self) -> None:
+        """End the process if it still runs."""
+        if self._running is not None:
+            self._running.close()
+            self._running = None
+
+    def _start(self, files: Sequence[str]) -> None:
+        options = {
+            "--output-format": "gitlab",
+            "--color": "never",
+            "--config-file": os.path.join(self._project, CONFIGURATION),
+            "--project": self._project,
+            "--python": self._environment,
+        }
+        words = [word for option in options.items() for word in option]
+        self._running = _Process(["check", "--exit-zero", *words, "--", *files], self._project)
+
+
+class _Process:
+    """A running ty."""
+
+    def __init__(self, arguments: Sequence[str], home: str) -> None:
+        program = executable()
+        # Nothing else of the user's environment: variables name configurations and environments.
+        environment = {"HOME": home, "XDG_CONFIG_HOME": home}
+        reading, writing = os.pipe()
+        actions = [
+            (os.POSIX_SPAWN_DUP2, writing, 1),
+            (os.POSIX_SPAWN_OPEN, 2, os.devnull, os.O_WRONLY, 0o666),
+            (os.POSIX_SPAWN_OPEN, 0, os.devnull, os.O_RDONLY, 0o666),
+        ]
+        try:
+            self._id = os.posix_spawn(
+                program, [program, *arguments], environment, file_actions=actions
+            )
+        except OSError as error:
+            os.close(reading)
+            raise UnavailableError(f"ty cannot be started: {error}") from error
+        finally:
+            os.close(writing)
+        self._pipe = reading
+
+    def output(self, seconds: float) -> bytes:
+        """Wait for the end, and return what was written.
+
+        Raises:
+            UnavailableError: it fails, takes too long, or writes too much.
+        """
+        output = _read(self._pipe, seconds)
+        if output is None:
+            self.close()
+            raise UnavailableError(f"ty did not finish within {seconds:g} s")
+        code = os.waitstatus_to_exitcode(self._wait())
+        if code != 0:
+            raise UnavailableError(f"ty failed (exit status {code})")
+        return output
+
+    def close(self) -> None:
+        """End it; nothing is left to do after it has ended."""
+        if self._id:
+            os.kill(self._id, signal.SIGKILL)
+            self._wait()
+
+    def _wait(self) -> int:
+        os.close(self._pipe)
+        _, status = os.waitpid(self._id, 0)
+        self._id = 0
+        return status
+
+
+def _read(pipe: int, seconds: float) -> bytes | None:
+    """Return all that is written to a pipe; ``None`` if it takes too long or is too much."""
+    parts: list[bytes] = []
+    total = 0
+    deadline = time.monotonic() + seconds
+    with selectors.DefaultSelector() as selector:
+        selector.register(pipe, selectors.EVENT_READ)
+        while total <= MAX_OUTPUT and selector.select(max(deadline - time.monotonic(), 0)):
+            part = os.read(pipe, 1 << 20)
+            if not part:
+                return b"".join(parts)
+            parts.append(part)
+            total += len(part)
+    return None
+
+
+def _parse(output: bytes) -> Iterator[tuple[str, TyDiagnostic]]:
+    if output.strip() == b"[]":
+        return  # most files are right, and json takes long to import
+    import json
+
+    try:
+        for entry in json.loads(output):
+            place = entry["location"]["positions"]
+            begin, end = place["begin"], place["end"]
+            kind = entry["check_name"]
+            yield (
+                entry["location"]["path"],
+                TyDiagnostic(
+                    kind,
+                    *(begin["line"], begin["column"]),
+                    *(end["line"], end["column"]),
+                    entry["description"].removeprefix(f"{kind}: "),
+                ),
+            )
+    except (ValueError, KeyError, TypeError) as error:
+        raise UnavailableError(f"the output of ty cannot be read: {error!r}") from error
+
+
+def _chunks(files: Sequence[str]) -> Iterator[list[str]]:
+    chunk: list[str] = []
+    size = 0
+    for path in files:
+        chunk.append(path)
+        size += len(os.fsencode(path)) + 9
+        if size > MAX_ARGUMENTS:
+            yield chunk
+            chunk, size = [], 0
+    if chunk:
+        yield chunk
+
+
+def _configuration() -> str:
+    rules = "".join(f'{kind} = "error"\n' for kind in KINDS)
+    return f"""\
+[environment]
+python-version = "3.12"
+python-platform = "linux"
+root = ["{LIBRARY}"]
+
+[src]
+respect-ignore-files = false
+
+[rules]
+all = "ignore"
+{rules}"""
+
+
+_FOUND: dict[str, str] = {}
+
+
+def executable() -> str:
+    """Return the program.
+
+    Raises:
+        UnavailableError: there is none.
+    """
+    if "ty" not in _FOUND:
+        program = bundled.find("ty")
+        if program is None:
+            raise UnavailableError(f"ty is not installed; pip install 'ty=={VERSION}'")
+        _FOUND["ty"] = program
+    return _FOUND["ty"]
+
+
+def _require_version() -> None:
+    """Make sure that the program is the one whose messages are known.
+
+    Raises:
+        UnavailableError: it is another one.
+    """
+    output = _Process(["--version"], os.sep).output(SECONDS)
+    version = (output.decode(errors="replace").split() or [""])[-1]
+    if output.split()[:2] != [b"ty", VERSION.encode()]:
+        raise UnavailableError(
+            f"{executable()} is version {version or 'unknown'}; pip install 'ty=={VERSION}'"
+        )
+
+
+def identity() -> str:
+    """Return what changes when another ty is installed.
+
+    Raises:
+        UnavailableError: there is none.
+    """
+    try:
+        status = os.stat(executable())
+    except OSError as error:
+        raise UnavailableError(f"ty cannot be started: {error}") from error
+    return f"{executable()}:{status.st_size}:{status.st_mtime_ns}"

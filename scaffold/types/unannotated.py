@@ -1,0 +1,116 @@
+"""Python files without what their authors say about types: a type checker then sees what is so.
+
+An annotation may be wrong, as nothing checks it: ``topic: String`` where a str is passed. What
+takes its place has the same length, so that everything else stays where it is. Parameters of
+callbacks keep theirs: what they subscribe to is what they get.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+
+_UNKNOWN = "_"
+"""A name that tells a type checker nothing."""
+_AROUND = {
+    "variable": (re.compile(r"[ \t]*:[ \t]*$"), re.compile(r"[ \t]*=")),
+    "result": (re.compile(r"[ \t]*->[ \t]*$"), re.compile(r"[ \t]*:")),
+}
+"""What is before and after an annotation that can be left out as a whole."""
+
+
+def without_annotations(data: bytes) -> bytes | None:
+    """Return a file without annotations, ``None`` if it does not parse."""
+    try:
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
+        text = data.decode(encoding)
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, LookupError, RecursionError, MemoryError):
+        return None
+    edits = _Edits(text)
+    for kind, annotation in _annotations(tree):
+        edits.replace(kind, annotation)
+    return edits.text().encode(encoding)
+
+
+def _annotations(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+    """Yield the annotations to replace, each with what it is of."""
+    nodes = list(ast.walk(tree))
+    handed_over = _handed_over(nodes)
+    for node in nodes:
+        match node:
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                if node.returns is not None:
+                    yield "result", node.returns
+                for argument in _arguments(node.args) if node.name not in handed_over else ():
+                    if argument.annotation is not None:
+                        yield "parameter", argument.annotation
+            case ast.AnnAssign(value=value):
+                yield "declaration" if value is None else "variable", node.annotation
+            case _:
+                pass
+
+
+def _handed_over(nodes: list[ast.AST]) -> set[str]:
+    """Return the names of functions that are arguments of calls: callbacks."""
+    names: set[str] = set()
+    for node in nodes:
+        if isinstance(node, ast.Call):
+            for value in (*node.args, *(keyword.value for keyword in node.keywords)):
+                if isinstance(value, ast.Attribute):
+                    names.add(value.attr)
+                elif isinstance(value, ast.Name):
+                    names.add(value.id)
+    return names
+
+
+def _arguments(arguments: ast.arguments) -> Iterator[ast.arg]:
+    yield from (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)
+    yield from (argument for argument in (arguments.vararg, arguments.kwarg) if argument)
+
+
+class _Edits:
+    """A text with stretches replaced by others of the same length."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\r|\n", text))]
+        self._parts: list[tuple[int, int, str]] = []
+
+    def replace(self, kind: str, annotation: ast.expr) -> None:
+        """Replace an annotation."""
+        start = self._offset(annotation.lineno, annotation.col_offset)
+        end = self._offset(
+            annotation.end_lineno or annotation.lineno, annotation.end_col_offset or 0
+        )
+        old = self._text[start:end]
+        if kind in _AROUND:
+            before, after = _AROUND[kind]
+            line = self._text[self._starts[annotation.lineno - 1] : start]
+            found = before.search(line)
+            if found is not None and after.match(self._text, end) and "\n" not in old:
+                self._parts.append((start - len(found[0]), end, " " * (len(found[0]) + len(old))))
+                return
+        blank = re.sub(r"[^\r\n]", " ", old)
+        is_long = "\n" in old or "\r" in old
+        self._parts.append(
+            (start, end, f"({_UNKNOWN}{blank[2:-1]})" if is_long else f"{_UNKNOWN}{blank[1:]}")
+        )
+
+    def text(self) -> str:
+        """Return the text."""
+        result: list[str] = []
+        at = 0
+        for start, end, new in sorted(self._parts):
+            if start >= at:  # else inside another one
+                result += self._text[at:start], new
+                at = end
+        return "".join([*result, self._text[at:]])
+
+    def _offset(self, line: int, column: int) -> int:
+        start = self._starts[line - 1]
+        stop = self._starts[line] if line < len(self._starts) else len(self._text)
+        return start + len(self._text[start:stop].encode()[:column].decode(errors="ignore"))

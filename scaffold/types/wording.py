@@ -1,0 +1,78 @@
+"""Types as the type checker writes them, and as people read them."""
+
+from __future__ import annotations
+
+import re
+
+from scaffold.types.marks import MARK, MARKED, full_name
+
+_TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
+_IDENTIFIER = re.compile(rf"[^\W\d][\w{MARK}]*")
+_BUILTINS = frozenset(
+    {"int", "float", "str", "bool", "bytes", "bytearray", "complex", "list", "tuple", "dict"}
+    | {"set", "frozenset", "Literal", "LiteralString", "None", "True", "False", "type", "class"}
+)
+_ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
+_KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
+
+
+def is_certain(type_: str) -> bool:
+    """Tell whether a type is one: of Python or of the stubs, no union, nothing unknown."""
+    bare = _TEXT.sub("str", type_)
+    if "|" in _without_arguments(bare) or _ANYTHING.search(bare):
+        return False
+    return all(MARK in word or word in _BUILTINS for word in _IDENTIFIER.findall(bare))
+
+
+def _without_arguments(type_: str) -> str:
+    """Return a type without what is in brackets."""
+    before = ""
+    while before != type_:
+        before, type_ = type_, re.sub(r"\[[^\[\]]*\]", "", type_)
+    return type_
+
+
+def is_function(type_: str) -> bool:
+    """Tell whether a type is that of a function or a method, whoever wrote it."""
+    return re.match(r"(?:bound method|def) ", type_) is not None or type_.startswith("(")
+
+
+def class_in(type_: str) -> str:
+    """Return the marked name of the class that a type is an object of; empty for others."""
+    found = re.fullmatch(rf"({MARKED})(?:\[.*\])?", type_, re.DOTALL)
+    return found[1] if found else ""
+
+
+def class_itself(type_: str) -> str:
+    """Return the marked name of a class where that is the value, not an object of it."""
+    found = re.fullmatch(rf"(?:<class '({MARKED})'>|type\[({MARKED})\])", type_)
+    return (found[1] or found[2]) if found else ""
+
+
+def in_words(type_: str) -> str:
+    """Return what a value of a type is, such as ``an int`` or ``the class 'String'``."""
+    if type_ == "None":
+        return "None"
+    literal = re.fullmatch(r"Literal\[(.).*\]", type_, re.DOTALL)
+    if literal is not None:
+        return with_article(_KINDS.get(literal[1], "int"))
+    if class_itself(type_):
+        return f"the class {full_name(class_itself(type_)).rpartition('.')[2]!r}"
+    function = re.match(r"(?:bound method|def) ([\w.·]+)", type_)
+    if function is not None:
+        return f"the function {function[1].rpartition('.')[2]!r}"
+    if type_.startswith("<class '"):
+        return f"the class {type_[8:-2]!r}"
+    return with_article(name_of(type_))
+
+
+def name_of(type_: str) -> str:
+    """Return the name of a type without its arguments: ``list``, ``rclpy.time.Time``."""
+    parts = [part.strip().rstrip("*") for part in _without_arguments(type_).split("|")]
+    names = [full_name(part) if MARK in part else part for part in parts]
+    return " or ".join(dict.fromkeys(names))
+
+
+def with_article(noun: str) -> str:
+    """Return a noun with ``a`` or ``an``."""
+    return f"an {noun}" if noun[:1].lower() in "aeio" else f"a {noun}"

@@ -1,0 +1,334 @@
+"""The type checker sees the files of the workspace and the stubs, and nothing of the user's."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+from scaffold.files import cache
+from scaffold.programs import bundled
+from scaffold.types import ty
+
+MANIFEST = """<?xml version="1.0"?>
+<package format="3">
+  <name>{}</name>
+  <version>0.1.0</version>
+  <description>An example</description>
+  <maintainer email="ann@example.com">Ann</maintainer>
+  <license>Apache-2.0</license>
+{}  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+NODE = """import rclpy
+from rclpy.node import Node
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.create_guard_condition(callback=3, wait=True)
+"""
+FOUND = "talker/talk.py:8:TY004"
+
+
+def make_package(root: Path, name: str, files: dict[str, str], dependencies: str = "") -> Path:
+    texts = {"package.xml": MANIFEST.format(name, dependencies), f"{name}/__init__.py": "", **files}
+    for path, text in texts.items():
+        target = root / name / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text)
+    return root / name
+
+
+Check = Callable[..., list[str]]
+
+
+@pytest.fixture
+def check(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Check:
+    """Return what checks and returns the findings of types: file, line and code."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.delenv(cache.SWITCH, raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    (tmp_path / "src").mkdir()
+    monkeypatch.chdir(tmp_path / "src")
+
+    def run(*words: str, code: int | None = None) -> list[str]:
+        status = main(["check", "--select", "TY,SC", "--format", "json", *words])
+        out, err = capsys.readouterr()
+        if code is not None:
+            assert (status, bool(err)) == (code, code > 1), err
+        return [
+            f"{item['path']}:{item['line']}:{item['code']}"
+            for item in json.loads(out)["diagnostics"]
+        ]
+
+    return run
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    return tmp_path / "src"
+
+
+def test_what_does_not_fit_the_api_is_reported(check: Check, source: Path) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    assert check("talker", code=1) == [f"talker/{FOUND}"]
+    assert check("talker", "--no-types", code=0) == []
+
+
+def test_types_reach_across_files_and_packages(check: Check, source: Path) -> None:
+    base = "from rclpy.node import Node\n\n\nclass Base(Node):\n    pass\n"
+    make_package(source, "base", {"base/node.py": base})
+    own = "from .talk import Talker\n\nTalker().create_timer()\n"
+    node = NODE.replace("rclpy.node import Node", "base.node import Base").replace(
+        "(Node)", "(Base)"
+    )
+    make_package(source, "talker", {"talker/talk.py": node, "talker/more.py": own})
+    assert check(".") == ["talker/talker/more.py:3:TY004", f"talker/{FOUND}"]
+
+
+def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> None:
+    lists = "project(my_msgs)\nrosidl_generate_interfaces(my_msgs msg/Beat.msg)\n"
+    package = make_package(
+        source, "my_msgs", {"CMakeLists.txt": lists, "msg/Beat.msg": "float64 rate\n"}
+    )
+    manifest = package / "package.xml"
+    manifest.write_text(manifest.read_text().replace("ament_python", "ament_cmake"))
+    uses = "from my_msgs.msg import Beat\n\nbeat = Beat()\nbeat.rate()\nprint(beat.rat)\n"
+    make_package(source, "talker", {"talker/talk.py": uses})
+    assert check("talker") == ["talker/talker/talk.py:5:TY003"]
+
+
+# -- what is imported decides as well
+
+
+def test_an_edit_of_an_imported_file_changes_the_verdict(check: Check, source: Path) -> None:
+    package = make_package(
+        source,
+        "talker",
+        {
+            "talker/make.py": "from rclpy.duration import Duration\n\n\ndef make():\n"
+            "    return Duration(seconds=1)\n",
+            "talker/talk.py": "from talker.make import make\n\nprint(make() > make())\n",
+        },
+    )
+    assert check("talker") == []
+    (package / "talker/make.py").write_text("from rclpy.clock import Clock as make\n")
+    warm = check("talker")
+    assert warm == ["talker/talker/talk.py:3:TY006"]
+    (package / "talker/make.py").write_text("make = 3.0 .__add__\n")
+    assert check("talker") == []
+
+
+def test_an_edit_in_another_package_changes_the_verdict(check: Check, source: Path) -> None:
+    """Both packages are large enough to be remembered in parts."""
+    many = {f"part_{number}.py": "VALUE = 1\n" for number in range(12)}
+    maker = make_package(
+        source,
+        "maker",
+        {
+            **{f"maker/{path}": text for path, text in many.items()},
+            "maker/make.py": "from rclpy.clock import Clock\n\nCLOCK = Clock()\n",
+        },
+    )
+    files = {f"talker/{path}": text for path, text in many.items()}
+    files["talker/talk.py"] = "from maker.make import CLOCK\n\nCLOCK.now()\n"
+    make_package(source, "talker", files)
+    assert check(".") == []
+    (maker / "maker/make.py").write_text("from rclpy.node import Node\n\nCLOCK = Node('a')\n")
+    assert check(".") == ["talker/talker/talk.py:3:TY003"]
+
+
+def test_an_unchanged_file_is_not_checked_again(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    files = {"talker/talk.py": NODE, "talker/more.py": "import rclpy\n"}
+    package = make_package(source, "talker", files)
+    before = check("talker")
+    asked: list[list[str]] = []
+    start = ty.Run.__init__
+
+    def watched(run: ty.Run, project: str, environment: str, files: list[str]) -> None:
+        asked.append([os.path.basename(path) for path in files])
+        start(run, project, environment, files)
+
+    monkeypatch.setattr(ty.Run, "__init__", watched)
+    assert check("talker") == before
+    (package / "talker/more.py").write_text("import rclpy\n\nrclpy.init()\n")
+    assert check("talker") == before
+    assert asked == [["more.py"]]
+
+
+@pytest.mark.parametrize("damage", ["clean", "edit", "remove"])
+def test_damaged_stubs_are_written_again(
+    check: Check, source: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], damage: str
+) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    assert check("talker") == [f"talker/{FOUND}"]
+    (stub,) = (tmp_path / "cache").rglob("rclpy/node.pyi")
+    if damage == "clean":
+        main(["cache", "clean"])
+        capsys.readouterr()
+    elif damage == "edit":
+        stub.write_text("")
+    else:
+        stub.unlink()
+    make_package(source, "talker", {"talker/talk.py": NODE + "# changed\n"})
+    assert check("talker") == [f"talker/{FOUND}"]
+
+
+# -- nothing of the user's counts
+
+
+def _fake_interpreter(path: Path, canary: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\ntouch {canary}\n")
+    path.chmod(0o755)
+
+
+def _plant(top: Path, canary: Path) -> None:
+    """Write what type checkers read, where they look for it: it silences, or runs, something."""
+    fake = top / ".venv" / "bin" / "python"
+    for name in ("python", "python3", "python3.12"):
+        _fake_interpreter(fake.with_name(name), canary)
+    (top / ".venv/pyvenv.cfg").write_text("home = /usr/bin\nversion = 3.12\n")
+    packages = top / ".venv/lib/python3.12/site-packages/rclpy"
+    packages.mkdir(parents=True)
+    (packages / "__init__.py").write_text("")
+    (packages / "node.py").write_text("from typing import Any\nNode: Any\n")
+    (packages / "py.typed").write_text("")
+    for stubs in ("typings/rclpy", "stubs/rclpy", "rclpy-stubs"):
+        (top / stubs).mkdir(parents=True)
+        (top / stubs / "__init__.pyi").write_text("")
+        (top / stubs / "node.pyi").write_text("from typing import Any\nNode: Any\n")
+    (top / "ty.toml").write_text(f'[rules]\nall = "ignore"\n[environment]\npython = "{fake}"\n')
+    (top / "pyrefly.toml").write_text(f'python-interpreter-path = "{fake}"\n')
+    (top / "pyproject.toml").write_text(
+        f'[tool.ty.rules]\nall = "ignore"\n[tool.ty.environment]\npython = "{fake}"\n'
+        f'[tool.pyrefly]\npython-interpreter-path = "{fake}"\n'
+    )
+    (top / "mypy.ini").write_text(f"[mypy]\npython_executable = {fake}\n")
+    (top / ".gitignore").write_text("*.py\n")
+
+
+@pytest.mark.parametrize("above", [".", "talker", "talker/talker"])
+def test_configuration_and_environments_do_not_count(
+    check: Check, source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, above: str
+) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    canary = tmp_path / "canary"
+    _plant(source / above, canary)
+    monkeypatch.chdir(source / above)
+    (found,) = check(str(source / "talker"))
+    assert found.endswith("talk.py:8:TY004")
+    assert not canary.exists()
+
+
+def test_variables_and_the_user_s_configuration_do_not_count(
+    check: Check, source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    home, canary = tmp_path / "home", tmp_path / "canary"
+    _plant(home, canary)
+    (home / ".config/ty").mkdir(parents=True)
+    (home / ".config/ty/ty.toml").write_text('[rules]\nall = "ignore"\n')
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(home / ".config"))
+    monkeypatch.setenv("VIRTUAL_ENV", str(home / ".venv"))
+    monkeypatch.setenv("CONDA_PREFIX", str(home / ".venv"))
+    monkeypatch.setenv("TY_CONFIG_FILE", str(home / "ty.toml"))
+    monkeypatch.setenv("TY_OUTPUT_FORMAT", "concise")
+    monkeypatch.setenv("PYTHONPATH", str(home / ".venv/lib/python3.12/site-packages"))
+    assert check("talker") == [f"talker/{FOUND}"]
+    assert not canary.exists()
+
+
+# -- a type checker that is not there, or is another
+
+
+def _replace(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str) -> None:
+    program = tmp_path / "ty"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(ty, "executable", lambda: str(program))
+
+
+VERSION = f'[ "$1" = --version ] && echo ty {ty.VERSION} && exit\n'
+
+
+@pytest.mark.parametrize(
+    ("script", "why"),
+    [
+        ("echo ty 0.0.1", "version 0.0.1"),
+        (f"{VERSION}exit 101", "exit status 101"),
+        (f"{VERSION}kill -SEGV $$", "exit status -11"),
+        (f"{VERSION}echo nonsense", "cannot be read"),
+        (f"{VERSION}exec sleep 600", "did not finish"),
+        (f"{VERSION}exec yes", "did not finish"),
+    ],
+    ids=["another version", "fails", "crashes", "says nonsense", "hangs", "never stops writing"],
+)
+def test_without_the_type_checker_the_rest_is_checked(
+    source: Path,
+    check: Check,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    script: str,
+    why: str,
+) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE + "import os\n"})
+    monkeypatch.setattr(ty, "SECONDS", 1.0)
+    _replace(monkeypatch, tmp_path, script)
+    for _ in range(2):
+        assert main(["check", "talker"]) == 2
+        out, err = capsys.readouterr()
+        assert "F401" in out
+        assert err.count("\n") == 1
+        assert "types are not checked" in err
+        assert why in err
+    assert main(["check", "--no-types", "talker"]) == 1
+    assert capsys.readouterr().err == ""
+    monkeypatch.undo()
+    monkeypatch.chdir(source)
+    assert f"talker/{FOUND}" in check("talker")
+
+
+def test_a_missing_type_checker_is_named(
+    source: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source.mkdir()
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    monkeypatch.chdir(source)
+    monkeypatch.setattr(ty, "_FOUND", {})
+    monkeypatch.setattr(sys, "executable", "/nonexistent/python")
+    monkeypatch.setattr(sys, "prefix", "/nonexistent")
+    monkeypatch.setattr(bundled, "find", lambda _name: None)
+    assert main(["check", "--select", "TY", "talker"]) == 2
+    assert "ty is not installed; pip install" in capsys.readouterr().err
+
+
+def test_a_file_that_does_not_parse_costs_only_itself(check: Check, source: Path) -> None:
+    make_package(source, "talker", {"talker/talk.py": NODE, "talker/bad.py": "def f(:\n"})
+    assert check("talker") == [f"talker/{FOUND}"]
+
+
+# -- suppression
+
+
+def test_noqa_accepts_a_finding(check: Check, source: Path) -> None:
+    accepted = NODE.replace("wait=True)", "wait=True)  # noqa: TY004")
+    unused = "import rclpy  # noqa: TY003\n"
+    make_package(source, "talker", {"talker/talk.py": accepted, "talker/more.py": unused})
+    assert check("talker") == ["talker/talker/more.py:1:SC003"]
+    assert check("talker", "--no-types") == []
